@@ -249,8 +249,11 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    uint first) {
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
-    lane_float around[3];
-    light_around(h->hit, h->world_way, world->shape.edge, environment, sky, batch, first, around);
+    lane_float around[3] = {(lane_float)environment.background.x,
+                            (lane_float)environment.background.y,
+                            (lane_float)environment.background.z};
+    if (VXL_SKY != VXL_SKY_NONE && lanes_any(~h->hit))
+        see_sky(h->hit, h->world_way, world->shape.edge, sky, batch, first, around);
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color =

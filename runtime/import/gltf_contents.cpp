@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF file -> contents of a scene: a model for each mesh that is used, an object for each node
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -39,9 +40,10 @@ bool can_be_placed(const glm::dmat4& map) {
 }
 
 std::string matrix_text(const glm::dmat4& m) {
-    std::vector<std::string> rows;
+    std::array<std::string, 3> rows;
     for (int row = 0; row < 3; ++row)
-        rows.push_back(fmt::format("[{}, {}, {}, {}]", m[0][row], m[1][row], m[2][row], m[3][row]));
+        rows[size_t(row)] =
+            fmt::format("[{}, {}, {}, {}]", m[0][row], m[1][row], m[2][row], m[3][row]);
     return fmt::format("[{}]", fmt::join(rows, ", "));
 }
 
@@ -117,7 +119,7 @@ class SceneOfGltf {
     }
 
     std::string add_material(const std::string& group) {
-        const std::string name = material_names_.unique(group);
+        std::string name = material_names_.unique(group);
         for (size_t i = 0; i < root_.size("materials"); ++i) {
             if (gltf_material_name(gltf_, int(i)) != group) continue;
             const GltfValue material = root_.item("materials", i);

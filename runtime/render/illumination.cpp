@@ -21,6 +21,7 @@ std::vector<PathLight> lights_by_samples(const Device& device, const Features& f
         std::ranges::copy(emissive_light_samples(device, features, scene, world),
                           std::back_inserter(records));
     std::vector<PathLight> lights;
+    lights.reserve(records.size());
     for (const LightRecord& record : records) lights.push_back({record, {}});
     return lights;
 }

@@ -18,14 +18,14 @@ namespace {
 
 /// A scene with more nested balls of glass than a ray can remember in front of the other objects.
 /// The observer is inside a smooth ball.
-std::string scene_text() {
+std::string scene_text(const std::string& light) {
     std::string balls;
     for (int i = 0; i < 17; ++i)
         balls +=
             fmt::format(R"({{"model": "ball", "material": "glass", "scale": {}}},)", 1 - 0.04 * i);
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.5, -1.1, -2.4], "max": [1.5, 1.3, 1.6]},
-          "background": [0.2, 0.3, 0.5], "ambient": [0.2, 0.2, 0.2],
+          "sky": {"kind": "gradient", "samples": 2}, "ambient": [0.2, 0.2, 0.2],
           "medium": {"absorption": [0.1, 0.2, 0.3],
                      "density": {"kind": "height", "base": -0.5, "scale_height": 0.5}}},
 "materials": {"glass": {"diffuse": 0.2, "refraction": 0.8, "reflection": 0.2, "fresnel": true,
@@ -51,7 +51,8 @@ std::string scene_text() {
             "intensity": 9, "spots": 2}],
 "observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0],
              "display": {"shape": "pyramid", "angle": 60}},
-"render": {"size": [24, 18], "depth": 2, "shadow": "filtered"}})";
+"render": {"size": [24, 18], "depth": 2, "shadow": "filtered", "light": ")" +
+           light + "\"}}";
 }
 
 /// Writes a grid of half transparent voxels of two colours.
@@ -67,18 +68,23 @@ void write_fog(const std::filesystem::path& path) {
     write_vdb(path, volume);
 }
 
-class AllFeatures : public FileTest {};
+class AllFeatures : public FileTest, public testing::WithParamInterface<const char*> {};
 
-TEST_F(AllFeatures, AreInOneProgramOfSevenFiles) {
+INSTANTIATE_TEST_SUITE_P(Lights, AllFeatures, testing::Values("local", "global"));
+
+TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     put_bytes(folder / "m.obj",
               "v 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     write_fog(folder / "fog.vdb");
-    const Scene scene = parse_scene(scene_text(), folder / "s.json", {});
+    const Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});
+    const bool is_global = scene.render.light == LightMode::global;
     const Device& device = shared_device();
     RenderReport report;
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device))
-        EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE") << name;
+        EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE" ||
+                    (name == "VXL_GLOBAL" && !is_global))
+            << name;
 
     DeviceCounters& counters = device.counters();
     counters.launches.clear();
@@ -86,9 +92,13 @@ TEST_F(AllFeatures, AreInOneProgramOfSevenFiles) {
     const Image image = Renderer(device, false).new_image(scene, world, report);
     EXPECT_EQ(counters.programs_built - before, 1u);
     for (const char* kernel : {"cast_sight", "begin_paths", "begin_inside", "trace_closest",
-                               "shade_surface", "add_light", "trace_shadows", "absorb_sight",
-                               "pass_layer", "scatter_rays", "gather_light"})
+                               "shade_surface", "trace_shadows", "absorb_sight"})
         EXPECT_GT(counters.launches[kernel], 0u) << kernel;
+    for (const char* kernel :
+         {"add_light", "pass_layer", "scatter_rays", "gather_light", "add_sky_light"})
+        EXPECT_EQ(counters.launches[kernel] > 0, !is_global) << kernel;
+    for (const char* kernel : {"add_area_light", "extend_paths"})
+        EXPECT_EQ(counters.launches[kernel] > 0, is_global) << kernel;
     EXPECT_EQ(report.not_finite, 0u);
     const Plane<float>& red = image.planes.at("R");
     const auto [minimum, maximum] = std::ranges::minmax(red);

@@ -20,7 +20,7 @@ Scene lens(double apart, int width) {
     const std::string text = fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.005, "bounds": {{"min": [-0.5, -0.5, -0.5], "max": [0.5, 0.6, 0.4]}}}},
 "models": {{"lens": {{"shape": "intersection", "parts": [
-    {{"shape": "sphere", "radius": 0.35, "surface": "smooth"}},
+    {{"shape": "sphere", "radius": 0.35}},
     {{"shape": "sphere", "radius": 0.35, "position": [0, {}, 0]}}], "surface": "smooth"}}}},
 "objects": [{{"name": "lens", "model": "lens", "placement": "world"}}],
 "lights": [],

@@ -67,7 +67,8 @@ static inline Incidence incidence_of(LightRecord light, Vector from, float4 edge
                                      Vector normal, lane_int lit) {
     Incidence i;
     i.to_light = from;
-    if (light.kind != VXL_LIGHT_DIRECTIONAL) i.to_light = difference(from, position);
+    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+        i.to_light.x -= position.x, i.to_light.y -= position.y, i.to_light.z -= position.z;
     const Vector metric = scaled(i.to_light, edge);
     const lane_float squared = dot_product(metric, metric);
     i.lit = lit & LANE_MASK(squared > 0.0f);

@@ -79,15 +79,10 @@ static inline void add_sun_disc(global const SkyRecord* sky, Vector way, lane_in
     for (int c = 0; c < 3; ++c) light[c] = fma((lane_float)radiance[c], scale, light[c]);
 }
 
-/// The radiance that rays along `way`, in voxels with this edge, see where they leave the world.
-/// The sun's disc is seen by those that no matt surface has scattered, which samples it as a light.
-static inline void light_around(lane_int hit, Vector way, float4 edge, Environment environment,
-                                global const SkyRecord* sky, const RayBatch* batch, uint first,
-                                lane_float* light) {
-    light[0] = (lane_float)environment.background.x;
-    light[1] = (lane_float)environment.background.y;
-    light[2] = (lane_float)environment.background.z;
-    if (VXL_SKY == VXL_SKY_NONE || !lanes_any(~hit)) return;
+/// The radiance that rays along `way`, in voxels with this edge, see of the sky. The sun's disc is
+/// seen by those that no matt surface has scattered, which samples it as a light.
+static inline void see_sky(lane_int hit, Vector way, float4 edge, global const SkyRecord* sky,
+                           const RayBatch* batch, uint first, lane_float* light) {
     way = unit(scaled(way, edge));
     sky_light(sky, way, light);
     if (VXL_SKY != VXL_SKY_SUN) return;

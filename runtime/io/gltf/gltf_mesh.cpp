@@ -192,7 +192,7 @@ class MeshBuilder {
 std::string gltf_material_name(const GltfFile& file, int material) {
     if (material < 0) return "";
     const GltfValue root = file.root();
-    const std::string name = root.item("materials", size_t(material)).text("name");
+    std::string name = root.item("materials", size_t(material)).text("name");
     if (name.empty()) return fmt::format("material {}", material);
     for (int i = 0; i < material; ++i)
         if (root.item("materials", size_t(i)).text("name") == name)

@@ -39,7 +39,7 @@ bool GltfValue::has(const char* key) const {
 
 GltfValue GltfValue::at(const char* key) const {
     const nlohmann::json* const found = find(key);
-    const GltfValue value = member(key, found ? *found : nothing());
+    GltfValue value = member(key, found ? *found : nothing());
     if (found && !found->is_structured()) value.fail("should be an object");
     return value;
 }
