@@ -6,34 +6,49 @@
 
 #include <array>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
+#include "runtime/assets/model_cache.hpp"
 #include "runtime/base/cache_key.hpp"
 #include "runtime/base/disk_cache.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/base/stamp.hpp"
 #include "runtime/base/version.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/voxelume/render.hpp"
 
 namespace voxelume::api {
 namespace {
 
-/// The files whose contents a scene shows, at the frame that it is at.
-std::vector<std::filesystem::path> files_of(const Scene& scene) {
-    std::vector<std::filesystem::path> files;
-    const auto add = [&files](const std::filesystem::path& file) {
-        if (!file.empty()) files.push_back(file);
-    };
+/// Where hashes of files are asked for.
+struct FileHashes {
+    std::function<void(const std::filesystem::path&)> add_file;
+    std::function<void(const std::filesystem::path&)> add_mesh;  ///< with all that it leads to
+};
+
+/// Adds the files whose contents a scene shows, at the frame that it is at.
+void add_files(const Scene& scene, const FileHashes& hashes) {
     for (const Model& model : scene.models) {
-        add(model.mesh);
-        add(model.voxels);
-        if (model.morph) add(model.morph->mesh);
+        if (!model.mesh.empty()) hashes.add_mesh(model.mesh);
+        if (!model.voxels.empty()) hashes.add_file(model.voxels);
+        if (model.morph && !model.morph->mesh.empty()) hashes.add_mesh(model.morph->mesh);
     }
-    if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density)) add(grid->file);
-    return files;
+    if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
+        hashes.add_file(grid->file);
+}
+
+/// The hash of a mesh's file and of the libraries, textures and buffers that it leads to.
+std::string read_mesh_hash(const std::filesystem::path& file) {
+    try {
+        return mesh_source(read_mesh_bytes(file), file, 0);
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 /// Empty for a file that can't be read: rendering says why.
@@ -52,7 +67,7 @@ std::string read_hash(const std::filesystem::path& file) {
 }
 
 void add_settings(const RenderSettings& render, CacheKey& key) {
-    key.add_all(render.size).add(render.samples).add(render.light);
+    key.add_all(render.size).add(render.samples).add(int(render.light));
 }
 
 void add_options(const v1::ImageFileOptions& options, CacheKey& key) {
@@ -63,12 +78,6 @@ void add_options(const v1::ImageFileOptions& options, CacheKey& key) {
 
 }  // namespace
 
-const std::string& FrameHashes::hash_of_file(const std::filesystem::path& file) {
-    const auto [entry, is_new] = files_.try_emplace(file);
-    if (is_new) entry->second = read_hash(file);
-    return entry->second;
-}
-
 std::string FrameHashes::of(int frame) {
     const Scene& scene = inside(scene_);
     CacheKey key;
@@ -76,8 +85,14 @@ std::string FrameHashes::of(int frame) {
     add_settings(scene.render, key);
     add_options(options_, key);
     if (moves(scene)) key.add(frame);
-    for (const std::filesystem::path& file : files_of(scene_at(scene, frame)))
-        key.add_text(hash_of_file(file));
+    const auto adder = [&](std::string (*read)(const std::filesystem::path&)) {
+        return [this, &key, read](const std::filesystem::path& file) {
+            const auto [entry, is_new] = files_.try_emplace(file);
+            if (is_new) entry->second = read(file);
+            key.add_text(entry->second);
+        };
+    };
+    add_files(scene_at(scene, frame), {adder(read_hash), adder(read_mesh_hash)});
     const std::array<std::string_view, 1> parts = {key.bytes()};
     return cache_key(parts);
 }

@@ -18,12 +18,11 @@ class FrameHashes {
         : scene_(scene), options_(options) {}
 
     /// 32 hexadecimal digits: of the version, the scene, its settings, those of image files, and
-    /// the bytes of all files that the frame shows. Throws Error::scene as `scene_at` does.
+    /// the bytes of all files that the frame shows, with those that they lead to. Throws
+    /// Error::scene as `scene_at` does.
     std::string of(int frame);
 
   private:
-    const std::string& hash_of_file(const std::filesystem::path& file);
-
     v1::Scene scene_;
     v1::ImageFileOptions options_;
     std::map<std::filesystem::path, std::string> files_;
