@@ -27,8 +27,8 @@ int print_help() {
     fmt::print("voxelume {}: images of voxel worlds, flat and volumetric\n\n", version());
     fmt::print("Usage: voxelume COMMAND [OPTIONS], options in any order\n\nCommands:\n");
     for (const Command& command : commands())
-        fmt::print("  {:<10}{}\n", command.name, command.help);
-    fmt::print("  {:<10}{}\n\n", "help", "print this, or a command's options: `help COMMAND`");
+        fmt::print("  {:<12}{}\n", command.name, command.help);
+    fmt::print("  {:<12}{}\n\n", "help", "print this, or a command's options: `help COMMAND`");
     fmt::print("{}", exit_codes_text());
     return 0;
 }

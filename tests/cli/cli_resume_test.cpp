@@ -2,8 +2,11 @@
 // Runs that go on where others ended: what is finished stays, what isn't is rendered.
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <map>
+#include <sstream>
 
+#include "runtime/io/image/png.hpp"
 #include "tests/cli/scene_program.hpp"
 
 namespace voxelume {
@@ -32,6 +35,22 @@ class CliResumeTest : public SceneProgramTest {
                                                       {"frame": 4, "value": [9, 9, 9]}]}]})");
             change(scene);
         });
+    }
+
+    /// The text of a mesh whose faces have the first three places on a texture.
+    static std::string textured_faces(std::string text) {
+        std::string result;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line); result += line + "\n")
+            if (int a = 0, b = 0, c = 0; std::sscanf(line.c_str(), "f %d %d %d", &a, &b, &c) == 3)
+                line = fmt::format("f {}/1 {}/2 {}/3", a, b, c);
+        return result;
+    }
+
+    void write_paint(float red) const {
+        const Image paint{
+            2, 1, {{"R", {red, 0.1f}}, {"G", {0.2f, 0.3f}}, {"B", {0.4f, 0.5f}}}, {}, {}};
+        write_png(folder / "paint.png", paint);
     }
 
     std::map<std::string, std::string> pictures() const {
@@ -79,6 +98,23 @@ TEST_F(CliResumeTest, WhatWasMadeFromSomethingElseIsStale) {
     EXPECT_EQ(count_rendered("--resume"), 8);
 }
 
+TEST_F(CliResumeTest, AChangedCompanionOfAMeshMakesFramesStale) {
+    put_bytes(
+        folder / "tetrahedron.obj",
+        "mtllib paint.mtl\nusemtl paint\nvt 0 0\nvt 1 0\nvt 0 1\n" + textured_faces(kTetrahedron));
+    put_bytes(folder / "paint.mtl", "newmtl paint\nmap_Kd paint.png\n");
+    write_paint(0.8f);
+    ASSERT_EQ(count_rendered(""), 8);
+    EXPECT_EQ(count_rendered("--resume"), 0);
+    write_paint(0.3f);
+    EXPECT_EQ(count_rendered("--resume"), 8);
+    put_bytes(folder / "paint.mtl", "newmtl paint\nmap_Kd paint.png\nKd 0.5 0.5 0.5\n");
+    EXPECT_EQ(count_rendered("--resume"), 8);
+    std::filesystem::remove(folder / "paint.png");
+    EXPECT_EQ(count_rendered("--resume"), 8);
+    EXPECT_EQ(count_rendered("--resume"), 0);
+}
+
 TEST_F(CliResumeTest, MoreFramesLeaveTheFirstOnesAsTheyAre) {
     ASSERT_EQ(count_rendered(""), 8);
     write_moving_scene([](Json& scene) { scene["animation"]["frames"] = 6; });
@@ -96,12 +132,12 @@ TEST_F(CliResumeTest, NeverKeepsWhateverIsThere) {
 
 TEST_F(CliResumeTest, VolumesWithHeadersCarryTheHashToo) {
     const std::string line =
-        "render scene.json --volume v.#.nrrd --volume v.#.vdb --volume v.#.ply";
+        "render scene.json --volume v.#.nrrd --volume v.#.vdb --volume v.#.ply --volume v.#.raw";
     ASSERT_EQ(run(line).exit_code, 0);
     const ProgramResult result = run(line + " --resume --progress json");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.err,
-                AllOf(HasSubstr("v.1.ply"), Not(HasSubstr("v.1.nrrd")), Not(HasSubstr("v.1.vdb"))));
+    EXPECT_THAT(result.err, AllOf(HasSubstr("v.1.raw"), Not(HasSubstr("v.1.ply")),
+                                  Not(HasSubstr("v.1.nrrd")), Not(HasSubstr("v.1.vdb"))));
 }
 
 TEST_F(CliResumeTest, AKilledRunGoesOnToTheSameFiles) {

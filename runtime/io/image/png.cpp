@@ -93,8 +93,8 @@ void check_encoding(ByteSink& file, int code) {
     if (code != 0) file.fail(spng_strerror(code));
 }
 
-/// Texts of pictures come before their pixels.
-void put_stamp(ByteSink& file, spng_ctx* context, std::string stamp) {
+/// Texts of pictures come before their pixels. The library reads `stamp` when it encodes these.
+void put_stamp(ByteSink& file, spng_ctx* context, std::string& stamp) {
     if (stamp.empty()) return;
     spng_text text{};
     text.type = SPNG_TEXT;
@@ -118,7 +118,8 @@ void encode(ByteSink& file, const Picture& picture, const PngOptions& options) {
     check_encoding(file, spng_set_ihdr(context.get(), &header));
     constexpr uint8_t kPerceptual = 0;
     check_encoding(file, spng_set_srgb(context.get(), kPerceptual));
-    put_stamp(file, context.get(), options.stamp);
+    std::string stamp = options.stamp;
+    put_stamp(file, context.get(), stamp);
     check_encoding(file, spng_encode_image(context.get(), bytes.data(), bytes.size(), SPNG_FMT_PNG,
                                            SPNG_ENCODE_FINALIZE));
     size_t size = 0;
