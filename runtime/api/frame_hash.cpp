@@ -52,7 +52,8 @@ std::string read_hash(const std::filesystem::path& file) {
 }
 
 void add_settings(const RenderSettings& render, CacheKey& key) {
-    key.add_all(render.size).add(render.samples);
+    key.add_all(render.size).add_all(render.crop.first).add_all(render.crop.frame);
+    key.add(render.samples);
 }
 
 void add_options(const v1::ImageFileOptions& options, CacheKey& key) {

@@ -188,6 +188,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     }
     view_ = std::move(view);
     Image image = resolve.image();
+    image.first = scene.render.crop.first;
+    image.frame = scene.render.crop.frame;
     report.not_finite = resolve.not_finite();
     note_counts(illumination, beams, world, report);
     report.image_seconds =

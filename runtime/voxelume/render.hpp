@@ -91,7 +91,7 @@ struct FrameJob {
 Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
 
 /// What frames' files are made from: 32 hexadecimal digits each, a hash of the library's version,
-/// of the scene with its size and samples, of the options of image files, and of the bytes of
+/// of the scene with its size, samples and crop, of the options of image files, and of the bytes of
 /// all files that the frame shows. render_frames writes it into the files of formats that have room
 /// for a text in their headers (.exr, .png, .nrrd, .vdb), with a hash of all their bytes.
 std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames,

@@ -23,7 +23,8 @@
     F(plane_bound) F(fixed_point) F(origin_offset)
 #define CAMERA_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
-    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) FA(unused, 2)
+    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) \
+    I(first_column) I(first_row) I(frame_width) I(frame_height) IA(unused, 2)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
