@@ -24,19 +24,27 @@ size_t skip_finished(const Scene& scene, const ImageFileOptions& options, Overwr
                      std::vector<FrameFiles>& frames) {
     if (overwrite == Overwrite::always) return 0;
     std::vector<std::string> hashes;
-    if (overwrite == Overwrite::changed) hashes = frame_hashes(scene, numbers_of(frames), options);
+    if (overwrite == Overwrite::changed) hashes = frame_hashes(scene, numbers_of(frames));
     size_t skipped = 0;
     std::vector<FrameFiles> left;
     for (size_t i = 0; i < frames.size(); ++i) {
-        const auto is_finished = [&](const std::filesystem::path& file) {
-            std::error_code error;
-            if (overwrite == Overwrite::never) return std::filesystem::exists(file, error);
-            return check_frame_file(file, hashes[i]) == FrameFileState::current;
+        const auto is_finished = [&](const auto& check) {
+            return [&](const std::filesystem::path& file) {
+                std::error_code error;
+                if (overwrite == Overwrite::never) return std::filesystem::exists(file, error);
+                return check(file) == FrameFileState::current;
+            };
+        };
+        const auto check_image = [&](const auto& file) {
+            return image_file_state(file, hashes[i], options);
+        };
+        const auto check_volume = [&](const auto& file) {
+            return volume_file_state(file, hashes[i]);
         };
         FrameFiles& files = frames[i];
         const size_t before = files.images.size() + files.volumes.size();
-        std::erase_if(files.images, is_finished);
-        std::erase_if(files.volumes, is_finished);
+        std::erase_if(files.images, is_finished(check_image));
+        std::erase_if(files.volumes, is_finished(check_volume));
         if (before > 0 && files.images.empty() && files.volumes.empty())
             ++skipped;
         else

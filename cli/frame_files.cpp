@@ -112,6 +112,10 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_flag("--no-overlap", command.one_by_one,
                  "build, render and write one frame after another, in less memory; several devices "
                  "always do so, each with its own frames");
+    app.add_option("--crop", command.crop,
+                   "render X,Y,WIDTH,HEIGHT of the image alone, in pixels from the top left; .exr "
+                   "files have it as their data window")
+        ->type_name("X,Y,W,H");
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "
                    "changed: those that are damaged, or made from something else")

@@ -3,7 +3,9 @@
 #include "cli/render_job.hpp"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
+#include <cstdio>
 
 #include "cli/checks.hpp"
 #include "cli/finished_files.hpp"
@@ -34,6 +36,20 @@ Channels listed_channels(const RenderCommand& command) {
             fail_usage("render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
     }
     return channels;
+}
+
+/// The scene with the part of the image that --crop names.
+Scene cropped(const Scene& scene, const std::string& text) {
+    std::array<int, 4> part{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%6d,%6d,%6d,%6d%c", &part[0], &part[1], &part[2], &part[3],
+                    &rest) != 4)
+        fail_usage("render: --crop {}: give X,Y,WIDTH,HEIGHT in pixels, as in 0,0,320,240", text);
+    try {
+        return scene.with_crop({part[0], part[1]}, {part[2], part[3]});
+    } catch (const Error& error) {
+        fail_usage("render: --crop {}: {}", text, error.what());
+    }
 }
 
 /// `-q` silences what nobody asked for by name.
@@ -93,7 +109,8 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     };
     FrameJob job;
     job.image_files = {command.exposure, command.float_color, listed_channels(command)};
-    const Scene scene = read_with(command.scene, "render");
+    Scene scene = read_with(command.scene, "render");
+    if (!command.crop.empty()) scene = cropped(scene, command.crop);
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
     if (!command.plan_only && !remove_finished(scene, command, job)) return;

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/api/frame_hash.hpp"
 
-#include <fmt/format.h>
-#include <xxhash.h>
-
 #include <array>
-#include <fstream>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "runtime/api/guarded.hpp"
@@ -16,7 +11,9 @@
 #include "runtime/base/cache_key.hpp"
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/file_hash.hpp"
 #include "runtime/base/stamp.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -42,7 +39,8 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
         hashes.add_file(grid->file);
 }
 
-/// The hash of a mesh's file and of the libraries, textures and buffers that it leads to.
+/// The hash of a mesh's file and of the libraries, textures and buffers that it leads to; empty for
+/// a file that can't be read, of which rendering says why.
 std::string read_mesh_hash(const std::filesystem::path& file) {
     try {
         return mesh_source(read_mesh_bytes(file), file, 0);
@@ -51,29 +49,9 @@ std::string read_mesh_hash(const std::filesystem::path& file) {
     }
 }
 
-/// Empty for a file that can't be read: rendering says why.
-std::string read_hash(const std::filesystem::path& file) {
-    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                         &XXH3_freeState);
-    XXH3_128bits_reset(state.get());
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) return {};
-    std::vector<char> block(size_t{1} << 20);
-    while (stream.read(block.data(), std::streamsize(block.size())) || stream.gcount() > 0)
-        XXH3_128bits_update(state.get(), block.data(), size_t(stream.gcount()));
-    if (stream.bad()) return {};
-    const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
-
 void add_settings(const RenderSettings& render, CacheKey& key) {
-    key.add_all(render.size).add(render.samples).add(int(render.light));
-}
-
-void add_options(const v1::ImageFileOptions& options, CacheKey& key) {
-    const v1::Channels& c = options.channels;
-    key.add(options.exposure).add(options.float_color);
-    key.add(c.color).add(c.depth).add(c.position).add(c.normal).add(c.object);
+    key.add_all(render.size).add_all(render.crop.first).add_all(render.crop.frame);
+    key.add(render.samples).add(int(render.light));
 }
 
 }  // namespace
@@ -83,7 +61,6 @@ std::string FrameHashes::of(int frame) {
     CacheKey key;
     key.add_text(version()).add_text(scene_.implementation().hash);
     add_settings(scene.render, key);
-    add_options(options_, key);
     if (moves(scene)) key.add(frame);
     const auto adder = [&](std::string (*read)(const std::filesystem::path&)) {
         return [this, &key, read](const std::filesystem::path& file) {
@@ -92,8 +69,25 @@ std::string FrameHashes::of(int frame) {
             key.add_text(entry->second);
         };
     };
-    add_files(scene_at(scene, frame), {adder(read_hash), adder(read_mesh_hash)});
+    add_files(scene_at(scene, frame), {adder(hash_of_file), adder(read_mesh_hash)});
     const std::array<std::string_view, 1> parts = {key.bytes()};
+    return cache_key(parts);
+}
+
+std::string hash_for_image(const std::string& hash, std::string_view ending,
+                           const v1::ImageFileOptions& options) {
+    CacheKey key;
+    key.add_text(hash);
+    const v1::Channels& c = options.channels;
+    if (ending == ".png") key.add(options.exposure);
+    if (ending == ".exr")
+        key.add(options.float_color)
+            .add(c.color)
+            .add(c.depth)
+            .add(c.position)
+            .add(c.normal)
+            .add(c.object);
+    const std::array<std::string_view, 2> parts = {ending, key.bytes()};
     return cache_key(parts);
 }
 
@@ -101,10 +95,9 @@ std::string FrameHashes::of(int frame) {
 
 namespace voxelume::v1 {
 
-std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames,
-                                      const ImageFileOptions& options) {
+std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames) {
     return api::guarded([&] {
-        api::FrameHashes hashes(scene, options);
+        api::FrameHashes hashes(scene);
         std::vector<std::string> list;
         list.reserve(frames.size());
         for (const int frame : frames) list.push_back(hashes.of(frame));
@@ -112,7 +105,15 @@ std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>
     });
 }
 
-FrameFileState check_frame_file(const std::filesystem::path& file, std::string_view hash) {
+FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,
+                                const ImageFileOptions& options) {
+    return api::guarded([&] {
+        const std::string own = api::hash_for_image(hash, ending_of(file), options);
+        return static_cast<FrameFileState>(check_stamp(file, own));
+    });
+}
+
+FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash) {
     return api::guarded([&] { return static_cast<FrameFileState>(check_stamp(file, hash)); });
 }
 

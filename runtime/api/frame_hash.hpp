@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "runtime/voxelume/image.hpp"
 #include "runtime/voxelume/scene.hpp"
@@ -14,18 +15,20 @@ namespace voxelume::api {
 /// The hashes of a scene's frames, with every file read once.
 class FrameHashes {
   public:
-    FrameHashes(const v1::Scene& scene, const v1::ImageFileOptions& options)
-        : scene_(scene), options_(options) {}
+    explicit FrameHashes(const v1::Scene& scene) : scene_(scene) {}
 
-    /// 32 hexadecimal digits: of the version, the scene, its settings, those of image files, and
-    /// the bytes of all files that the frame shows, with those that they lead to. Throws
-    /// Error::scene as `scene_at` does.
+    /// 32 hexadecimal digits: of the version, the scene, its settings, and the bytes of all files
+    /// that the frame shows, with those that they lead to. Throws Error::scene as `scene_at` does.
     std::string of(int frame);
 
   private:
     v1::Scene scene_;
-    v1::ImageFileOptions options_;
     std::map<std::filesystem::path, std::string> files_;
 };
+
+/// The hash of a frame's image file: of the frame's hash and the options that change a file of that
+/// ending, ".png" or ".exr".
+std::string hash_for_image(const std::string& hash, std::string_view ending,
+                           const v1::ImageFileOptions& options);
 
 }  // namespace voxelume::api

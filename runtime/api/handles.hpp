@@ -44,6 +44,8 @@ using Attributes = std::map<std::string, std::string>;
 
 /// The name of the attribute that has a file's stamp.
 inline constexpr const char* kStamp = "stamp";
+/// The name of the attribute that has the hash of an image's frame, from which stamps are made.
+inline constexpr const char* kFrameHash = "frame hash";
 
 }  // namespace api
 

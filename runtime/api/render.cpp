@@ -93,7 +93,7 @@ class Run {
         const v1::RenderOptions& options)
         : scene_(api::inside(scene)),
           assets_(api::assets_of(scene, options.cache)),
-          hashes_(scene, job.image_files),
+          hashes_(scene),
           devices_(api::inside(devices)),
           job_(job),
           options_(options),
@@ -157,13 +157,17 @@ class Run {
         const v1::FrameFiles& files = job_.frames[reports_.size()];
         reports_.push_back(result.report);
         api::Attributes attributes = attributes_of(scene_, files.frame);
-        if (!files.images.empty() || !files.volumes.empty())
-            attributes[api::kStamp] = stamp_of(hashes_.of(files.frame));
+        const std::string hash = hashes_.of(files.frame);
         v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
-        if (result.image) rendered.image = api::handle_of(result.image, attributes);
+        if (result.image) {
+            api::Attributes all = attributes;
+            all[api::kFrameHash] = hash;
+            rendered.image = api::handle_of(result.image, std::move(all));
+        }
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
             for (const auto& [name, text] : attributes) all[name] = text;
+            all[api::kStamp] = stamp_of(hash);
             rendered.volume = api::handle_of(result.volume, std::move(all));
         }
         write(rendered, files);

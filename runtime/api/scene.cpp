@@ -102,6 +102,14 @@ Scene Scene::with_size(Size size) const {
     });
 }
 
+Scene Scene::with_crop(Size first, Size size) const {
+    return api::guarded([&] {
+        voxelume::Scene scene = api::inside(*this);
+        crop(scene, api::vector_of(first), api::vector_of(size));
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
+    });
+}
+
 Scene Scene::with_samples(int samples) const {
     return api::guarded([&] {
         if (samples < 1 || samples > 4096)

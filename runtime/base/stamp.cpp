@@ -18,7 +18,7 @@ namespace voxelume {
 namespace {
 
 constexpr std::string_view kStampBegin = "voxelume-frame=", kStampMiddle = " check=";
-constexpr size_t kHashDigits = 32, kCheckDigits = 16;
+constexpr size_t kHashDigits = 32, kCheckDigits = kStampCheckDigits;
 constexpr size_t kStampLength =
     kStampBegin.size() + kHashDigits + kStampMiddle.size() + kCheckDigits;
 constexpr size_t kStampHeader = size_t{1} << 20;  // stamps lie in the headers of files
@@ -129,6 +129,11 @@ void put_check(std::string& header, const StampPlace& place, const std::string& 
 
 std::string stamp_of(std::string_view hash) {
     return fmt::format("{}{}{}{:016x}", kStampBegin, hash, kStampMiddle, 0);
+}
+
+std::optional<size_t> stamp_check_place(std::string_view header) {
+    const std::optional<StampPlace> place = find_stamp(header.substr(0, kStampHeader));
+    return place ? std::optional(place->check) : std::nullopt;
 }
 
 bool seal(std::string& bytes) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,13 @@ enum class StampState {
 /// check is filled in by `seal`. `hash` has 32 hexadecimal digits and tells what the file is made
 /// from.
 std::string stamp_of(std::string_view hash);
+
+/// The hexadecimal digits of a stamp's check.
+inline constexpr size_t kStampCheckDigits = 16;
+
+/// Where in a file's first bytes the check of its stamp begins; empty where there is none. A
+/// checksum of another kind in the same file leaves it out.
+std::optional<size_t> stamp_check_place(std::string_view header);
 
 /// Fills in the check of the stamp in a file's bytes, if there is one near its start: a hash of all
 /// other bytes. The bytes may be those of any format that has the text as it is; in PNG files the

@@ -10,9 +10,10 @@
 namespace voxelume {
 namespace {
 
-/// Keys that say nothing about what a frame shows.
+/// Keys that say nothing about what a frame shows, and those that callers may replace later.
 bool is_silent(std::string_view parent, std::string_view key) {
-    return (parent.empty() && key == "$schema") || (parent == "animation" && key == "frames");
+    return (parent.empty() && key == "$schema") || (parent == "animation" && key == "frames") ||
+           (parent == "render" && (key == "size" || key == "samples" || key == "light"));
 }
 
 /// `place` is the key of the value if it is a member of the document, or else empty for the

@@ -10,6 +10,7 @@ namespace voxelume {
 
 /// 32 hexadecimal digits that differ wherever documents say something else about what a frame
 /// shows: the order of keys, the places of values, `$schema` and the number of frames don't matter.
+/// Nor do the image's size, samples and light, which are a scene's settings besides.
 std::string document_hash(const JsonValue& document);
 
 }  // namespace voxelume

@@ -90,13 +90,12 @@ struct FrameJob {
 /// shows. A job without either stands for the OpenEXR files of its options.
 Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
 
-/// What frames' files are made from: 32 hexadecimal digits each, a hash of the library's version,
-/// of the scene with its size and samples, of the options of image files, and of the bytes of
-/// all files that the frame shows, with those that they lead to. render_frames writes it into the
-/// files of formats that have room for a text in their headers (.exr, .png, .nrrd, .vdb, .ply), with
-/// a hash of all their bytes.
-std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames,
-                                      const ImageFileOptions& options = {});
+/// What frames are made from: 32 hexadecimal digits each, a hash of the library's version, of the
+/// scene with its size, samples, light and crop, and of the bytes of all files that the frame
+/// shows, with those that they lead to. render_frames writes it, for images with the options of
+/// their files, into the files of formats that have room for a text in their headers (.exr, .png,
+/// .nrrd, .vdb, .ply), with a hash of all their bytes.
+std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames);
 
 /// What is known of a frame's file that was written before.
 enum class FrameFileState {
@@ -106,8 +105,24 @@ enum class FrameFileState {
     current   ///< it is whole, and what would be rendered
 };
 
-/// Reads a file and compares it with the hash of its frame.
-FrameFileState check_frame_file(const std::filesystem::path& file, std::string_view hash);
+/// Reads the file of a frame's image, .png or .exr, and compares it with the frame's hash and the
+/// options that change such a file.
+FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,
+                                const ImageFileOptions& options = {});
+
+/// Reads the file of a frame's volumetric image and compares it with the frame's hash.
+FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash);
+
+/// Puts an image together from the OpenEXR files of its parts and writes it to `files`, .exr or
+/// .png, with the bytes that render_frames writes of the whole image.
+///
+/// The parts are those of Scene::with_crop, whole rows one below the other in any order, written
+/// with `float_color` and with all channels that `files` need. `hash` is that of the whole frame,
+/// of frame_hashes. Throws Error::input for rows that two parts have or that none has, and for
+/// parts of different images; Error as Image::read and Image::write do.
+void merge_image_files(const std::vector<std::filesystem::path>& parts,
+                       const std::vector<std::filesystem::path>& files, const std::string& hash,
+                       const ImageFileOptions& options = {});
 
 /// Renders frames of a scene. What a frame shows doesn't depend on the frames before it, nor on the
 /// number of devices: several devices take a frame each, or the tiles of a job's only image.

@@ -66,7 +66,7 @@ TEST_F(CliInterruptTest, SoDoCommandsThatListenToNothing) {
     for (int i = 1; i + 2 < 200000; ++i) obj += fmt::format("f {} {} {}\n", i, i + 1, i + 2);
     put_bytes(folder / "large.obj", obj);
     const ProgramResult result =
-        interrupt("TERM", 0.5, "voxelize large.obj --resolution 2000 -o large.vdb");
+        interrupt("TERM", 0.5, "voxelize large.obj --resolution 600 -o large.vdb");
     EXPECT_EQ(result.exit_code, 143) << result.err;
     EXPECT_THAT(result.err, HasSubstr("voxelume: terminated\n"));
     EXPECT_THAT(leftovers(), testing::IsEmpty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes from standard input, images to standard output, and progress.
+// Scenes from standard input, images to standard output, parts of images, and progress.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -22,6 +22,19 @@ class CliStreamTest : public SceneProgramTest {
     /// Runs a pipe of a shell.
     ProgramResult pipe(const std::string& line) const { return run_line("sh -c '" + line + "'"); }
 };
+
+/// Expects that `part` is what `whole` has from a column and row on.
+void expect_part(const Image& part, const Image& whole, int x, int y) {
+    ASSERT_EQ(part.planes.size(), whole.planes.size());
+    for (const auto& [name, plane] : part.planes) {
+        const Plane<float>& from = whole.planes.at(name);
+        for (int row = 0; row < part.height; ++row)
+            for (int column = 0; column < part.width; ++column)
+                ASSERT_EQ(plane[size_t(row * part.width + column)],
+                          from[size_t((row + y) * whole.width + column + x)])
+                    << name << " " << column << "," << row;
+    }
+}
 
 TEST_F(CliStreamTest, ASceneIsReadFromStandardInputAndAnImageWrittenToStandardOutput) {
     ASSERT_EQ(run("render scene.json -q -o a.png -o a.exr").exit_code, 0);
@@ -51,6 +64,55 @@ TEST_F(CliStreamTest, StandardOutputTakesOneImageAlone) {
                              "render scene.json -o - --views 2"})
         EXPECT_THAT(expect_failure(2, line), HasSubstr("standard output")) << line;
     EXPECT_EQ(run_line("sh -c 'voxelume render scene.json -q -o - >/dev/full'").exit_code, 5);
+}
+
+TEST_F(CliStreamTest, ACroppedImageHasTheBitsOfTheWholeOne) {
+    const std::string size = " -q --size 37x23 --samples 3 --float ";
+    ASSERT_EQ(run("render scene.json -o whole.exr -o whole.png" + size).exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o part.exr -o part.png --crop 6,3,22,14" + size).exit_code,
+              0);
+    ASSERT_EQ(run("render scene.json -o two.exr --crop 6,3,22,14 --device all/2" + size).exit_code,
+              0);
+    const Image whole = read_exr(folder / "whole.exr"), part = read_exr(folder / "part.exr");
+    EXPECT_EQ(part.width, 22);
+    EXPECT_EQ(part.height, 14);
+    expect_part(part, whole, 6, 3);
+    EXPECT_EQ(bytes_of(folder / "two.exr"), bytes_of(folder / "part.exr"));
+    const Picture all = read_png(folder / "whole.png"), some = read_png(folder / "part.png");
+    ASSERT_EQ(some.width, 22);
+    for (int row = 0; row < 14; ++row)
+        for (int column = 0; column < 22; ++column)
+            ASSERT_EQ(some.pixels[size_t(row * 22 + column)],
+                      all.pixels[size_t((row + 3) * 37 + column + 6)]);
+}
+
+TEST_F(CliStreamTest, SoHasOneOfGlobalLight) {
+    const std::string size = " -q --size 37x23 --samples 5 --float --light global ";
+    ASSERT_EQ(run("render scene.json -o whole.exr" + size).exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o part.exr --crop 6,3,22,14" + size).exit_code, 0);
+    expect_part(read_exr(folder / "part.exr"), read_exr(folder / "whole.exr"), 6, 3);
+}
+
+TEST_F(CliStreamTest, FramesAreCroppedAlike) {
+    write_scene([&](Json& scene) {
+        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [
+            {"target": "lights.sun.intensity", "keys": [{"frame": 1, "value": 1},
+                                                        {"frame": 2, "value": 2}]},
+            {"target": "observer.position", "keys": [{"frame": 1, "value": [1.5, 1, 4]},
+                                                     {"frame": 2, "value": [1.6, 1.1, 4]}]}]})");
+    });
+    ASSERT_EQ(run("render scene.json -q -o whole.#.exr").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -q -o part.#.exr --crop 0,5,20,7").exit_code, 0);
+    for (const char* frame : {"1", "2"})
+        expect_part(read_exr(folder / fmt::format("part.{}.exr", frame)),
+                    read_exr(folder / fmt::format("whole.{}.exr", frame)), 0, 5);
+}
+
+TEST_F(CliStreamTest, ACropOutsideOfTheImageIsAMistake) {
+    for (const char* crop : {"0,0,21,12", "-1,0,4,4", "20,0,1,1", "0,0,0,4", "1,2,3", "1,2,3,4,5",
+                             "a,b,c,d", "0,12,1,1"})
+        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o a.png --crop={}", crop)),
+                    HasSubstr(fmt::format("--crop {}: ", crop)));
 }
 
 TEST_F(CliStreamTest, ProgressIsJsonForPrograms) {

@@ -66,8 +66,7 @@ class ExrWriter {
 
     void header(const Image& image, const Attributes& others, const std::vector<ExrPlane>& planes) {
         check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
-        check(exr_initialize_required_attr_simple(context_, part_, image.width, image.height,
-                                                  EXR_COMPRESSION_ZIP));
+        set_windows(image);
         constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                                        0.15f, 0.06f, 0.3127f, 0.3290f};
         check(exr_attr_set_chromaticities(context_, part_, "chromaticities", &kRec709));
@@ -86,7 +85,7 @@ class ExrWriter {
     }
 
     void chunk(const ExrChunk& chunk) {
-        check(exr_write_scanline_chunk(context_, part_, chunk.row, chunk.bytes.data(),
+        check(exr_write_scanline_chunk(context_, part_, first_row_ + chunk.row, chunk.bytes.data(),
                                        chunk.bytes.size()));
     }
 
@@ -94,6 +93,20 @@ class ExrWriter {
     void finish() { check(exr_finish(&context_)); }
 
   private:
+    /// A part of a picture has its place in that as its data window.
+    void set_windows(const Image& image) {
+        const auto window = [](glm::ivec2 first, glm::ivec2 size) -> exr_attr_box2i_t {
+            return {{first.x, first.y}, {first.x + size.x - 1, first.y + size.y - 1}};
+        };
+        const glm::ivec2 size(image.width, image.height);
+        const exr_attr_box2i_t data = window(image.first, size);
+        const exr_attr_box2i_t display = image.frame.x > 0 ? window({0, 0}, image.frame) : data;
+        constexpr exr_attr_v2f_t kCenter = {0, 0};
+        check(exr_initialize_required_attr(context_, part_, &display, &data, 1.0f, &kCenter, 1.0f,
+                                           EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
+        first_row_ = image.first.y;
+    }
+
     int64_t write(const void* bytes, uint64_t size, uint64_t position) noexcept try {
         file_.seek(position);
         file_.write(bytes, size);
@@ -109,6 +122,7 @@ class ExrWriter {
     ByteSink& file_;
     exr_context_t context_ = nullptr;
     int part_ = 0;
+    int first_row_ = 0;
 };
 
 }  // namespace
