@@ -13,6 +13,7 @@ constexpr std::array kCommands = {
     Command{"render", "render a scene or a model file: images, volumetric images, animations",
             add_render},
     Command{"check", "check a scene, and say what rendering it needs", add_check},
+    Command{"merge", "put the parts of a run together that `render --shard` made", add_merge},
     Command{"import", "write the scene that shows a model file, to be changed", add_import},
     Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
     Command{"info", "describe a file: image, volume, model or mesh", add_info},

@@ -48,6 +48,7 @@ Action add_render(CLI::App& app);
 Action add_import(CLI::App& app);
 Action add_info(CLI::App& app);
 Action add_man(CLI::App& app);
+Action add_merge(CLI::App& app);
 Action add_stress(CLI::App& app);
 Action add_view(CLI::App& app);
 Action add_voxelize(CLI::App& app);

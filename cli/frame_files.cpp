@@ -12,6 +12,7 @@
 #include "cli/finished_files.hpp"
 #include "cli/output_stream.hpp"
 #include "cli/render_progress.hpp"
+#include "cli/shard.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -116,6 +117,10 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "render X,Y,WIDTH,HEIGHT of the image alone, in pixels from the top left; .exr "
                    "files have it as their data window")
         ->type_name("X,Y,W,H");
+    app.add_option("--shard", command.shard,
+                   "render part I of N alone, of the frames or of one image; `voxelume merge` puts "
+                   "the parts together")
+        ->type_name("I/N");
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "
                    "changed: those that are damaged, or made from something else")
@@ -163,6 +168,7 @@ void check_options(const RenderCommand& options) {
     const bool animation = !options.frames.empty();
     const int first = animation ? parse_frame_list(options.frames).front() : 1;
     progress_style(options.progress);
+    if (!options.shard.empty()) parse_shard(options.shard);
     overwrite_of(options);
     check_stream(options);
     for (const std::string& pattern : options.outputs)

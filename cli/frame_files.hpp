@@ -21,7 +21,8 @@ struct RenderCommand {
     int views = 0;                    ///< around the scene; 0: the scene's own alone
     std::vector<std::string> outputs, volumes;
     std::string frames;
-    std::string crop;  ///< X,Y,WIDTH,HEIGHT; empty: all of the image
+    std::string crop;   ///< X,Y,WIDTH,HEIGHT; empty: all of the image
+    std::string shard;  ///< I/N; empty: all of the run
     double exposure = 0;
     bool float_color = false;
     std::string channels = "RGBA,Z,P,N,objectId";

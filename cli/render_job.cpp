@@ -2,54 +2,27 @@
 // One job of `render`: a scene to its files.
 #include "cli/render_job.hpp"
 
-#include <CLI/CLI.hpp>
-#include <array>
 #include <chrono>
-#include <cstdio>
+#include <optional>
 
+#include "cli/channels.hpp"
 #include "cli/checks.hpp"
+#include "cli/crop.hpp"
 #include "cli/finished_files.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_stream.hpp"
 #include "cli/render_progress.hpp"
 #include "cli/render_report.hpp"
+#include "cli/shard_part.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
 
-/// The channels of OpenEXR files that `--channels` names.
-Channels listed_channels(const RenderCommand& command) {
-    Channels channels{false, false, false, false, false};
-    for (const std::string& name : CLI::detail::split(command.channels, ',')) {
-        if (name == "RGBA")
-            channels.color = true;
-        else if (name == "Z")
-            channels.depth = true;
-        else if (name == "P")
-            channels.position = true;
-        else if (name == "N")
-            channels.normal = true;
-        else if (name == "objectId")
-            channels.object = true;
-        else
-            fail_usage("render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
-    }
-    return channels;
-}
-
 /// The scene with the part of the image that --crop names.
 Scene cropped(const Scene& scene, const std::string& text) {
-    std::array<int, 4> part{};
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%6d,%6d,%6d,%6d%c", &part[0], &part[1], &part[2], &part[3],
-                    &rest) != 4)
-        fail_usage("render: --crop {}: give X,Y,WIDTH,HEIGHT in pixels, as in 0,0,320,240", text);
-    try {
-        return scene.with_crop({part[0], part[1]}, {part[2], part[3]});
-    } catch (const Error& error) {
-        fail_usage("render: --crop {}: {}", text, error.what());
-    }
+    const ImagePart part = part_of(text, scene);
+    return scene.with_crop(part.first, part.size);
 }
 
 /// `-q` silences what nobody asked for by name.
@@ -63,6 +36,9 @@ ProgressStyle style_of(const RenderCommand& command) {
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
     if (OutputStream(command.outputs).is_wanted()) return true;
     const size_t count = job.frames.size();
+    if (count == 0 && !command.quiet)
+        fmt::print(stderr,
+                   "this part has nothing to render: there are more parts than frames or rows\n");
     const size_t skipped = skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
     if (skipped > 0 && !command.quiet)
         fmt::print(stderr, "{} of {} frames are there already\n", skipped, count);
@@ -108,12 +84,18 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     FrameJob job;
-    job.image_files = {command.exposure, command.float_color, listed_channels(command)};
+    job.image_files = {command.exposure, command.float_color,
+                       parse_channels(command.channels, "render: --channels")};
     Scene scene = read_with(command.scene, "render");
-    if (!command.crop.empty()) scene = cropped(scene, command.crop);
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
-    if (!command.plan_only && !remove_finished(scene, command, job)) return;
+    if (!command.crop.empty()) scene = cropped(scene, command.crop);
+    std::optional<ShardPart> part;
+    if (!command.shard.empty()) part.emplace(command, scene, job);
+    if (!command.plan_only && !remove_finished(scene, command, job)) {
+        if (part) part->write();
+        return;
+    }
     const std::vector<Device>& devices = lazy_devices.open();
     if (command.plan_only) {
         print_plan(scene, devices[0],
@@ -129,6 +111,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     const double open_seconds = seconds();
     Statistics statistics = render_files(scene, devices, std::move(job), command, label);
     statistics.open_seconds += open_seconds;
+    if (part) part->write();
     statistics.total_seconds = seconds();
     if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
     if (command.quiet) return;
