@@ -22,6 +22,7 @@ constexpr std::array kCommands = {
     Command{"diff", "measure how far two images are apart", add_diff},
     Command{"stress", "compare what a device computes with exact arithmetic", add_stress},
     Command{"bench", "measure run time against error", add_bench},
+    Command{"warm", "fill the cache with what rendering scenes takes", add_warm},
     Command{"doctor", "print what a report of a fault needs: system, devices, cache, self-test",
             add_doctor},
     Command{"completion", "print what makes a shell complete commands and options", add_completion},

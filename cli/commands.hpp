@@ -51,6 +51,7 @@ Action add_man(CLI::App& app);
 Action add_merge(CLI::App& app);
 Action add_stress(CLI::App& app);
 Action add_view(CLI::App& app);
+Action add_warm(CLI::App& app);
 Action add_voxelize(CLI::App& app);
 
 }  // namespace voxelume::cli

@@ -43,7 +43,7 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
 /// a file that can't be read, of which rendering says why.
 std::string read_mesh_hash(const std::filesystem::path& file) {
     try {
-        return mesh_source(read_mesh_bytes(file), file, 0);
+        return mesh_source(read_mesh_bytes(file), file);
     } catch (const Error&) {
         return {};
     }

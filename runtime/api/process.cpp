@@ -54,6 +54,10 @@ std::filesystem::path user_cache_folder() {
     return api::guarded([] { return cache_folder(); });
 }
 
+std::vector<std::filesystem::path> user_cache_bases() {
+    return api::guarded([] { return cache_bases(); });
+}
+
 void remove_unfinished_files() {
     delete_temporary_files();
     PoclFolder::remove();

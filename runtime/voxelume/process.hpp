@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace voxelume::v1 {
 
@@ -39,9 +40,14 @@ void configure(const ProcessOptions& options);
 /// run; those fail, if they go on. Any thread may call it.
 void remove_unfinished_files();
 
-/// The user's folder for compiled kernels, models and worlds: VOXELUME_CACHE_DIR, or else
-/// XDG_CACHE_HOME/voxelume, or else ~/.cache/voxelume. Empty if nothing is kept.
+/// The user's folder for compiled kernels, models and worlds: the last one of VOXELUME_CACHE_DIR,
+/// or else XDG_CACHE_HOME/voxelume, or else ~/.cache/voxelume. Empty if nothing is kept.
 std::filesystem::path user_cache_folder();
+
+/// The folders before the last one of VOXELUME_CACHE_DIR, between colons. Nothing is written to
+/// them; what the user's folder lacks is read from them, if they are the user's or root's and
+/// nobody else may write there.
+std::vector<std::filesystem::path> user_cache_bases();
 
 /// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
 /// their sources.
