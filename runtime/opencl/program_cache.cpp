@@ -23,7 +23,8 @@ constexpr const char* kCacheVersion = "voxelume programs 2";
 
 DiskCache program_store() {
     const std::filesystem::path folder = cache_folder();
-    return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes);
+    return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes,
+                     cache_bases("programs"));
 }
 
 /// The key of an entry of the cache. `what` says what is kept: a program, or compiled kernels.
