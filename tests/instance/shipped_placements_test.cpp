@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of scenes/ look alike with all objects in the world and with all as instances.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "tests/pictures/small_scene.hpp"
+#include "tests/support/shared_device.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The scene with objects placed so, as far as they can be.
+Scene placed_scene(const std::string& name, Placement placement) {
+    Scene scene = small_scene(name, {128, 96}, 96);
+    for (Object& object : scene.objects)
+        object.placement = placement == Placement::instance && can_be_instance(scene, object)
+                               ? Placement::instance
+                               : Placement::world;
+    return scene;
+}
+
+/// How far two images of a scene are apart.
+struct PlacementDifference {
+    double other_object = 0;  ///< share of the pixels that show another object
+    double far = 0;           ///< share whose depth differs by more than half a voxel
+    double color = 0;         ///< mean of all channels
+};
+
+PlacementDifference difference_of(const std::string& name) {
+    RenderReport report;
+    const Scene scene = placed_scene(name, Placement::world);
+    const Image world = render(shared_device(), scene, report);
+    const Image instances =
+        render(shared_device(), placed_scene(name, Placement::instance), report);
+    EXPECT_GT(report.world.instances.instances, 0u);
+    const glm::dvec3& edge = scene.world.voxel_size;
+    const double voxel = std::max({edge.x, edge.y, edge.z});
+    PlacementDifference difference;
+    const size_t pixels = world.planes.at("Z").size();
+    for (size_t i = 0; i < pixels; ++i) {
+        const bool same =
+            world.id_planes.at("objectId")[i] == instances.id_planes.at("objectId")[i];
+        const double depth = double(world.planes.at("Z")[i]) - double(instances.planes.at("Z")[i]);
+        difference.other_object += !same;
+        difference.far += same && std::abs(depth) > 0.5 * voxel;
+        for (const char* channel : {"R", "G", "B"})
+            difference.color += std::abs(double(world.planes.at(channel)[i]) -
+                                         double(instances.planes.at(channel)[i])) /
+                                3;
+    }
+    difference.other_object /= double(pixels);
+    difference.far /= double(pixels);
+    difference.color /= double(pixels);
+    return difference;
+}
+
+// The light samples of a lamp are others in its model's voxels. voxels.json is left out: cubes of
+// its models are turned, and those of the world aren't.
+TEST(ShippedPlacements, LookAlikeInTheWorldAndAsInstances) {
+    for (const char* name : {"bunny", "solids", "lamp", "pendulum", "drill"}) {
+        const PlacementDifference found = difference_of(name);
+        EXPECT_LT(found.other_object, 0.001) << name;
+        EXPECT_LT(found.far, 0.001) << name;
+        EXPECT_LT(found.color, 0.005) << name;
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
