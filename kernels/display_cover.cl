@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // points on lines along a lattice's axes -> how often the lines in each shown voxel cross surfaces.
 #include "lib/display/lattice_mask.h"
-#include "lib/display/probe.h"
 #include "lib/lanes/work_item.h"
 #include "shared/display.h"
 
@@ -35,7 +34,8 @@ static inline bool is_shown(global const uint* mask, size_t place) {
 /// Adds the points, which lie on lines along `axis`, to their voxels: VXL_CROSSES_SENSES counts for
 /// each axis and each voxel. No line lies on a side of a voxel. Cubes within a row of cubes, whose
 /// voxels show nothing, count for the voxel before them that does.
-kernel void count_covers(DisplayLattice lattice, VXL_POINTS_PARAMETERS, uint axis,
+kernel void count_covers(DisplayLattice lattice, uint point_count, uint total,
+                         global const float* restrict points, uint axis,
                          global const uint* restrict mask, global const uint* restrict starts,
                          global uint* restrict counts) {
     const uint n = work_item();

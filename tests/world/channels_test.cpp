@@ -94,8 +94,8 @@ void expect_planes(const Picture& shown, const ImageChannels& asked) {
 TEST_F(Channels, NotAskedForAreNeitherMadeNorStored) {
     const Picture all = show(glass(), {.distance = true});
     for (int bits = 0; bits < 32; ++bits) {
-        const ImageChannels asked{true, bool(bits & 1), bool(bits & 2), bool(bits & 4),
-                                  bool(bits & 8), bool(bits & 16)};
+        const ImageChannels asked{true,           bool(bits & 1), bool(bits & 2),
+                                  bool(bits & 4), bool(bits & 8), bool(bits & 16)};
         const Picture shown = show(glass(), asked);
         expect_planes(shown, asked);
         expect_same(shown.image, all.image);

@@ -66,8 +66,8 @@ DisplayCoverStage::DisplayCoverStage(const Device& device, const Features& featu
 }
 
 void DisplayCoverStage::count(int axis, const ProbePoints& points, const Buffer<uint32_t>& mask) {
-    count_.launch(WorkItem::light, points.count, lattice_, points, uint32_t(axis), mask,
-                  shown_.starts, covers_);
+    count_.launch(WorkItem::light, points.count, lattice_, points.count, points.total,
+                  points.coordinates, uint32_t(axis), mask, shown_.starts, covers_);
 }
 
 void DisplayCoverStage::adjust(const glm::uvec3& lines, Volume& volume) const {
