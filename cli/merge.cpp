@@ -132,7 +132,9 @@ std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
 
 int run(const MergeCommand& command) {
     std::vector<Part> parts;
-    for (const std::string& file : command.parts) parts.push_back({file, read_manifest(file)});
+    for (const std::string& file : command.parts)
+        if (!file.ends_with(".shard.exr")) parts.push_back({file, read_manifest(file)});
+    if (parts.empty()) fail_usage("merge: name the files .shard of the parts, not their images");
     check_same_run(parts);
     check_numbers(parts);
     std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.number; });
@@ -152,7 +154,8 @@ int run(const MergeCommand& command) {
 
 Action add_merge(CLI::App& app) {
     const auto command = std::make_shared<MergeCommand>();
-    app.add_option("PART", command->parts, "files .shard of all parts, of `render --shard`")
+    app.add_option("PART", command->parts,
+                   "files .shard of all parts, of `render --shard`; files .shard.exr are skipped")
         ->required();
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };
