@@ -85,7 +85,7 @@ void check_numbers(const std::vector<Part>& parts) {
 
 /// The path of a part's file, which has the bytes that it was told of with.
 fs::path checked_file(const Part& part, const ShardFile& file) {
-    const fs::path path = part.file.parent_path() / file.name;
+    fs::path path = part.file.parent_path() / file.name;
     if (const std::string hash = hash_of_file(path); hash != file.hash)
         refuse("{}: {}; render part {} again, with --resume", path.string(),
                hash.empty() ? "isn't there" : "isn't as it was rendered",

@@ -55,6 +55,7 @@ std::map<std::string, FileValue> read_file(const fs::path& file) {
     if (!stream) fail_usage("{}: can't be read", file.string());
     std::map<std::string, FileValue> values;
     std::vector<std::string_view> names;
+    names.reserve(kSettings.size());
     for (const Setting& setting : kSettings) names.emplace_back(setting.name);
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
