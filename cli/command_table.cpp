@@ -25,6 +25,7 @@ constexpr std::array kCommands = {
     Command{"warm", "fill the cache with what rendering scenes takes", add_warm},
     Command{"doctor", "print what a report of a fault needs: system, devices, cache, self-test",
             add_doctor},
+    Command{"config", "print all settings, and where each comes from", add_config},
     Command{"completion", "print what makes a shell complete commands and options", add_completion},
     Command{"man", "print the manual page", add_man},
 };

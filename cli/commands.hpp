@@ -40,6 +40,7 @@ const char* exit_codes_text();
 Action add_bench(CLI::App& app);
 Action add_check(CLI::App& app);
 Action add_completion(CLI::App& app);
+Action add_config(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);

@@ -40,6 +40,7 @@ complete -F _voxelume voxelume
 
 std::string names_of_commands(const std::vector<CommandFacts>& commands) {
     std::vector<std::string> names;
+    names.reserve(commands.size());
     for (const CommandFacts& command : commands) names.push_back(command.name);
     return fmt::format("{}", fmt::join(names, " "));
 }

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <numeric>
 
@@ -127,6 +128,8 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
         ->type_name("always|never|changed");
     app.add_flag("--resume", command.resume,
                  "go on where a run ended: the same as --overwrite changed");
+    const char* const progress = std::getenv("VOXELUME_PROGRESS");
+    if (progress != nullptr && *progress != '\0') command.progress = progress;
     app.add_option("--progress", command.progress,
                    "how progress is told on stderr: auto (the default; a bar on a terminal, and "
                    "else a line for each frame), bar, plain, json (a JSON object a line), or none")

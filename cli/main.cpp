@@ -18,6 +18,7 @@
 #include "cli/commands.hpp"
 #include "cli/complaint.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/settings.hpp"
 
 namespace voxelume::cli {
 
@@ -117,6 +118,7 @@ int main(int count, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);
     cli::keep_freed_memory();
     try {
+        cli::load_settings();
         cli::handle_interrupts();  // first, so that all threads ignore the signals that this one
                                    // does
         voxelume::configure({.set_driver_environment = true,

@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/option_table.hpp"
+#include "cli/settings.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {
@@ -64,12 +65,14 @@ int print_page() {
     fmt::print(".SH EXIT STATUS\n.nf\n");
     print_lines(exit_codes_text());
     fmt::print(".fi\n.SH ENVIRONMENT\n");
+    for (const Setting& setting : settings())
+        fmt::print(".TP\n\\fB{}\\fR\n{}\n", plain(setting.variable), plain(setting.help));
     fmt::print(
-        ".TP\n\\fBVOXELUME_ASSETS\\fR\nfolders of models, separated by colons\n"
-        ".TP\n\\fBVOXELUME_CACHE_DIR\\fR\nfolder of the cache; empty: nothing is kept\n"
-        ".TP\n\\fBVOXELUME_DEVICE\\fR\nwhat \\-\\-device is without that option\n"
-        ".TP\n\\fBVOXELUME_MEMORY_MB\\fR\nmost that is used of a device's memory\n"
-        ".TP\n\\fBNO_COLOR\\fR\nif it is set, progress bars have no colour\n");
+        ".TP\n\\fBVOXELUME_CONFIG\\fR\nfile of settings\n"
+        ".TP\n\\fBNO_COLOR\\fR\nif it is set, progress bars have no colour\n"
+        ".SH FILES\n.TP\n~/.config/voxelume/config\n"
+        "settings, a line each: a name that \\fBvoxelume config\\fR prints, =, and its value; the "
+        "environment counts more\n");
     return 0;
 }
 

@@ -86,7 +86,7 @@ void check_numbers(const std::vector<Part>& parts) {
 
 /// The path of a part's file, which has the bytes that it was told of with.
 fs::path checked_file(const Part& part, const ShardFile& file) {
-    const fs::path path = part.file.parent_path() / file.name;
+    fs::path path = part.file.parent_path() / file.name;
     if (const std::string hash = hash_of_file(path); hash != file.hash)
         refuse("{}: {}; render part {} again, with --resume", path.string(),
                hash.empty() ? "isn't there" : "isn't as it was rendered",
@@ -133,7 +133,9 @@ std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
 
 int run(const MergeCommand& command) {
     std::vector<Part> parts;
-    for (const std::string& file : command.parts) parts.push_back({file, read_manifest(file)});
+    for (const std::string& file : command.parts)
+        if (!file.ends_with(".shard.exr")) parts.push_back({file, read_manifest(file)});
+    if (parts.empty()) fail_usage("merge: name the files .shard of the parts, not their images");
     check_same_run(parts);
     check_numbers(parts);
     std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.number; });
@@ -153,7 +155,8 @@ int run(const MergeCommand& command) {
 
 Action add_merge(CLI::App& app) {
     const auto command = std::make_shared<MergeCommand>();
-    app.add_option("PART", command->parts, "files .shard of all parts, of `render --shard`")
+    app.add_option("PART", command->parts,
+                   "files .shard of all parts, of `render --shard`; files .shard.exr are skipped")
         ->required();
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };

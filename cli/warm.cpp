@@ -26,8 +26,7 @@ struct WarmCommand {
 };
 
 /// Renders a scene's frames into nothing, and says what had to be compiled for it.
-void warm_up(const WarmCommand& command, const std::string& input,
-             const std::vector<Device>& devices) {
+void warm_up(const WarmCommand& command, const std::string& input) {
     const auto start = std::chrono::steady_clock::now();
     SceneOptions options = command.scene;
     options.scene = input;
@@ -43,11 +42,12 @@ void warm_up(const WarmCommand& command, const std::string& input,
     int compiled = 0;
     render.compiling = [&](int, int) { ++compiled; };
     if (!command.quiet) render.warn = warning_printer(false, [] {});
-    // Pictures have kernels of their own, which compute colour alone.
+    // Pictures have kernels of their own, which compute colour alone. A device that is opened anew
+    // builds the programs that a new process will look for, and keeps them when it is closed.
     const Channels channels = parse_channels(command.channels, "warm: --channels");
     for (const Channels& wanted : {channels, kColorAlone}) {
         render.channels = wanted;
-        render_frames(scene, devices, job, render);
+        render_frames(scene, Device::open_all(command.scene.device), job, render);
         render.warn = {};
         job.deliver_volumes = false;
     }
@@ -64,11 +64,10 @@ int run(const WarmCommand& command) {
     if (folder.empty())
         fail_usage(
             "warm: there is no cache to fill: VOXELUME_CACHE_DIR names no folder to write to");
-    const std::vector<Device> devices = Device::open_all(command.scene.device);
     int code = 0;
     for (const std::string& input : command.inputs) {
         try {
-            warm_up(command, input, devices);
+            warm_up(command, input);
         } catch (const Error& error) {
             const bool is_last = error.kind() == ErrorKind::cancelled ||
                                  error.kind() == ErrorKind::device || command.inputs.size() == 1;

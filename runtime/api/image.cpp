@@ -240,6 +240,7 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
                        const ImageFileOptions& options) {
     api::guarded([&] {
         std::vector<voxelume::Image> images;
+        images.reserve(parts.size());
         for (const std::filesystem::path& part : parts) images.push_back(read_exr(part));
         voxelume::Image whole = join_images(std::move(images));
         api::Attributes attributes = std::exchange(whole.attributes, {});

@@ -47,9 +47,9 @@ TEST_F(CliCompletionTest, EveryOptionOfHelpIsInEveryScriptAndOnThePage) {
             EXPECT_THAT(" " + *names.begin() + " ", HasSubstr(" " + option + " ")) << command;
             EXPECT_THAT(zsh, HasSubstr("'*" + option + "[")) << command;
             EXPECT_THAT(page, HasSubstr("\\fB" + option + "\\fR")) << command;
-            EXPECT_TRUE(std::regex_search(
-                fish, std::regex("seen_subcommand_from " + command + "'[^\n]* -l " +
-                                 option.substr(2) + "[ \n]")))
+            EXPECT_TRUE(
+                std::regex_search(fish, std::regex("seen_subcommand_from " + command +
+                                                   "'[^\n]* -l " + option.substr(2) + "[ \n]")))
                 << command << option;
         }
     }
@@ -57,10 +57,9 @@ TEST_F(CliCompletionTest, EveryOptionOfHelpIsInEveryScriptAndOnThePage) {
 
 TEST_F(CliCompletionTest, BashCompletesCommandsOptionsAndTheirWords) {
     const auto completed = [&](const std::string& words) {
-        put_bytes(folder / "try.sh",
-                  "source <(voxelume completion bash)\nCOMP_WORDS=(" + words +
-                      ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_voxelume\n"
-                      "echo \"${COMPREPLY[*]}\"\n");
+        put_bytes(folder / "try.sh", "source <(voxelume completion bash)\nCOMP_WORDS=(" + words +
+                                         ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_voxelume\n"
+                                         "echo \"${COMPREPLY[*]}\"\n");
         return run_line("bash try.sh").out;
     };
     EXPECT_EQ(completed("voxelume rend"), "render\n");

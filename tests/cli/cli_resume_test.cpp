@@ -60,6 +60,14 @@ class CliResumeTest : public SceneProgramTest {
         return files;
     }
 
+    /// When each picture was written.
+    std::map<std::string, std::filesystem::file_time_type> times() const {
+        std::map<std::string, std::filesystem::file_time_type> list;
+        for (const auto& [name, bytes] : pictures())
+            list[name] = std::filesystem::last_write_time(folder / name);
+        return list;
+    }
+
     /// Runs again and returns how many files were rendered.
     int count_rendered(const std::string& options) const {
         const ProgramResult result = run(kLine + options + " --progress json");
@@ -141,14 +149,16 @@ TEST_F(CliResumeTest, VolumesWithHeadersCarryTheHashToo) {
                                   Not(HasSubstr("v.1.nrrd")), Not(HasSubstr("v.1.vdb"))));
 }
 
-TEST_F(CliResumeTest, AKilledRunGoesOnToTheSameFiles) {
+TEST_F(CliResumeTest, AKilledRunGoesOnToTheSameFilesAndWritesNoneTwice) {
     ASSERT_EQ(count_rendered(""), 8);
     const auto whole = pictures();
-    for (const char* seconds : {"0.1", "0.3", "0.5", "0.8"}) {
+    for (const char* seconds : {"0.05", "0.1", "0.2", "0.3", "0.5", "0.8"}) {
         for (const auto& [name, bytes] : whole) std::filesystem::remove(folder / name);
         run_line(fmt::format("timeout -s KILL {} voxelume {} -q", seconds, kLine));
+        const auto finished = times();
         ASSERT_EQ(run(std::string(kLine) + "--resume -q").exit_code, 0);
         EXPECT_EQ(pictures(), whole) << seconds;
+        for (const auto& [name, time] : finished) EXPECT_EQ(times().at(name), time) << name;
     }
 }
 

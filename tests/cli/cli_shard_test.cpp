@@ -61,7 +61,7 @@ class CliShardTest : public SceneProgramTest {
             remove(whole);
             remove_parts();
             render_parts(line, count);
-            const ProgramResult result = run("merge " + parts);
+            const ProgramResult result = run("merge " + parts + "*");
             ASSERT_EQ(result.exit_code, 0) << result.err;
             EXPECT_EQ(pictures(first), whole) << count;
             EXPECT_THAT(result.err, HasSubstr(fmt::format(" of {} parts\n", count)));
@@ -117,6 +117,7 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_THAT(mixed("--float", "2/2"), HasSubstr("options of images"));
     EXPECT_THAT(mixed("-o other.png", "2/2"), HasSubstr("different outputs"));
     EXPECT_THAT(mixed("", "1/3"), HasSubstr("one is of 2 parts, the other of 3"));
+    EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
     EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
     put_bytes(folder / "x.shard", R"({"voxelume_shard": 1, "part": "x"})");

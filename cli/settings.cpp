@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include "cli/checks.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kSettings = {
+    Setting{"assets", "VOXELUME_ASSETS", "folders of models, separated by colons", "none"},
+    Setting{"cache_dir", "VOXELUME_CACHE_DIR",
+            "folder of the cache, after colons behind folders that are only read; empty: keep "
+            "nothing",
+            "~/.cache/voxelume"},
+    Setting{"cache_mb", "VOXELUME_CACHE_MB", "size of the cache of models and worlds", "4096"},
+    Setting{"device", "VOXELUME_DEVICE", "what --device is without that option", "auto"},
+    Setting{"lanes", "VOXELUME_LANES", "rays that a work-item carries: 1, 4, 8 or 16",
+            "the device's own"},
+    Setting{"memory_mb", "VOXELUME_MEMORY_MB", "most that is used of a device's memory",
+            "all that it offers"},
+    Setting{"buffer_mb", "VOXELUME_BUFFER_MB", "most that one buffer takes",
+            "what the device allows"},
+    Setting{"progress", "VOXELUME_PROGRESS", "what --progress is without that option", "auto"},
+};
+
+struct FileValue {
+    std::string value;
+    int line = 0;
+};
+
+std::string trimmed(const std::string& text) {
+    const size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// The value of a line's right side, which may be in quotes.
+std::string value_of(const std::string& text) {
+    const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+    return is_quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+/// Lines "name = value"; # begins a line of remarks.
+std::map<std::string, FileValue> read_file(const fs::path& file) {
+    std::ifstream stream(file);
+    if (!stream) fail_usage("{}: can't be read", file.string());
+    std::map<std::string, FileValue> values;
+    std::vector<std::string_view> names;
+    names.reserve(kSettings.size());
+    for (const Setting& setting : kSettings) names.emplace_back(setting.name);
+    int number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        line = trimmed(line);
+        if (line.empty() || line.front() == '#') continue;
+        const size_t sign = line.find('=');
+        const std::string name = trimmed(line.substr(0, sign));
+        if (sign == std::string::npos)
+            fail_usage("{}:{}: {}: give a setting as NAME = VALUE", file.string(), number,
+                       quote(line));
+        if (std::ranges::find(names, name) == names.end())
+            fail_usage("{}:{}: no setting named {}{}", file.string(), number, quote(name),
+                       suggest(name, names));
+        const FileValue value{value_of(trimmed(line.substr(sign + 1))), number};
+        const auto [known, is_new] = values.emplace(name, value);
+        if (!is_new)
+            fail_usage("{}:{}: {} is set already in line {}", file.string(), number, name,
+                       known->second.line);
+    }
+    return values;
+}
+
+/// As in the environment: a variable that is set, perhaps to nothing.
+const char* environment(const char* name) {
+    return std::getenv(name);
+}
+
+std::vector<SettingValue>& loaded() {
+    static std::vector<SettingValue> values;
+    return values;
+}
+
+}  // namespace
+
+std::span<const Setting> settings() {
+    return kSettings;
+}
+
+fs::path settings_file() {
+    if (const char* named = environment("VOXELUME_CONFIG")) return named;
+    const char* shared = environment("XDG_CONFIG_HOME");
+    if (shared != nullptr && fs::path(shared).is_absolute())
+        return fs::path(shared) / "voxelume" / "config";
+    const char* home = environment("HOME");
+    return home != nullptr && *home != '\0' ? fs::path(home) / ".config" / "voxelume" / "config"
+                                            : fs::path();
+}
+
+void load_settings() {
+    const fs::path file = settings_file();
+    std::error_code error;
+    std::map<std::string, FileValue> values;
+    if (!file.empty() && fs::is_regular_file(file, error))
+        values = read_file(file);
+    else if (!file.empty() && environment("VOXELUME_CONFIG") != nullptr)
+        fail_usage("VOXELUME_CONFIG is {}: there is no such file", quote(file.string()));
+    loaded().clear();
+    for (const Setting& setting : kSettings) {
+        const auto in_file = values.find(setting.name);
+        if (const char* value = environment(setting.variable)) {
+            loaded().push_back({&setting, value, setting.variable});
+        } else if (in_file != values.end()) {
+            const FileValue& found = in_file->second;
+            loaded().push_back(
+                {&setting, found.value, fmt::format("{}:{}", file.string(), found.line)});
+            setenv(setting.variable, found.value.c_str(), 1);
+        } else {
+            loaded().push_back({&setting, {}, "default"});
+        }
+    }
+}
+
+const std::vector<SettingValue>& loaded_settings() {
+    return loaded();
+}
+
+}  // namespace voxelume::cli
