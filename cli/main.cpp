@@ -119,8 +119,7 @@ int main(int count, char** arguments) {
     cli::keep_freed_memory();
     try {
         cli::load_settings();
-        cli::handle_interrupts();  // first, so that all threads ignore the signals that this one
-                                   // does
+        cli::handle_interrupts();  // before there are threads: all are to ignore what this one does
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
                              .image_threads = int(std::thread::hardware_concurrency())});
