@@ -42,6 +42,16 @@ CubeList cubes_of_volume(const std::filesystem::path& path) {
     return cubes;
 }
 
+WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const auto write = cube_writer(to);
+    if (!write)
+        throw Error(ErrorKind::usage,
+                    "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy or .nrrd",
+                    SourcePlace(to.string()));
+    return write(to, holds_model(from) ? cube_list(read_voxel_model(from, Surface::cubes))
+                                       : cubes_of_volume(from));
+}
+
 }  // namespace
 
 namespace v1 {
@@ -58,13 +68,7 @@ std::vector<std::string> convert_voxels(const std::filesystem::path& from,
                                         const std::filesystem::path& to) {
     return api::guarded([&] {
         api::apply_process_options();
-        const auto write = cube_writer(to);
-        if (!write)
-            throw Error(ErrorKind::usage,
-                        "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy or .nrrd",
-                        SourcePlace(to.string()));
-        return write(to, holds_model(from) ? cube_list(read_voxel_model(from, Surface::cubes))
-                                           : cubes_of_volume(from));
+        return write_voxels(from, to);
     });
 }
 

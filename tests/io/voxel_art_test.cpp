@@ -111,10 +111,14 @@ TEST_F(VoxelArtTest, GoxelLayersHaveZUpAndMayBeHidden) {
     // A block as a PNG of 64 x 64 pixels, made by our writer: a voxel at (3, 2, 1), red, one green.
     Image image;
     image.width = image.height = 64;
-    for (const char* name : {"R", "G", "B", "A"}) image.planes[name].assign(64 * 64, 0.0f);
+    std::vector<float> red(64 * 64), green(64 * 64), blue(64 * 64), alpha(64 * 64);
     const size_t place = 3 + 16 * 2 + 256 * 1;
-    image.planes["R"][place] = image.planes["A"][place] = 1;
-    image.planes["G"][0] = image.planes["A"][0] = 1;
+    red[place] = alpha[place] = 1;
+    green[0] = alpha[0] = 1;
+    image.planes["R"] = red;
+    image.planes["G"] = green;
+    image.planes["B"] = blue;
+    image.planes["A"] = alpha;
     write_png(folder / "block.png", image, {.keep_alpha = true});
     const auto chunk = [](const std::string& letters, const std::string& content) {
         return letters + bytes_of_all(int32_t(content.size())) + content + bytes_of_all(0);
@@ -134,7 +138,8 @@ TEST_F(VoxelArtTest, GoxelLayersHaveZUpAndMayBeHidden) {
     EXPECT_THAT(read_gox(folder / "a.gox").notes, Contains("1 hidden layers, not shown"));
     EXPECT_THAT(refusal("b.gox", "GOX " + bytes_of_all(2) + layer(0, 0, 0, 1)),
                 HasSubstr("the file lacks"));
-    expect_truncations_refused("a.gox", bytes, 300);
+    // A file may end behind its first layer.
+    expect_truncations_refused("a.gox", bytes, 192);
 }
 
 TEST_F(VoxelArtTest, SpongeSchematicsHaveAPaletteOfNames) {
@@ -230,7 +235,7 @@ TEST_F(VoxelArtTest, DeepAndEndlessTagsAreRefused) {
                         "\x0a" + W::text("") + "\x07" + W::text("a") + W::big(int32_t{0x7FFFFFFF})),
                 HasSubstr("more than the file holds"));
     EXPECT_THAT(refusal("d.schem", std::string("\x1f\x8b\x08\0\0\0\0\0\0\3xyz", 13)),
-                HasSubstr("damaged"));
+                HasSubstr("truncated"));
 }
 
 TEST_F(VoxelArtTest, BlocksHaveColoursByTheLongestPartOfTheirName) {
