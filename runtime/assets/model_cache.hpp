@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
@@ -17,8 +18,10 @@
 namespace voxelume {
 
 /// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
-/// read as. Of the file's own name only the extension counts. `part` is that of a glTF file.
-std::string mesh_source(const std::string& bytes, const std::filesystem::path& name, int part = 0);
+/// read as. Of the file's own name only the extension counts.
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
+/// Names a part of the mesh that `source` names; 0 stands for all of it.
+std::string part_source(const std::string& source, int part);
 
 /// Names the mesh of a source after a map.
 std::string mapped_source(const std::string& source, const FileMap& map);
@@ -44,9 +47,11 @@ class ModelCache {
     /// Makes a cache that keeps nothing.
     ModelCache() = default;
     /// Makes a cache of up to `max_bytes` for results that take at least `min_seconds` to make.
-    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double min_seconds = 0.001)
-        : is_open_(!folder.empty() && max_bytes > 0),
-          store_(std::move(folder), max_bytes),
+    /// `bases` are folders that are only read.
+    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double min_seconds = 0.001,
+               std::vector<std::filesystem::path> bases = {})
+        : is_open_((!folder.empty() || !bases.empty()) && max_bytes > 0),
+          store_(std::move(folder), max_bytes, std::move(bases)),
           max_bytes_(max_bytes),
           min_seconds_(min_seconds) {}
 
