@@ -7,11 +7,13 @@
 #include "runtime/io/voxel_art/byte_reader.hpp"
 #include "runtime/io/voxel_art/cell_bricks.hpp"
 #include "runtime/io/voxel_art/voxel_art.hpp"
+#include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr double kMaxBinvoxLength = 1e9;
+constexpr uint64_t kMaxRun = 255;  // cells of a pair of bytes
 
 struct BinvoxHeader {
     glm::ivec3 size{0};  ///< along x, z and y, as the file has them
@@ -44,8 +46,11 @@ VoxelArt read_binvox(const std::filesystem::path& path) {
     ByteReader reader(bytes, file);
     const BinvoxHeader header = take_header(reader);
     const glm::ivec3 size = header.size;
-    CellBricks bricks({0, 0, 0}, size, file);
+    check_voxel_span(glm::dvec3(size), file);
     const uint64_t count = uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
+    if (count / kMaxRun > reader.left() / 2)
+        reader.refuse("the file ends too early; it is truncated");
+    CellBricks bricks({0, 0, 0}, size, file);
     for (uint64_t at = 0; at < count;) {
         const std::string_view pair = reader.take_bytes(2);
         const auto repeats = uint64_t(uint8_t(pair[1]));
