@@ -4,6 +4,7 @@
 
 #include <zlib.h>
 
+#include <cstddef>
 #include <vector>
 
 #include "runtime/base/input_file.hpp"

@@ -2,6 +2,7 @@
 #include "runtime/io/arrays/nrrd_fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 

@@ -2,6 +2,7 @@
 // Many colours -> the few that stand for them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
