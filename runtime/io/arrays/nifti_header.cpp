@@ -27,7 +27,7 @@ constexpr Places kVersion2 = {540, 16, 12, 104, 168, 176, 184, 344, 348, 352, 37
 
 class NiftiHeader {
   public:
-    NiftiHeader(const InputFile& file, bool is_gzip) : file_(file) {
+    NiftiHeader(const InputFile& file, bool is_gzip) {
         ByteStream stream(file, 0, is_gzip);
         const size_t count = stream.read_some(bytes_.data(), bytes_.size());
         if (count < kVersion1.header) file.refuse("too short for a NIfTI file");
@@ -79,7 +79,6 @@ class NiftiHeader {
         return false;
     }
 
-    const InputFile& file_;
     std::array<unsigned char, 540> bytes_{};
     const Places* places_ = nullptr;
     bool is_swapped_ = false;
@@ -134,9 +133,12 @@ glm::dmat4 file_from_index(const NiftiHeader& header, CellArray& array) {
         if (s == 0) array.notes.emplace_back("assumed: spacing 1 where the file has 0");
     }
     if (header.code(places.qform) > 0) {
-        const double b = header.real(places.quatern), c = header.real(places.quatern, 1),
-                     d = header.real(places.quatern, 2);
-        const double a = std::sqrt(std::max(0.0, 1 - b * b - c * c - d * d));
+        glm::dvec3 turn(header.real(places.quatern), header.real(places.quatern, 1),
+                        header.real(places.quatern, 2));
+        // Half a turn has no real part: what rounding leaves of it would turn the axes.
+        const double square = 1 - glm::dot(turn, turn);
+        if (square < 1e-7) turn = glm::normalize(turn);
+        const double a = square < 1e-7 ? 0 : std::sqrt(square), b = turn.x, c = turn.y, d = turn.z;
         const double flip = header.real(places.pixdim) < 0 ? -1 : 1;
         map[0] = {a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c), 0};
         map[1] = {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b), 0};

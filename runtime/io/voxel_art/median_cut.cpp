@@ -63,8 +63,10 @@ uint32_t average(const std::vector<Entry>& entries, const Box& box) {
 
 Palette median_cut(const std::map<uint32_t, uint64_t>& voxels_by_color, size_t max) {
     std::vector<Entry> entries;
+    entries.reserve(voxels_by_color.size());
     for (const auto& [color, voxels] : voxels_by_color) entries.push_back({color, voxels});
     std::vector<Box> boxes;
+    boxes.reserve(max);
     if (entries.size() <= max)
         for (size_t i = 0; i < entries.size(); ++i) boxes.push_back({i, i + 1, 0, 0});
     else

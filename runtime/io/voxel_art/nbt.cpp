@@ -112,7 +112,7 @@ class NbtParser {
     void take_members(NbtValue& compound, int depth) {
         for (Kind kind = take_kind(); kind != Kind::none; kind = take_kind()) {
             const std::string_view name = take_text();
-            compound.members.emplace_back(name, value(kind, depth + 1));
+            compound.members.push_back({name, value(kind, depth + 1)});
         }
     }
 

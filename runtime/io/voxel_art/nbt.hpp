@@ -9,6 +9,8 @@
 
 namespace voxelume {
 
+struct NbtMember;
+
 /// A value of the tree. Texts and arrays lie in the bytes that were parsed, which outlive it.
 struct NbtValue {
     enum class Kind : uint8_t {
@@ -27,10 +29,10 @@ struct NbtValue {
         longs
     };
     Kind kind = Kind::none;
-    int64_t number = 0;        ///< of whole numbers
-    std::string_view content;  ///< of texts and arrays, as in the file
-    std::vector<std::pair<std::string_view, NbtValue>> members;  ///< of compounds
-    std::vector<NbtValue> items;                                 ///< of lists
+    int64_t number = 0;              ///< of whole numbers
+    std::string_view content;        ///< of texts and arrays, as in the file
+    std::vector<NbtMember> members;  ///< of compounds
+    std::vector<NbtValue> items;     ///< of lists
 
     /// A member; null where there is none.
     const NbtValue* find(std::string_view name) const;
@@ -42,6 +44,11 @@ struct NbtValue {
     size_t ints() const { return content.size() / 4; }   ///< how many an array of ints has
     size_t longs() const { return content.size() / 8; }  ///< how many an array of longs has
     uint64_t long_at(size_t i) const;
+};
+
+struct NbtMember {
+    std::string_view name;
+    NbtValue value;
 };
 
 /// The compound at the root. Throws Error::input for bytes that are damaged or truncated, for a

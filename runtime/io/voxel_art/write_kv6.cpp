@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "runtime/base/error.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/volume/volume_formats.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
