@@ -62,7 +62,7 @@ class NbtParser {
             case Kind::none:
                 break;
             case Kind::i8:
-                value.number = int8_t(take_number(1));
+                value.number = int64_t(take_number(1) ^ 0x80) - 0x80;
                 break;
             case Kind::i16:
                 value.number = int16_t(take_number(2));
