@@ -63,6 +63,10 @@ Parts parts_of(const CubeList& cubes, const Palette& palette) {
         part.voxels.emplace_back(v, uint8_t(palette.numbers.at(color) + 1));
     }
     static_assert(kPartSide == 1 << 8);
+    for (auto& [place, part] : parts)
+        std::ranges::sort(part.voxels, {}, [](const auto& voxel) {
+            return std::array{voxel.first.z, voxel.first.y, voxel.first.x};
+        });
     if (parts.size() > kMaxParts)
         throw Error(ErrorKind::limit, "a .vox of {} models is more than {}; use larger voxels",
                     parts.size(), kMaxParts);
