@@ -14,6 +14,7 @@ Usage: ./bootstrap.sh COMMAND
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
   test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
+  fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   lint    check the format of the code, the host code and each kernel
   docs    write the library's reference to build/docs/html/index.html
 
@@ -79,6 +80,25 @@ run_tests() {
     ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
 }
 
+# run_fuzzers SECONDS: each reader with clang's sanitizers, from small valid files. What breaks one
+# is left in build/fuzz.
+run_fuzzers() {
+    [ -f build/fuzz/build.ninja ] || CC=clang CXX=clang++ cmake --preset release -B build/fuzz \
+        -DVXL_FUZZ=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+    ninja -C build/fuzz fuzzers
+    tests/fuzz/make_seeds.py build/fuzz/seeds
+    local fuzzer format
+    for fuzzer in build/fuzz/tests/*_fuzz_*; do
+        [ -x "$fuzzer" ] || continue
+        format=${fuzzer##*_}
+        say "Fuzzing .$format"
+        mkdir -p "build/fuzz/corpus/$format" "build/fuzz/seeds/$format"
+        "$fuzzer" -max_total_time="$1" -rss_limit_mb=8192 -timeout=60 -verbosity=0 \
+            -artifact_prefix="build/fuzz/$format-" "build/fuzz/corpus/$format" \
+            "build/fuzz/seeds/$format"
+    done
+}
+
 # The version that CMakeLists.txt gives the project.
 project_version() {
     sed -n 's/^project(voxelume VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt
@@ -93,6 +113,7 @@ docs() {
 
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
+    fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
     help | -h | --help)
         usage
@@ -111,6 +132,7 @@ case "$1" in
         echo "The program is $build/voxelume."
         ;;
     test) run_tests "${2:-}" ;;
+    fuzz) run_fuzzers "${2:-60}" ;;
     docs) docs ;;
     lint)
         install_packages .ci/packages.txt

@@ -16,7 +16,7 @@ Action add_check(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     app.add_option("SCENE", options->scene.scene,
                    "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl "
-                   ".gltf .glb .vxm .vdb .vox")
+                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see scenes/README.md")
         ->required();
     add_scene_options(app, options->scene);
     app.add_flag("--json", options->json, "print the plan as JSON");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume convert A B: a volumetric image as another format.
+// voxelume convert A B: a volumetric image, or voxels, as another format.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <string>
@@ -25,6 +25,11 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
                                 std::pair{std::string_view("z"), Axis::z}};
 
 int run(const ConvertCommand& command) {
+    if (command.format.empty() && can_convert_voxels(command.from, command.to)) {
+        for (const std::string& note : convert_voxels(command.from, command.to))
+            fmt::print(stderr, "note: {}\n", note);
+        return 0;
+    }
     VolumeFileOptions options = command.options;
     options.dither = choose(command.dither, kDithers, "convert: --dither");
     options.sweep = choose(command.sweep, kSweeps, "convert: --sweep");
@@ -40,11 +45,13 @@ int run(const ConvertCommand& command) {
 Action add_convert(CLI::App& app) {
     const auto command = std::make_shared<ConvertCommand>();
     VolumeFileOptions& options = command->options;
-    app.add_option("A", command->from, "volumetric image to read: .vdb .exr .nrrd .raw or .json")
+    app.add_option("A", command->from,
+                   "volumetric image to read: .vdb .exr .nrrd .raw or .json; or voxels: .vox .vxm "
+                   ".vdb .npy .qb .gox .schem and others")
         ->required();
     app.add_option("B", command->to,
                    "volumetric image to write: the same, or name.####.png .ply .kv6 .planes "
-                   ".cplanes .rgb332 .rgb565")
+                   ".cplanes .rgb332 .rgb565; or of voxels .vox .kv6 .binvox .npy .nrrd")
         ->required();
     app.add_option(
         "--format", command->format,

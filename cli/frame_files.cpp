@@ -77,7 +77,7 @@ void check_stream(const RenderCommand& options) {
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
                    "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl "
-                   ".gltf .glb .vxm .vdb .vox")
+                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see scenes/README.md")
         ->required();
     add_scene_options(app, command.scene);
     app.add_option("-o,--output", command.outputs,

@@ -45,7 +45,9 @@ int run(const ImportCommand& command) {
 
 Action add_import(CLI::App& app) {
     const auto command = std::make_shared<ImportCommand>();
-    app.add_option("FILE", command->file, "model file: .obj .ply .stl .gltf .glb .vxm .vdb .vox")
+    app.add_option("FILE", command->file,
+                   "model file: .obj .ply .stl .gltf .glb .vxm .vdb .vox .npy .nrrd .nii .qb .kv6 "
+                   ".binvox .gox .schem .litematic")
         ->required();
     app.add_option("-o,--output", command->output,
                    "scene to write, .json; printed if this is left out");

@@ -42,9 +42,11 @@ Action add_info(CLI::App& app) {
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    app.add_option("FILE", options->path,
-                   "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
-                   "model (.vxm), MagicaVoxel file (.vox) or mesh")
+    app.add_option(
+           "FILE", options->path,
+           "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
+           "model (.vxm), MagicaVoxel file (.vox), array or scan (.npy .nrrd .nii), file of "
+           "another voxel editor or game, or mesh")
         ->required();
     app.add_flag("--json", options->json, "print the result as JSON");
     return [options] {

@@ -44,7 +44,8 @@ VoxelizeOptions options_of(const VoxelizeCommand& command) {
 int run(const VoxelizeCommand& command) {
     if (command.outputs.empty()) fail_usage("voxelize: say where the voxels go: -o model.vxm");
     for (const std::string& path : command.outputs)
-        check_output(path, {".vxm", ".vdb"}, "voxelize");
+        check_output(path, {".vxm", ".vdb", ".vox", ".kv6", ".binvox", ".npy", ".nrrd"},
+                     "voxelize");
     const VoxelizeOptions options = options_of(command);
     const Device device = Device::open(command.device);
     const VoxelizeReport report =
@@ -54,6 +55,8 @@ int run(const VoxelizeCommand& command) {
                    "{} triangles to {}x{}x{} voxels of {:.4g} m in {:.2f} s on \"{}\": {} bricks\n",
                    report.triangles, report.size[0], report.size[1], report.size[2],
                    report.voxel_size, report.seconds, device.info().name, report.bricks);
+    if (!command.quiet)
+        for (const std::string& note : report.notes) fmt::print(stderr, "note: {}\n", note);
     return 0;
 }
 
@@ -64,7 +67,8 @@ Action add_voxelize(CLI::App& app) {
     app.add_option("MESH", command->mesh, "triangle mesh: .obj, .ply, .stl, .gltf or .glb")
         ->required();
     app.add_option("-o,--output", command->outputs,
-                   "output: model .vxm or OpenVDB volume .vdb; may be given again")
+                   "output: model .vxm or OpenVDB volume .vdb, or of cubes .vox .kv6 .binvox .npy "
+                   ".nrrd; may be given again")
         ->allow_extra_args(false);
     const auto size =
         app.add_option("--voxel-size", command->voxel_size, "edge of a voxel in metres")

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "runtime/io/voxel_file_table.hpp"
+
 namespace voxelume::api {
 
 using Report = nlohmann::ordered_json;
@@ -23,5 +25,11 @@ Report describe_kv6(const std::filesystem::path& path);
 
 /// Models, objects, materials and palette of a MagicaVoxel file, and what of it isn't shown.
 Report describe_vox(const std::filesystem::path& path);
+
+/// The size, voxels and colours of a file of a voxel editor or game, and what of it isn't shown.
+Report describe_art(const std::filesystem::path& path, const VoxelFileFormat& format);
+
+/// The place, values or labels of an array, and what is assumed where the file doesn't say it.
+Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& format);
 
 }  // namespace voxelume::api

@@ -11,6 +11,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/vdb/vdb.hpp"
@@ -114,20 +115,22 @@ Report describe_model(const fs::path& path) {
     return report;
 }
 
-Report describe_nrrd(const fs::path& path) {
-    return describe_volume(path, "NRRD volume");
+/// A volumetric image of ours, or what is in a file of an array.
+Report describe_voxel_file(const fs::path& path) {
+    if (is_volume_nrrd(path)) return describe_volume(path, "NRRD volume");
+    const VoxelFileFormat& format = *voxel_file_format(path);
+    return format.array ? describe_array(path, format) : describe_art(path, format);
 }
 
 using Describe = Report (*)(const fs::path&);
 
 /// By what the file begins with; meshes have no mark of their own, so they are what is left.
 Describe find_description(const fs::path& path) {
-    constexpr std::array<std::pair<std::string_view, Describe>, 7> kKinds = {
+    constexpr std::array<std::pair<std::string_view, Describe>, 6> kKinds = {
         {{{"\x76\x2f\x31\x01", 4}, describe_exr},
          {{"\x89PNG\r\n\x1a\n", 8}, describe_png},
          {{" BDV\0\0\0\0", 8}, describe_vdb},
          {{"\x89VXM\r\n\x1a\n", 8}, describe_model},
-         {{"NRRD000", 7}, describe_nrrd},
          {{"Kvxl", 4}, describe_kv6},
          {{"VOX ", 4}, describe_vox}}};
     const InputFile file(path);
@@ -135,6 +138,7 @@ Describe find_description(const fs::path& path) {
     file.read(0, start.data(), start.size());
     for (const auto& [mark, describe] : kKinds)
         if (start.starts_with(mark)) return describe;
+    if (voxel_file_format(path) != nullptr) return describe_voxel_file;
     return ending_of(path) == ".json" ? describe_volume_header : describe_mesh;
 }
 

@@ -15,6 +15,7 @@
 #include "runtime/base/text.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
@@ -37,16 +38,23 @@ Model model_of(const fs::path& mesh, const v1::VoxelizeOptions& options) {
     return model;
 }
 
-void check_endings(const std::vector<fs::path>& outputs) {
-    for (const fs::path& output : outputs)
-        if (ending_of(output) != ".vdb" && ending_of(output) != ".vxm")
-            throw Error(ErrorKind::usage, "{}: the name of voxels ends in .vxm or .vdb",
+void check_endings(const std::vector<fs::path>& outputs, Surface surface) {
+    for (const fs::path& output : outputs) {
+        if (ending_of(output) == ".vdb" || ending_of(output) == ".vxm") continue;
+        if (!cube_writer(output))
+            throw Error(ErrorKind::usage,
+                        "{}: the name of voxels ends in .vxm, .vdb, .vox, .kv6, .binvox, .npy or "
+                        ".nrrd",
                         SourcePlace(output.string()));
+        if (surface != Surface::cubes)
+            throw Error(ErrorKind::usage, "{}: files of this format hold cubes alone",
+                        SourcePlace(output.string()));
+    }
 }
 
 v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
                                      const Device& device, const v1::VoxelizeOptions& options) {
-    check_endings(outputs);
+    check_endings(outputs, static_cast<Surface>(options.surface));
     const Model model = model_of(path, options);
     const Mesh mesh = read_mesh_file(path);
     const GridPlan plan = plan_model(model, mesh);
@@ -58,14 +66,23 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const VoxelExport voxels(grid, mesh, model.surface, model.set);
+    v1::VoxelizeReport report{mesh.triangles.size(),
+                              api::array_of(grid.frame.size),
+                              grid.frame.voxel_edge.x,
+                              grid.brick_count,
+                              seconds,
+                              {}};
     for (const fs::path& output : outputs) {
-        if (ending_of(output) == ".vdb")
+        if (const auto write = cube_writer(output)) {
+            for (const std::string& note : write(output, cube_list(voxels.cubes())))
+                report.notes.push_back(note);
+        } else if (ending_of(output) == ".vdb") {
             voxels.write_vdb(output);
-        else
+        } else {
             voxels.write_model(output);
+        }
     }
-    return {mesh.triangles.size(), api::array_of(grid.frame.size), grid.frame.voxel_edge.x,
-            grid.brick_count, seconds};
+    return report;
 }
 
 }  // namespace

@@ -86,6 +86,8 @@ void add_voxels(const v1::VoxelFile& voxels, ObjectTree& object) {
     object.add("voxels", voxels.file.string()).add("part", voxels.part);
     add_file_size(voxels.fit, voxels.unit, object);
     if (voxels.sequence) object.put("sequence", tree(*voxels.sequence));
+    object.add("iso", voxels.iso).add("label", voxels.label);
+    if (voxels.each_label) object.add("label", "each");
 }
 
 }  // namespace

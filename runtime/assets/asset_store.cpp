@@ -10,6 +10,7 @@
 #include "runtime/geometry/winding_number.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/voxel_file_table.hpp"
 
 namespace voxelume {
 AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
@@ -121,6 +122,9 @@ MeshShape AssetStore::shape_of(const Model& model) {
 SurfaceChoice AssetStore::surface_of_voxels(Model model) {
     if (const auto surface = surface_of_voxel_model(model.voxels))
         return {*surface, "its file says so"};
+    if (voxel_file_format(model.voxels) != nullptr)
+        return model.values.iso ? SurfaceChoice{Surface::smooth, "it has a value for its surface"}
+                                : SurfaceChoice{Surface::cubes, "its file has cells"};
     model.surface = Surface::cubes;
     try {
         voxels(model);
@@ -140,17 +144,18 @@ SurfaceChoice AssetStore::surface_of_voxels(Model model) {
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
     used_.insert(model.voxels);
     const FileMap& map = model.object_from_file;
-    const VoxelKey key(model.voxels, model.surface, key_of(map), model.part);
+    const VoxelKey key(model.voxels, model.surface, key_of(map), model.part, model.values);
     const auto found = voxels_.find(key);
     if (found != voxels_.end()) return found->second;
     const LoadTimer timer(load_seconds_);
     VoxelFile file;
-    if (auto plain = voxels_.extract({model.voxels, model.surface, key_of({}), model.part})) {
+    if (auto plain =
+            voxels_.extract({model.voxels, model.surface, key_of({}), model.part, model.values})) {
         file = std::move(plain.mapped());
     } else {
         file.voxels = model.part > 0 && is_vox_file(model.voxels)
                           ? read_vox_model(vox_file(model.voxels), model.surface, model.part)
-                          : read_voxel_model(model.voxels, model.surface, model.part);
+                          : read_voxel_model(model.voxels, model.surface, model.part, model.values);
         ++meshes_read_;
     }
     if (!map.is_identity()) apply(map, model.voxels, file.voxels);

@@ -130,8 +130,8 @@ class AssetStore {
     std::map<std::filesystem::path, std::string> sources_;  ///< hashes of whole files
     std::map<std::filesystem::path, std::shared_ptr<const GltfFile>> gltf_files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
-    /// Keyed by the file, the surface that it is read as, its map, and the part.
-    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey, int>;
+    /// Keyed by the file, the surface that it is read as, its map, the part and the values.
+    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey, int, VoxelValues>;
     std::map<VoxelKey, VoxelFile> voxels_;
     std::map<std::filesystem::path, VoxFile> vox_files_;
     std::set<std::filesystem::path> used_;

@@ -64,6 +64,17 @@ VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surfac
     if (!groups.empty()) header_["groups"] = groups;
 }
 
+VoxelModel VoxelExport::cubes() const {
+    VoxelModel model;
+    model.frame = frame_;
+    model.surface = surface_;
+    model.slots = slots_;
+    model.coordinates = coordinates_;
+    model.occupancy = occupancy_;
+    model.colors = colors_;
+    return model;
+}
+
 void VoxelExport::write_model(const std::filesystem::path& path) const {
     ModelFile file;
     file.header = header_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/geometry/mesh.hpp"
+#include "runtime/geometry/voxel_model.hpp"
 #include "runtime/grid/grid.hpp"
 
 namespace voxelume {
@@ -27,6 +28,8 @@ class VoxelExport {
   public:
     VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surface, VoxelSet set);
 
+    /// The voxels of cubes, with their colours.
+    VoxelModel cubes() const;
     /// Both of these throw Error::output.
     void write_model(const std::filesystem::path& path) const;
     void write_vdb(const std::filesystem::path& path) const;

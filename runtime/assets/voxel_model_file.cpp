@@ -9,6 +9,7 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
+#include "runtime/io/voxel_file_table.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_voxels.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
@@ -169,14 +170,19 @@ std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& path)
     return std::nullopt;
 }
 
-VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, int part) {
+VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, int part,
+                            const VoxelValues& values) {
     const InputFile file(path);
     const std::string start = start_of(file);
+    if (part == 0)
+        if (const VoxelFileFormat* format = voxel_file_format(path))
+            return read_voxel_file(*format, path, surface, values);
+    if (values.is_there()) file.refuse("has voxels and no values: leave out \"iso\" and \"label\"");
     if (start.starts_with("VOX ")) return read_vox_model(read_vox_file(path), surface, part);
     if (part != 0) file.refuse("is one model; only .vox files have parts");
     if (start == kModelStart) return read_model_voxels(path, surface);
     if (start != std::string(" BDV\0\0\0\0", 8))
-        file.refuse("is neither a .vxm, an OpenVDB nor a .vox file");
+        file.refuse("is of no format of voxels that voxelume reads");
     if (lists_primitives(surface))
         file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");
     return model_of(read_vdb_voxels(path, surface), surface, file);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of voxels (.vxm, OpenVDB, .vox) -> models that need no voxelizing.
+// Files of voxels (.vxm, OpenVDB, .vox and those of voxel_file_table.hpp) -> models that need no
+// voxelizing.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
+#include "runtime/scene/voxel_values.hpp"
 
 namespace voxelume {
 
@@ -15,9 +17,10 @@ namespace voxelume {
 /// A .vxm has to have the surface `surface`. From OpenVDB, cubes are the voxels of a fog whose
 /// value is above 0; the value, at most 1, is their coverage, and `Cd` their colour. A smooth
 /// surface is a level set. A .vox has cubes alone, and `part` says which of its models, as
-/// read_vox_voxels has it. Throws Error::input for a file that is missing, damaged or has another
-/// surface, and for a part of other files.
-VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface, int part = 0);
+/// read_vox_voxels has it. Of other formats see read_voxel_file. Throws Error::input for a file
+/// that is missing, damaged or has another surface, and for a part of other files.
+VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface, int part = 0,
+                            const VoxelValues& values = {});
 
 /// True if a file begins as those of MagicaVoxel do.
 bool is_vox_file(const std::filesystem::path& file);

@@ -56,7 +56,8 @@ struct ImportedFile {
 /// The contents of a triangle mesh.
 Contents mesh_contents(const ImportedFile& file);
 
-/// The contents of a file of voxels of one model: .vxm or OpenVDB.
+/// The contents of a file of voxels of one model: .vxm, OpenVDB, or a format of
+/// voxel_file_table.hpp.
 Contents voxel_contents(const ImportedFile& file);
 
 /// The contents of a glTF file.

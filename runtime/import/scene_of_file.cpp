@@ -10,6 +10,8 @@
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
 #include "runtime/import/studio.hpp"
+#include "runtime/io/arrays/array_files.hpp"
+#include "runtime/io/voxel_file_table.hpp"
 #include "runtime/scene/fitted.hpp"
 
 namespace voxelume {
@@ -34,11 +36,12 @@ constexpr std::array<ModelFormat, 8> kFormats = {{
     {".vox", vox_contents},
 }};
 
-const ModelFormat* format_of(const std::filesystem::path& file) {
+/// What reads a file of such a name; null for one that isn't read.
+Contents (*reader_of(const std::filesystem::path& file))(const ImportedFile&) {
     const std::string ending = ending_of(file);
     for (const ModelFormat& format : kFormats)
-        if (ending == format.ending) return &format;
-    return nullptr;
+        if (ending == format.ending) return format.read;
+    return voxel_format_named(file) != nullptr ? voxel_contents : nullptr;
 }
 
 /// A list of a scene's members or items, a line each; empty where there are none.
@@ -149,12 +152,12 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
 }  // namespace
 
 bool is_model_file(const std::filesystem::path& file) {
-    return format_of(file) != nullptr;
+    return reader_of(file) != nullptr && !is_volume_nrrd(file);
 }
 
 std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
                           const ImportOptions& options, AssetStore& assets) {
-    const Contents contents = format_of(file)->read({file, name, options, assets});
+    const Contents contents = reader_of(file)({file, name, options, assets});
     const Studio studio = make_studio(contents.box, contents.voxel_size, options);
     std::string text = "{\n  \"voxelume\": 1,\n";
     text +=

@@ -4,7 +4,9 @@
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
+#include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/voxel_file_table.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 
 namespace voxelume {
@@ -25,12 +27,49 @@ Surface surface_in(const std::filesystem::path& path) {
     return Surface::cubes;
 }
 
+/// What of an array is shown: its colours, its labels, or the surface that parts its values best.
+/// Returns the members of the scene's model that say so.
+std::string choose_values(const CellArray& array, Model& model) {
+    model.surface = Surface::cubes;
+    if (array.is_color()) return {};
+    const ArraySummary summary = summary_of_array(array);
+    if (summary.labels.size() > 1) {
+        model.values.each_label = true;
+        return ", \"label\": \"each\"";
+    }
+    if (summary.labels.size() == 1) return {};
+    model.values.iso = rounded(summary.threshold, 4);
+    model.surface = Surface::smooth;
+    return fmt::format(", \"iso\": {}", *model.values.iso);
+}
+
+std::string choose_surface(const std::filesystem::path& path, Model& model) {
+    const VoxelFileFormat* format = voxel_file_format(path);
+    if (format && format->array) return choose_values(format->array(path), model);
+    model.surface = format ? Surface::cubes : surface_in(path);
+    return {};
+}
+
+/// A point or a size after the quarter turn that brings Z up.
+glm::dvec3 z_up(const glm::dvec3& p) {
+    return {p.x, p.z, -p.y};
+}
+
+/// Turns all that is shown, so that Z is up. Returns the object's member that does it.
+const char* turn_up(Contents& contents) {
+    const Bounds box = {z_up(contents.box.min), z_up(contents.box.max)};
+    contents.box = {glm::min(box.min, box.max), glm::max(box.min, box.max)};
+    contents.voxel_size = glm::abs(z_up(contents.voxel_size));
+    contents.lattice = z_up(contents.lattice);
+    return ", \"turn\": [0, -90, 0]";
+}
+
 }  // namespace
 
 Contents voxel_contents(const ImportedFile& file) {
     Model model;
     model.voxels = file.path;
-    model.surface = surface_in(file.path);
+    const std::string chosen = choose_surface(file.path, model);
     const Bounds box = file.assets.box_of_file(model, true);
     const VoxelModel& voxels = file.assets.voxels(model);
     const std::string name = stem_of(file);
@@ -43,11 +82,12 @@ Contents voxel_contents(const ImportedFile& file) {
     contents.materials.push_back(
         fmt::format("{}: {{\"color\": {}}}", json_text(name),
                     voxels.colors.empty() ? "[0.72, 0.7, 0.68]" : "[1, 1, 1]"));
-    contents.models.push_back(fmt::format("{}: {{\"voxels\": {}, \"surface\": \"{}\"{}}}",
-                                          json_text(name), json_text(file.name),
-                                          kind_of(model.surface).name, fit_member(file.options)));
-    contents.objects.push_back(
-        fmt::format("{{\"name\": {0}, \"model\": {0}, \"material\": {0}}}", json_text(name)));
+    contents.models.push_back(fmt::format(
+        "{}: {{\"voxels\": {}, \"surface\": \"{}\"{}{}}}", json_text(name), json_text(file.name),
+        kind_of(model.surface).name, chosen, fit_member(file.options)));
+    const char* turn = file.options.up == UpAxis::z ? turn_up(contents) : "";
+    contents.objects.push_back(fmt::format(
+        "{{\"name\": {0}, \"model\": {0}, \"material\": {0}{1}}}", json_text(name), turn));
     return contents;
 }
 

@@ -17,6 +17,7 @@
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/surface.hpp"
 #include "runtime/scene/value_row.hpp"
+#include "runtime/scene/voxel_values.hpp"
 
 namespace voxelume {
 
@@ -45,8 +46,9 @@ struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
     std::filesystem::path voxels;  ///< such a file of voxels that are there already; may be empty
-    int part = 0;    ///< number of the model in a file of several, from 1 on; 0: all of the file
-    double fit = 0;  ///< metres that the file's longest side becomes; 0: as in the file
+    int part = 0;  ///< number of the model in a file of several, from 1 on; 0: all of the file
+    VoxelValues values;          ///< of a file of values: which of them are voxels
+    double fit = 0;              ///< metres that the file's longest side becomes; 0: as in the file
     FileMap object_from_file;    ///< of both files, and of the mesh that a morph ends as
     std::optional<Morph> morph;  ///< of a mesh
     std::vector<Solid> cuts;     ///< of a mesh that isn't exact: what is taken away from it

@@ -61,7 +61,8 @@ std::vector<KeyTable> make_tables() {
     tables.push_back(
         {"model:mesh", Keys{"mesh", "part", "fit", "unit", "sequence", "morph", "cut"} + lattice +
                            Keys{"shading", "crease_angle"}});
-    tables.push_back({"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface"}});
+    tables.push_back(
+        {"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface", "iso", "label"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
     add_kinds("model", {"shape"}, solid_types(), lattice, tables);

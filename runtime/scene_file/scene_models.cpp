@@ -82,10 +82,26 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
     }
 }
 
+/// Which values of a file of values are voxels.
+VoxelValues read_values(const SceneFields& fields) {
+    VoxelValues values;
+    fields.refuse_both("iso", "label");
+    if (const auto iso = fields.find("iso")) values.iso = iso->number({-1e300, 1e300});
+    if (const auto label = fields.find("label")) {
+        values.each_label = label->is(JsonType::string);
+        if (values.each_label)
+            label->choice(Names{"each"});
+        else
+            values.label = label->integer(-2'000'000'000, 2'000'000'000);
+    }
+    return values;
+}
+
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.voxels = first_file(fields, "voxels", context.search);
     model.part = fields.integer("part", 1, 1'000'000, 0);
+    model.values = read_values(fields);
     read_file_size(fields, model);
     read_surface(fields, Surface::cubes, model);
 }

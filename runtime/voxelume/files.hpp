@@ -31,14 +31,28 @@ struct VoxelizeReport {
     double voxel_size = 0;      ///< metres
     uint64_t bricks = 0;        ///< of 16 x 16 x 16 voxels, stored
     double seconds = 0;         ///< without writing files
+    /// What formats couldn't hold, as sentences.
+    std::vector<std::string> notes{};
 };
 
 /// Voxelizes a mesh (.obj, .ply, .stl) and writes its voxels to files: models (.vxm) that scenes
-/// name, or OpenVDB volumes (.vdb). Throws Error::input for a mesh that can't be read, Error::limit
+/// name, OpenVDB volumes (.vdb), or cubes for other programs (.vox, .kv6, .binvox, .npy, .nrrd).
+/// Throws Error::input for a mesh that can't be read, Error::limit
 /// for one that doesn't fit the device, Error::usage for another ending, Error::output.
 VoxelizeReport voxelize(const std::filesystem::path& mesh,
                         const std::vector<std::filesystem::path>& outputs, const Device& device,
                         const VoxelizeOptions& options = {});
+
+/// Whether `convert_voxels` writes the voxels of the one to the other, by their names and, where
+/// these don't decide, by what the first file begins with.
+bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Writes the voxels of a file to one of another format (.vox, .kv6, .binvox, .npy, .nrrd): those
+/// of a model file of cubes, or the cells of a volumetric image that are at least half opaque.
+/// Returns sentences on what the format couldn't hold. Throws Error::input, Error::limit,
+/// Error::output.
+std::vector<std::string> convert_voxels(const std::filesystem::path& from,
+                                        const std::filesystem::path& to);
 
 struct Facts;
 

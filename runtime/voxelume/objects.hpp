@@ -124,13 +124,18 @@ struct MeshFile {
     std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
 };
 
-/// Voxels that are there already: a .vxm of `voxelize`, an OpenVDB or a MagicaVoxel file.
+/// Voxels that are there already: a .vxm of `voxelize`, an OpenVDB or a MagicaVoxel file, an array
+/// of values or colours, or a file of another voxel editor or game.
 struct VoxelFile {
-    std::filesystem::path file{};  ///< .vxm, .vdb or .vox
+    std::filesystem::path file{};  ///< .vxm, .vdb, .vox, .npy, .nrrd, .nii and others
     std::optional<int> part{};     ///< number of the model in a .vox, from 1 on; without it all
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<double> fit{};         ///< as of a mesh
     std::optional<Unit> unit{};          ///< likewise
+    /// Of an array of values: voxels have this value or more, and a smooth surface runs there.
+    std::optional<double> iso{};
+    std::optional<int> label{};  ///< instead: voxels have this value
+    bool each_label = false;     ///< instead: all values but 0, each in a colour of its own
 };
 
 /// What a voxel shows of the surface in it.

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "kernels/shared/voxel.h"
+#include "runtime/base/huge_pages.hpp"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
@@ -81,7 +82,10 @@ class Cells {
         check_stored_bricks(count_, file_);
     }
 
-    void allocate() { cells_.assign(size_t(count_) * kVoxelsPerBrick, 0); }
+    void allocate() {
+        reserve_in_huge_pages(cells_, size_t(count_) * kVoxelsPerBrick);
+        cells_.resize(size_t(count_) * kVoxelsPerBrick);
+    }
 
     /// Sets the cells of a model's voxels to their palette indices.
     void add_voxels(const Standing& standing);
@@ -178,8 +182,8 @@ void Cells::fill(const std::array<uint32_t, 256>& colors, const std::array<uint3
         sources.push_back(numbers_[brick]);
     }
     model.occupancy.assign(sources.size() * kLeavesPerBrick, 0);
-    model.colors.reserve(sources.size() * kVoxelsPerBrick);
-    if (has_groups) model.attributes.reserve(sources.size() * kVoxelsPerBrick);
+    reserve_in_huge_pages(model.colors, sources.size() * kVoxelsPerBrick);
+    if (has_groups) reserve_in_huge_pages(model.attributes, sources.size() * kVoxelsPerBrick);
     std::array<uint32_t, kVoxelsPerBrick> words;
     const auto append = [&](const std::array<uint32_t, 256>& values, const uint8_t* cells,
                             std::vector<uint32_t>& to) {
@@ -197,8 +201,9 @@ void Cells::fill(const std::array<uint32_t, 256>& colors, const std::array<uint3
             uint32_t four = 0;
             std::memcpy(&four, cells + 4 * row, 4);
             if (four == 0) continue;
-            uint64_t bits = 0;
-            for (int i = 0; i < 4; ++i) bits |= uint64_t((four >> 8 * i & 255) != 0) << i;
+            // The top bit of each byte that isn't 0, then byte i's at bit i.
+            const uint32_t tops = (((four & 0x7F7F7F7Fu) + 0x7F7F7F7Fu) | four) >> 7 & 0x01010101u;
+            const uint64_t bits = tops * 0x10204080u >> 28;
             const size_t y = row >> 2 & 15, z = row >> 6;
             leaves[(row & 3) | (y >> 2) << 2 | (z >> 2) << 4] |= bits
                                                                  << ((y & 3) << 2 | (z & 3) << 4);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Voxels from a file of one format to one of another, for callers.
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/process.hpp"
+#include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/arrays/array_files.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/volume_file.hpp"
+#include "runtime/io/voxel_art/cube_list.hpp"
+#include "runtime/io/voxel_file_table.hpp"
+#include "runtime/voxelume/files.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Whether a file has voxels of a model, and no volumetric image.
+bool holds_model(const std::filesystem::path& path) {
+    const std::string ending = ending_of(path);
+    if (ending == ".vox" || ending == ".vxm" || ending == ".vdb") return true;
+    return voxel_format_named(path) != nullptr && !is_volume_nrrd(path);
+}
+
+/// The cells of a volumetric image that are at least half opaque.
+CubeList cubes_of_volume(const std::filesystem::path& path) {
+    const Volume volume = read_volume(path);
+    if (volume.frame.layout != VolumeLayout::lattice)
+        throw Error(ErrorKind::input, "{}: its voxels lie along rays, and not in a lattice",
+                    path.string());
+    CubeList cubes;
+    cubes.origin = volume.frame.origin;
+    cubes.voxel_edge = volume.frame.edge;
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        if (volume.opacities[i] < 0.5f) continue;
+        const glm::vec3& c = volume.colors[i];
+        cubes.cells.push_back(cell_of(volume.frame, volume.indices[i]));
+        cubes.colors.push_back(uint32_t(srgb_code(c.r)) | uint32_t(srgb_code(c.g)) << 8 |
+                               uint32_t(srgb_code(c.b)) << 16);
+    }
+    shrink(cubes);
+    return cubes;
+}
+
+WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const auto write = cube_writer(to);
+    if (!write)
+        throw Error(ErrorKind::usage,
+                    "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy or .nrrd",
+                    SourcePlace(to.string()));
+    return write(to, holds_model(from) ? cube_list(read_voxel_model(from, Surface::cubes))
+                                       : cubes_of_volume(from));
+}
+
+}  // namespace
+
+namespace v1 {
+
+bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (!cube_writer(to)) return false;
+    // Volumetric images are written as .kv6 and .nrrd by writers of their own.
+    const std::string ending = ending_of(to);
+    if (ending != ".kv6" && ending != ".nrrd") return true;
+    return holds_model(from) && ending_of(from) != ".vdb";
+}
+
+std::vector<std::string> convert_voxels(const std::filesystem::path& from,
+                                        const std::filesystem::path& to) {
+    return api::guarded([&] {
+        api::apply_process_options();
+        return write_voxels(from, to);
+    });
+}
+
+}  // namespace v1
+}  // namespace voxelume

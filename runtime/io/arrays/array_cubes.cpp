@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// array -> cubes. Slabs of 16 layers become rows of bits, and those the bits of bricks: the file is
+// read in its own order, whatever the model's is.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernels/shared/voxel.h"
+#include "runtime/io/arrays/array_stream.hpp"
+#include "runtime/io/arrays/array_voxels.hpp"
+#include "runtime/io/voxels/voxel_limits.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMargin = 4;  // voxels around a model, as around other models
+
+/// A cell's place along one axis of the model, by its number along the file's axis.
+struct AxisMap {
+    int axis = 0;    ///< of the model
+    int bricks = 0;  ///< of the file's cells, 16 each
+    int first = 0;   ///< the brick of the model in which cells 0..15 lie
+    int step = 1;    ///< from brick to brick
+    bool is_mirrored = false;
+};
+
+/// Lays the model's lattice so that 16 cells of the file are one brick along each axis.
+struct Layout {
+    GridFrame frame;
+    std::array<AxisMap, 3> maps;  ///< by the file's axes
+};
+
+Layout layout_of(const CellArray& array, const InputFile& file) {
+    Layout layout;
+    for (int axis = 0; axis < 3; ++axis) {
+        AxisMap& map = layout.maps[size_t(array.axis[axis])];
+        const int count = array.counts[array.axis[axis]];
+        map.axis = axis;
+        map.bricks = (count + kBrickSize - 1) / kBrickSize;
+        map.is_mirrored = array.sign[axis] < 0;
+        // A mirrored axis begins in the middle of a brick, where the file's cells end.
+        const int room = map.is_mirrored ? (kBrickSize - count % kBrickSize) % kBrickSize : 0;
+        const int before = room >= kMargin ? room : room + kBrickSize;
+        map.first = map.is_mirrored ? (before + count) / kBrickSize - 1 : before / kBrickSize;
+        map.step = map.is_mirrored ? -1 : 1;
+        layout.frame.size[axis] = before + count + kMargin;
+        layout.frame.origin[axis] = array.first_corner[axis] - before * array.voxel_edge[axis];
+    }
+    layout.frame.voxel_edge = array.voxel_edge;
+    check_voxel_span(glm::dvec3(layout.frame.size), file);
+    return layout;
+}
+
+/// Whether the values of a row are voxels, a byte each.
+template <class Value>
+void choose(const Value* row, size_t count, const CellArray& array, const VoxelValues& values,
+            uint8_t* chosen) {
+    const double slope = array.slope, intercept = array.intercept;
+    const bool is_plain = slope == 1 && intercept == 0;
+    if (values.label) {
+        const double label = *values.label;
+        for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept == label;
+    } else if (values.iso || (std::is_floating_point_v<Value> && !values.each_label)) {
+        const double iso = values.iso.value_or(0.5);
+        for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept >= iso;
+    } else if (is_plain) {
+        for (size_t i = 0; i < count; ++i) chosen[i] = row[i] != 0;
+    } else {
+        for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept != 0;
+    }
+}
+
+uint32_t code_of(double value, bool is_fraction) {
+    const double v = is_fraction ? 255 * value : value;
+    return uint32_t(std::lround(std::clamp(std::isnan(v) ? 0.0 : v, 0.0, 255.0)));
+}
+
+int label_of(double value) {
+    return int(std::clamp(value, -2147483648.0, 2147483647.0));
+}
+
+class ArrayCubes {
+  public:
+    ArrayCubes(const CellArray& array, const VoxelValues& values)
+        : array_(array),
+          values_(values),
+          file_(array.data),
+          layout_(layout_of(array, file_)),
+          bricks_(layout_.frame.bricks()),
+          rows_x_(size_t(layout_.maps[0].bricks)) {
+        if (array.is_color() && values.is_there())
+            file_.refuse("it holds colours, which have no \"iso\" and no \"label\"");
+        if (values.each_label && is_float(array.type))
+            file_.refuse("its values are no whole numbers, so they are no labels: give an \"iso\"");
+        const std::array<int, 3> stride = {1, bricks_.x, bricks_.x * bricks_.y};
+        for (size_t i = 0; i < 3; ++i) {
+            const AxisMap& map = layout_.maps[i];
+            brick_stride_[i] = stride[size_t(map.axis)] * map.step;
+            first_brick_ += stride[size_t(map.axis)] * map.first;
+            for (size_t cell = 0; cell < 16; ++cell) {
+                const size_t at = map.is_mirrored ? 15 - cell : cell;
+                leaf_[i][cell] = uint32_t(at / 4 << 2 * map.axis);
+                bit_[i][cell] = uint32_t(at % 4 << 2 * map.axis);
+                place_[i][cell] = uint32_t(at << 4 * map.axis);
+            }
+            if (i == 0) make_spread(map.axis);
+        }
+    }
+
+    VoxelModel read() {
+        read_bits();
+        if (found_.empty()) file_.refuse(fault());
+        VoxelModel model;
+        model.surface = Surface::cubes;
+        model.frame = layout_.frame;
+        model.slots.assign(voxelume::bricks_of(model.frame), kBrickOutside);
+        for (const Found& found : found_) model.slots[found.brick] = found.number;
+        for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+            if (model.slots[brick] == kBrickOutside) continue;
+            const uint64_t* bits = bits_.data() + size_t(model.slots[brick]) * kLeavesPerBrick;
+            model.slots[brick] = uint32_t(model.coordinates.size());
+            model.coordinates.push_back(uint32_t(brick));
+            model.occupancy.insert(model.occupancy.end(), bits, bits + kLeavesPerBrick);
+        }
+        if (array_.is_color() || values_.each_label) read_colors(model);
+        return model;
+    }
+
+  private:
+    struct Found {
+        uint32_t brick, number;
+    };
+
+    std::string fault() const {
+        if (array_.is_color()) return "has no voxel: all of its colours are black or clear";
+        if (values_.label) return fmt::format("no cell has the value {}", *values_.label);
+        if (values_.iso) return fmt::format("no cell has the value {} or more", *values_.iso);
+        return is_float(array_.type) ? "no cell has the value 0.5 or more: give an \"iso\""
+                                     : "has no voxel: all of its values are 0";
+    }
+
+    /// Where four bits of a row along the file's first axis go in a leaf.
+    void make_spread(int axis) {
+        for (size_t four = 0; four < 16; ++four)
+            for (size_t i = 0; i < 4; ++i) {
+                const size_t at = layout_.maps[0].is_mirrored ? 3 - i : i;
+                if (four >> i & 1) spread_[four] |= uint64_t{1} << (at << 2 * axis);
+            }
+    }
+
+    /// One bit a cell of a layer's row, 16 a word.
+    void pack_row(const uint8_t* chosen, uint16_t* words) const {
+        for (size_t word = 0; word < rows_x_; ++word) {
+            uint64_t low = 0, high = 0;
+            std::memcpy(&low, chosen + 16 * word, 8);
+            std::memcpy(&high, chosen + 16 * word + 8, 8);
+            // Bytes 0 or 1: the product brings byte i to bit 56 + i.
+            constexpr uint64_t kGather = 0x0102040810204080;
+            words[word] = uint16_t((low * kGather >> 56) | (high * kGather >> 56 << 8));
+        }
+    }
+
+    void choose_row(const ArraySlabs& slabs, size_t first, uint8_t* chosen) const {
+        const size_t count = size_t(array_.counts.x), channels = size_t(array_.channels);
+        with_type(array_.type, slabs.values(), [&](const auto* values) {
+            if (!array_.is_color()) return choose(values + first, count, array_, values_, chosen);
+            for (size_t i = 0; i < count; ++i) {
+                // Of four channels the last one decides, of three any.
+                const size_t c_first = channels == 4 ? 3 : 0;
+                chosen[i] = 0;
+                for (size_t c = c_first; c < channels; ++c)
+                    chosen[i] |= channel(slabs, values, first + i, c) > 0;
+            }
+        });
+    }
+
+    template <class Value>
+    double channel(const ArraySlabs& slabs, const Value* values, size_t cell, size_t c) const {
+        return array_.is_planar ? double(reinterpret_cast<const Value*>(slabs.values(int(c)))[cell])
+                                : double(values[cell * size_t(array_.channels) + c]);
+    }
+
+    void read_bits() {
+        ArraySlabs slabs(array_, file_, kBrickSize);
+        const size_t width = size_t(array_.counts.x), height = size_t(array_.counts.y);
+        std::vector<uint8_t> chosen(16 * rows_x_);
+        std::vector<uint16_t> words(rows_x_ * height * kBrickSize);
+        for (int layers = slabs.next(); layers > 0; layers = slabs.next()) {
+            for (size_t row = 0; row < size_t(layers) * height; ++row) {
+                choose_row(slabs, row * width, chosen.data());
+                pack_row(chosen.data(), words.data() + row * rows_x_);
+            }
+            for (int y = 0; y < layout_.maps[1].bricks; ++y)
+                for (int x = 0; x < layout_.maps[0].bricks; ++x)
+                    add_brick(words, {x, y, slabs.first() / kBrickSize}, layers);
+        }
+    }
+
+    int number_of(const glm::ivec3& brick) const {
+        return first_brick_ + brick.x * brick_stride_[0] + brick.y * brick_stride_[1] +
+               brick.z * brick_stride_[2];
+    }
+
+    /// Adds the brick if one of its cells is chosen.
+    void add_brick(const std::vector<uint16_t>& words, const glm::ivec3& brick, int layers) {
+        const size_t height = size_t(array_.counts.y), y_first = size_t(brick.y) * kBrickSize,
+                     rows = std::min<size_t>(kBrickSize, height - y_first);
+        std::array<uint64_t, kLeavesPerBrick> leaves{};
+        bool is_empty = true;
+        for (size_t z = 0; z < size_t(layers); ++z)
+            for (size_t y = 0; y < rows; ++y) {
+                const uint32_t word = words[(z * height + y_first + y) * rows_x_ + size_t(brick.x)];
+                if (word == 0) continue;
+                is_empty = false;
+                const uint32_t leaf = leaf_[1][y] | leaf_[2][z], bit = bit_[1][y] + bit_[2][z];
+                for (size_t x = 0; x < 16; x += 4)
+                    leaves[leaf | leaf_[0][x]] |= spread_[word >> x & 15] << bit;
+            }
+        if (is_empty) return;
+        found_.push_back({uint32_t(number_of(brick)), uint32_t(found_.size())});
+        check_stored_bricks(found_.size(), file_);
+        bits_.insert(bits_.end(), leaves.begin(), leaves.end());
+    }
+
+    void read_colors(VoxelModel& model) {
+        model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFF);
+        ArraySlabs slabs(array_, file_, kBrickSize);
+        for (int layers = slabs.next(); layers > 0; layers = slabs.next())
+            for (int y = 0; y < layout_.maps[1].bricks; ++y)
+                for (int x = 0; x < layout_.maps[0].bricks; ++x) {
+                    const glm::ivec3 brick(x, y, slabs.first() / kBrickSize);
+                    const uint32_t slot = model.slots[size_t(number_of(brick))];
+                    if (slot == kBrickOutside) continue;
+                    color_brick(slabs, brick, layers, slot, model);
+                }
+    }
+
+    void color_brick(const ArraySlabs& slabs, const glm::ivec3& brick, int layers, uint32_t slot,
+                     VoxelModel& model) const {
+        const glm::ivec3 low = brick * kBrickSize, high = glm::min(low + kBrickSize, array_.counts);
+        const size_t width = size_t(array_.counts.x), height = size_t(array_.counts.y);
+        uint32_t* colors = model.colors.data() + size_t(slot) * kVoxelsPerBrick;
+        with_type(array_.type, slabs.values(), [&](const auto* values) {
+            for (int z = 0; z < layers; ++z)
+                for (int y = low.y; y < high.y; ++y)
+                    for (int x = low.x; x < high.x; ++x) {
+                        const size_t cell = (size_t(z) * height + size_t(y)) * width + size_t(x);
+                        const uint32_t place = place_[2][size_t(z)] | place_[1][size_t(y - low.y)] |
+                                               place_[0][size_t(x - low.x)];
+                        const uint32_t color = color_of(slabs, values, cell);
+                        // Where there is no voxel, no colour is to be seen.
+                        if (color >> VXL_TRANSPARENCY_SHIFT == 255) continue;
+                        colors[place] = color;
+                        model.transparent |= color >> VXL_TRANSPARENCY_SHIFT != 0;
+                    }
+        });
+    }
+
+    template <class Value>
+    uint32_t color_of(const ArraySlabs& slabs, const Value* values, size_t cell) const {
+        if (!array_.is_color())
+            return label_color(label_of(array_.slope * double(values[cell]) + array_.intercept));
+        constexpr bool kFraction = std::is_floating_point_v<Value>;
+        const double full = array_.type == CellType::u16 ? 255.0 / 65535 : 1;
+        uint32_t color = 0;
+        for (size_t c = 0; c < 3; ++c)
+            color |= code_of(full * channel(slabs, values, cell, c), kFraction) << 8 * c;
+        if (array_.channels == 4) {
+            const double alpha = channel(slabs, values, cell, 3);
+            // The faintest voxel is still one.
+            const uint32_t clear = 255 - code_of(full * alpha, kFraction);
+            color |= (alpha > 0 ? std::min(clear, 254u) : 255u) << VXL_TRANSPARENCY_SHIFT;
+        }
+        return color;
+    }
+
+    const CellArray& array_;
+    const VoxelValues& values_;
+    const InputFile file_;
+    Layout layout_;
+    glm::ivec3 bricks_;
+    size_t rows_x_;  ///< words of a row of cells
+    int first_brick_ = 0;
+    std::array<int, 3> brick_stride_{};
+    // By the file's axis and the cell in a brick.
+    std::array<std::array<uint32_t, 16>, 3> leaf_{}, bit_{}, place_{};
+    std::array<uint64_t, 16> spread_{};
+    std::vector<Found> found_;
+    std::vector<uint64_t> bits_;
+};
+
+}  // namespace
+
+VoxelModel cubes_of_array(const CellArray& array, const VoxelValues& values) {
+    return ArrayCubes(array, values).read();
+}
+
+}  // namespace voxelume

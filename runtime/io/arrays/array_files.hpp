@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Headers of files of arrays -> what they say of the array.
+#pragma once
+
+#include <filesystem>
+
+#include "runtime/io/arrays/cell_array.hpp"
+
+namespace voxelume {
+
+/// A numpy array, .npy of version 1 to 3: of shape (x, y, z), or (x, y, z, 3 or 4) with colours. A
+/// cell is 1 m long and the first one begins at the origin.
+CellArray read_npy_header(const std::filesystem::path& path);
+
+/// A NRRD file (.nrrd, .nhdr) with three axes of space, raw or gzip. Spaces of patients are turned
+/// so that the head is up and the face in front; without units their lengths are millimetres.
+CellArray read_nrrd_header(const std::filesystem::path& path);
+
+/// True for a NRRD file with a volumetric image of ours, which is shown as such.
+bool is_volume_nrrd(const std::filesystem::path& path);
+
+/// A NIfTI 1 or 2 file (.nii, .nii.gz), turned likewise. Of several volumes it is the first.
+CellArray read_nifti_header(const std::filesystem::path& path);
+
+// All of them throw Error::input for a file that is damaged, truncated, or of a kind that isn't
+// read.
+
+}  // namespace voxelume

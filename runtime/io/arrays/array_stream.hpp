@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The values of an array, a slab of cells at a time, from plain or compressed files.
+#pragma once
+
+#include <zlib.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "runtime/base/input_file.hpp"
+#include "runtime/io/arrays/cell_array.hpp"
+
+namespace voxelume {
+
+/// Bytes of a file from a position on, through gzip where it is compressed. Never takes more memory
+/// than a block and what it is asked for.
+class ByteStream {
+  public:
+    ByteStream(const InputFile& file, uint64_t start, bool is_gzip);
+    ~ByteStream();
+    ByteStream(const ByteStream&) = delete;
+    ByteStream& operator=(const ByteStream&) = delete;
+
+    /// Fills `data`. Throws Error::input where the file ends before that, or is damaged.
+    void read(void* data, size_t size);
+    /// As many bytes as there are, `size` at most; returns how many.
+    size_t read_some(void* data, size_t size);
+    void skip(uint64_t count);
+
+  private:
+    bool inflate_block();
+
+    const InputFile& file_;
+    uint64_t position_;
+    bool is_gzip_, has_ended_ = false;
+    z_stream stream_{};
+    std::vector<Bytef> block_;
+};
+
+/// Layers of an array along the file's last axis.
+class ArraySlabs {
+  public:
+    /// The array must have passed check_array().
+    ArraySlabs(const CellArray& array, const InputFile& data, int thickness);
+
+    /// Reads the next slab. Returns how many layers it has; 0 after the last.
+    int next();
+    int first() const { return first_; }  ///< number of its first layer
+    /// The bytes of channel `c`, of cells in the file's order; of interleaved channels, all of them
+    /// together.
+    const std::byte* values(int c = 0) const { return bytes_.data() + size_t(c) * plane_; }
+
+  private:
+    const CellArray& array_;
+    const InputFile& file_;
+    ByteStream stream_;
+    int thickness_;
+    int first_ = 0, layers_ = 0;
+    size_t plane_ = 0;  ///< bytes of a slab, or of one of its channels where they are apart
+    std::vector<std::byte> bytes_;
+};
+
+/// Calls `use` with the first value as a pointer of its type.
+template <class Use>
+void with_type(CellType type, const std::byte* values, const Use& use) {
+    const auto as = [&](auto* pointer) { use(reinterpret_cast<decltype(pointer)>(values)); };
+    switch (type) {
+        case CellType::boolean:
+        case CellType::u8:
+            return as(static_cast<const uint8_t*>(nullptr));
+        case CellType::i8:
+            return as(static_cast<const int8_t*>(nullptr));
+        case CellType::u16:
+            return as(static_cast<const uint16_t*>(nullptr));
+        case CellType::i16:
+            return as(static_cast<const int16_t*>(nullptr));
+        case CellType::u32:
+            return as(static_cast<const uint32_t*>(nullptr));
+        case CellType::i32:
+            return as(static_cast<const int32_t*>(nullptr));
+        case CellType::u64:
+            return as(static_cast<const uint64_t*>(nullptr));
+        case CellType::i64:
+            return as(static_cast<const int64_t*>(nullptr));
+        case CellType::f32:
+            return as(static_cast<const float*>(nullptr));
+        case CellType::f64:
+            return as(static_cast<const double*>(nullptr));
+    }
+}
+
+}  // namespace voxelume

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the values of an array come to.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/io/arrays/array_stream.hpp"
+#include "runtime/io/arrays/array_voxels.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr size_t kMaxLabels = 64;
+constexpr size_t kBins = 1024;
+
+/// Calls `use` with each value.
+template <class Use>
+void for_each_value(const CellArray& array, const Use& use) {
+    const InputFile file(array.data);
+    ArraySlabs slabs(array, file, 1);
+    const size_t layer = size_t(array.counts.x) * size_t(array.counts.y);
+    while (slabs.next() > 0)
+        with_type(array.type, slabs.values(), [&](const auto* values) {
+            for (size_t i = 0; i < layer; ++i)
+                use(array.slope * double(values[i]) + array.intercept);
+        });
+}
+
+/// Where a cut, in bins, leaves two sets with the largest variance between them.
+double otsu_bin(const std::array<uint64_t, kBins>& bins) {
+    double total = 0, sum = 0;
+    for (size_t i = 0; i < kBins; ++i) {
+        total += double(bins[i]);
+        sum += double(i) * double(bins[i]);
+    }
+    double below = 0, sum_below = 0, best = -1;
+    size_t first = 0, last = 0;
+    for (size_t i = 0; i + 1 < kBins; ++i) {
+        below += double(bins[i]);
+        sum_below += double(i) * double(bins[i]);
+        if (below == 0 || below == total) continue;
+        const double difference = sum_below / below - (sum - sum_below) / (total - below);
+        const double variance = below * (total - below) * difference * difference;
+        if (variance > best) first = i;
+        if (variance >= best) {
+            best = variance;
+            last = i;
+        }
+    }
+    // Between two sets that are far apart, the middle of the gap.
+    return double(first + last) / 2 + 1;
+}
+
+}  // namespace
+
+ArraySummary summary_of_array(const CellArray& array) {
+    if (array.is_color()) InputFile(array.data).refuse("it holds colours, which have no values");
+    ArraySummary summary;
+    summary.min = INFINITY;
+    summary.max = -INFINITY;
+    bool has_labels = true;
+    int last = 0;
+    uint64_t run = 0;  // of cells with the value `last`, not yet counted
+    const auto count_run = [&] {
+        if (run > 0 && last != 0) summary.labels[last] += run;
+        run = 0;
+    };
+    for_each_value(array, [&](double v) {
+        if (!std::isfinite(v)) {
+            ++summary.not_finite;
+            return;
+        }
+        summary.min = std::min(summary.min, v);
+        summary.max = std::max(summary.max, v);
+        summary.zeros += v == 0;
+        if (!has_labels) return;
+        if (run > 0 && v == last) {
+            ++run;
+            return;
+        }
+        count_run();
+        if (v != std::floor(v) || std::abs(v) > 1e9 || summary.labels.size() > kMaxLabels) {
+            has_labels = false;
+            return;
+        }
+        last = int(v);
+        run = 1;
+    });
+    count_run();
+    if (!has_labels || summary.labels.size() > kMaxLabels) summary.labels.clear();
+    if (!(summary.min < summary.max)) {
+        summary.threshold = summary.min;
+        return summary;
+    }
+    std::array<uint64_t, kBins> bins{};
+    const double width = (summary.max - summary.min) / kBins;
+    for_each_value(array, [&](double v) {
+        if (std::isfinite(v)) ++bins[std::min(size_t((v - summary.min) / width), kBins - 1)];
+    });
+    summary.threshold = summary.min + otsu_bin(bins) * width;
+    return summary;
+}
+
+uint32_t label_color(int label) {
+    // Hues by the golden angle, so that neighbours differ; two lightnesses in turn.
+    const double hue = std::fmod(std::abs(double(label)) * 0.381966 * 6, 6.0);
+    const double low = label % 2 == 0 ? 0.25 : 0.45, high = 0.92;
+    uint32_t color = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double at = std::fmod(hue + 4.0 * c + 6, 6.0);
+        const double part = std::clamp(2 - std::abs(at - 3), 0.0, 1.0);
+        const double share = 1 - part;
+        color |= uint32_t(std::lround(255 * (low + (high - low) * share))) << 8 * c;
+    }
+    return color;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays of values or colours -> models: cubes, or the surface on which the values are equal.
+#pragma once
+
+#include <map>
+
+#include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/arrays/cell_array.hpp"
+#include "runtime/scene/voxel_values.hpp"
+
+namespace voxelume {
+
+/// The cells that have such values as cubes. Of colours, they are those that aren't black, or with
+/// an opacity those that aren't clear. Throws Error::input for a file that is truncated or damaged,
+/// for arrays without such cells, and for `values` that colours don't have.
+VoxelModel cubes_of_array(const CellArray& array, const VoxelValues& values);
+
+/// The surface between the cells that have such values and the others. The field is linear in the
+/// array's values: half-Taylor interpolation between the middles of cells is of third order.
+/// Beyond the array's end its values are mirrored, so that the surface is closed there. Throws
+/// Error::input likewise, and for colours and arrays of more than 2^30 cells.
+VoxelModel surface_of_array(const CellArray& array, const VoxelValues& values);
+
+/// What the values of an array come to.
+struct ArraySummary {
+    double min = 0, max = 0;
+    uint64_t not_finite = 0;
+    uint64_t zeros = 0;
+    /// The value that best parts the values in two, after Otsu 1979.
+    double threshold = 0;
+    /// Where all values are whole numbers and few: how many cells have each but 0.
+    std::map<int, uint64_t> labels;
+};
+
+/// Reads all values once. Throws Error::input for a file that is truncated or damaged, and for
+/// arrays of colours.
+ArraySummary summary_of_array(const CellArray& array);
+
+/// The colour of a label, 0xBBGGRR, the same in all files.
+uint32_t label_color(int label);
+
+}  // namespace voxelume

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// The header of a NIfTI file.
+//
+// 348 bytes (version 1) or 540 (version 2) with numbers at fixed places, in the order of the
+// machine that wrote them: the first number is the header's size, which tells the order. X goes to
+// the patient's right, Y to the front, Z to the head.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "runtime/io/arrays/array_files.hpp"
+#include "runtime/io/arrays/array_stream.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The places of the two versions' numbers.
+struct Places {
+    size_t header, dim, datatype, pixdim, vox_offset, slope, intercept, qform, sform, quatern,
+        offset, srow, units;
+    bool is_wide;  ///< 64-bit sizes, doubles and 32-bit codes
+};
+
+constexpr Places kVersion1 = {348, 40, 70, 76, 108, 112, 116, 252, 254, 256, 268, 280, 123, false};
+constexpr Places kVersion2 = {540, 16, 12, 104, 168, 176, 184, 344, 348, 352, 376, 400, 500, true};
+
+class NiftiHeader {
+  public:
+    NiftiHeader(const InputFile& file, bool is_gzip) {
+        ByteStream stream(file, 0, is_gzip);
+        const size_t count = stream.read_some(bytes_.data(), bytes_.size());
+        if (count < kVersion1.header) file.refuse("too short for a NIfTI file");
+        places_ = &kVersion1;
+        if (find_order(kVersion2) && count >= kVersion2.header)
+            places_ = &kVersion2;
+        else if (!find_order(kVersion1))
+            file.refuse("not a NIfTI file");
+        const char* magic =
+            reinterpret_cast<const char*>(bytes_.data()) + (places_->is_wide ? 4 : 344);
+        if (std::memcmp(magic, "ni1", 3) == 0 || std::memcmp(magic, "ni2", 3) == 0)
+            file.refuse("its data are in another file (.img); join them to one .nii");
+        if (std::memcmp(magic, "n+1", 3) != 0 && std::memcmp(magic, "n+2", 3) != 0)
+            file.refuse("not a NIfTI file");
+    }
+
+    bool is_swapped() const { return is_swapped_; }
+    const Places& places() const { return *places_; }
+
+    template <class Number>
+    Number at(size_t place) const {
+        std::array<unsigned char, sizeof(Number)> bytes;
+        std::copy_n(bytes_.begin() + long(place), sizeof(Number), bytes.begin());
+        if (is_swapped_) std::ranges::reverse(bytes);
+        Number number;
+        std::memcpy(&number, bytes.data(), sizeof number);
+        return number;
+    }
+    /// A float of version 1, a double of version 2: the `i`-th from a place on.
+    double real(size_t place, size_t i = 0) const {
+        const double v = places_->is_wide ? at<double>(place + 8 * i) : at<float>(place + 4 * i);
+        return std::isfinite(v) ? v : 0;
+    }
+    int64_t dim(size_t i) const {
+        return places_->is_wide ? at<int64_t>(places_->dim + 8 * i)
+                                : at<int16_t>(places_->dim + 2 * i);
+    }
+    int code(size_t place) const {
+        return places_->is_wide ? at<int32_t>(place) : at<int16_t>(place);
+    }
+    int units() const { return places_->is_wide ? at<int32_t>(places_->units) : bytes_[123]; }
+
+  private:
+    bool find_order(const Places& places) {
+        for (const bool is_swapped : {false, true}) {
+            is_swapped_ = is_swapped;
+            if (at<int32_t>(0) == int32_t(places.header)) return true;
+        }
+        return false;
+    }
+
+    std::array<unsigned char, 540> bytes_{};
+    const Places* places_ = nullptr;
+    bool is_swapped_ = false;
+};
+
+void set_type(const NiftiHeader& header, const InputFile& file, CellArray& array) {
+    struct Row {
+        int code;
+        CellType type;
+        int channels;
+    };
+    constexpr std::array<Row, 12> kRows = {{{2, CellType::u8, 1},
+                                            {4, CellType::i16, 1},
+                                            {8, CellType::i32, 1},
+                                            {16, CellType::f32, 1},
+                                            {64, CellType::f64, 1},
+                                            {128, CellType::u8, 3},
+                                            {256, CellType::i8, 1},
+                                            {512, CellType::u16, 1},
+                                            {768, CellType::u32, 1},
+                                            {1024, CellType::i64, 1},
+                                            {1280, CellType::u64, 1},
+                                            {2304, CellType::u8, 4}}};
+    const int code = header.at<int16_t>(header.places().datatype);
+    for (const Row& row : kRows) {
+        if (row.code != code) continue;
+        array.type = row.type;
+        array.channels = row.channels;
+        return;
+    }
+    file.refuse(
+        fmt::format("its values have the NIfTI data type {}, which isn't read: integers, "
+                    "float32, float64 and RGB are",
+                    code));
+}
+
+/// The map from a cell's indices to its middle, in the file's units and axes.
+glm::dmat4 file_from_index(const NiftiHeader& header, CellArray& array) {
+    const Places& places = header.places();
+    glm::dmat4 map(1);
+    if (header.code(places.sform) > 0) {
+        const size_t row_bytes = places.is_wide ? 32 : 16;
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 4; ++column)
+                map[int(column)][int(row)] = header.real(places.srow + row * row_bytes, column);
+        return map;
+    }
+    glm::dvec3 spacing;
+    for (size_t i = 0; i < 3; ++i) {
+        const double s = std::abs(header.real(places.pixdim, i + 1));
+        spacing[int(i)] = s > 0 ? s : 1;
+        if (s == 0) array.notes.emplace_back("assumed: spacing 1 where the file has 0");
+    }
+    if (header.code(places.qform) > 0) {
+        glm::dvec3 turn(header.real(places.quatern), header.real(places.quatern, 1),
+                        header.real(places.quatern, 2));
+        // Half a turn has no real part: what rounding leaves of it would turn the axes.
+        const double square = 1 - glm::dot(turn, turn);
+        if (square < 1e-7) turn = glm::normalize(turn);
+        const double a = square < 1e-7 ? 0 : std::sqrt(square), b = turn.x, c = turn.y, d = turn.z;
+        const double flip = header.real(places.pixdim) < 0 ? -1 : 1;
+        map[0] = {a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c), 0};
+        map[1] = {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b), 0};
+        map[2] =
+            glm::dvec4(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b, 0) *
+            flip;
+        for (size_t i = 0; i < 3; ++i) map[3][int(i)] = header.real(places.offset, i);
+    } else {
+        array.notes.emplace_back(
+            "assumed: X right, Y front, Z up, for the file has no orientation");
+    }
+    for (int i = 0; i < 3; ++i) map[i] *= spacing[i];
+    return map;
+}
+
+double metres_per_unit(const NiftiHeader& header, CellArray& array) {
+    switch (header.units() & 7) {
+        case 1:
+            return 1;
+        case 2:
+            return 1e-3;
+        case 3:
+            return 1e-6;
+        default:
+            array.notes.emplace_back("assumed: lengths in millimetres");
+            return 1e-3;
+    }
+}
+
+}  // namespace
+
+CellArray read_nifti_header(const std::filesystem::path& path) {
+    const InputFile file(path);
+    std::array<unsigned char, 2> mark{};
+    if (file.size() < 2) file.refuse("too short for a NIfTI file");
+    file.read(0, mark.data(), 2);
+    CellArray array;
+    array.data = path;
+    array.is_gzip = mark[0] == 0x1f && mark[1] == 0x8b;
+    const NiftiHeader header(file, array.is_gzip);
+    const Places& places = header.places();
+    array.is_swapped = header.is_swapped();
+    set_type(header, file, array);
+    const int64_t axes = header.dim(0);
+    if (axes < 3 || axes > 7)
+        file.refuse(fmt::format("it has {} axes; at least 3 are needed", axes));
+    int64_t volumes = 1;
+    for (size_t i = 1; i <= size_t(axes); ++i) {
+        const int64_t n = header.dim(i);
+        if (n < 1 || n > 1 << 20) file.refuse(fmt::format("its axis {} has {} cells", i, n));
+        if (i <= 3)
+            array.counts[int(i) - 1] = int(n);
+        else
+            volumes = std::min<int64_t>(volumes * n, 1 << 20);
+    }
+    if (volumes > 1) array.notes.push_back(fmt::format("the first of {} volumes", volumes));
+    const double offset = places.is_wide ? double(header.at<int64_t>(places.vox_offset))
+                                         : header.real(places.vox_offset);
+    if (!(offset >= 0 && offset <= 1e15)) file.refuse("its data begin nowhere; it is damaged");
+    (array.is_gzip ? array.skip : array.start) =
+        std::max(uint64_t(offset), uint64_t(places.header));
+    const double slope = header.real(places.slope);
+    if (slope != 0 && !array.is_color()) {
+        array.slope = slope;
+        array.intercept = header.real(places.intercept);
+    }
+    const double metres = metres_per_unit(header, array);
+    glm::dmat4 map = file_from_index(header, array);
+    for (int i = 0; i < 4; ++i) {
+        const glm::dvec4 v = map[i];
+        // Left, up and front are X, Y and Z here.
+        map[i] = {-v.x * metres, v.z * metres, v.y * metres, i == 3};
+    }
+    array.orientation = "the head is up, the face in front";
+    check_array(array, file);
+    set_place(map, file, array);
+    return array;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/voxel_art/cube_list.hpp"
+
+#include <array>
+#include <bit>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr size_t kMaxCubes = size_t{1} << 28;
+
+glm::ivec3 first_cell(const VoxelModel& model, size_t brick) {
+    const glm::ivec3 bricks = model.frame.bricks();
+    const int i = int(brick);
+    return kBrickSize * glm::ivec3(i % bricks.x, i / bricks.x % bricks.y, i / bricks.x / bricks.y);
+}
+
+void add_stored(const VoxelModel& model, size_t slot, CubeList& cubes) {
+    const glm::ivec3 first = first_cell(model, model.coordinates[slot]);
+    for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf)
+        for (uint64_t bits = model.occupancy[slot * kLeavesPerBrick + leaf]; bits != 0;
+             bits &= bits - 1) {
+            const int bit = std::countr_zero(bits), l = int(leaf);
+            const glm::ivec3 in = kLeafSize * glm::ivec3(l & 3, l >> 2 & 3, l >> 4) +
+                                  glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4);
+            cubes.cells.push_back(first + in);
+            if (!model.colors.empty())
+                cubes.colors.push_back(
+                    model.colors[slot * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8)]);
+        }
+}
+
+void add_full(const VoxelModel& model, size_t brick, CubeList& cubes) {
+    const glm::ivec3 first = first_cell(model, brick);
+    for (int i = 0; i < int(kVoxelsPerBrick); ++i)
+        cubes.cells.push_back(first + glm::ivec3(i & 15, i >> 4 & 15, i >> 8));
+    if (!model.colors.empty()) cubes.colors.resize(cubes.cells.size(), 0xFFFFFF);
+}
+
+}  // namespace
+
+CubeList cube_list(const VoxelModel& model) {
+    CubeList cubes;
+    size_t count = 0;
+    for (const uint64_t bits : model.occupancy) count += size_t(std::popcount(bits));
+    for (const uint32_t slot : model.slots) count += slot == kBrickInside ? kVoxelsPerBrick : 0;
+    if (count > kMaxCubes)
+        throw Error(ErrorKind::limit, "there are {} voxels; at most {} can be written to this file",
+                    count, kMaxCubes);
+    cubes.cells.reserve(count);
+    cubes.origin = model.frame.origin;
+    cubes.voxel_edge = model.frame.voxel_edge;
+    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+        if (model.slots[brick] == kBrickInside) add_full(model, brick, cubes);
+        if (model.slots[brick] < kBrickInside) add_stored(model, model.slots[brick], cubes);
+    }
+    shrink(cubes);
+    return cubes;
+}
+
+void shrink(CubeList& cubes) {
+    if (cubes.cells.empty()) throw Error(ErrorKind::input, "there are no voxels to write");
+    glm::ivec3 low = cubes.cells[0], high = cubes.cells[0];
+    for (const glm::ivec3& cell : cubes.cells) {
+        low = glm::min(low, cell);
+        high = glm::max(high, cell);
+    }
+    for (glm::ivec3& cell : cubes.cells) cell -= low;
+    cubes.origin += cubes.voxel_edge * glm::dvec3(low);
+    cubes.size = high - low + 1;
+}
+
+WriterNotes (*cube_writer(const std::filesystem::path& path))(const std::filesystem::path&,
+                                                              const CubeList&) {
+    struct Row {
+        std::string_view ending;
+        WriterNotes (*write)(const std::filesystem::path&, const CubeList&);
+    };
+    constexpr std::array<Row, 5> kRows = {{{".vox", write_vox},
+                                           {".kv6", write_kv6},
+                                           {".binvox", write_binvox},
+                                           {".npy", write_npy},
+                                           {".nrrd", write_nrrd}}};
+    const std::string ending = ending_of(path);
+    for (const Row& row : kRows)
+        if (ending == row.ending) return row.write;
+    return nullptr;
+}
+
+}  // namespace voxelume

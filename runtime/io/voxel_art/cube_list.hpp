@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The voxels of cubes, one after the other, on their way to files of other programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/geometry/voxel_model.hpp"
+
+namespace voxelume {
+
+/// Voxels in the smallest box that has all of them.
+struct CubeList {
+    glm::ivec3 size{0};             ///< of the box, voxels
+    glm::dvec3 origin{0};           ///< its smallest corner, metres
+    glm::dvec3 voxel_edge{1};       ///< metres
+    std::vector<glm::ivec3> cells;  ///< from (0, 0, 0) to size - 1, Y up, in any order
+    std::vector<uint32_t> colors;   ///< 0xTTBBGGRR, transparency on top; empty: all are white
+};
+
+/// The voxels of cubes, with those of bricks that are full. Throws Error::limit for more than 2^28.
+CubeList cube_list(const VoxelModel& model);
+
+/// Moves the voxels to the smallest box that has them all.
+void shrink(CubeList& cubes);
+
+// What the writers return are sentences on what the format couldn't hold. Each writes the file
+// whole or not at all, equal bytes for equal voxels, and throws Error::output, or Error::limit for
+// more voxels than the format or this program can write.
+using WriterNotes = std::vector<std::string>;
+
+/// MagicaVoxel's .vox: a model of 256 voxels along each axis at most, or several that stand side by
+/// side. More than 255 colours become 255 by median cut.
+WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes);
+
+/// KV6, which has the voxels of surfaces alone.
+WriterNotes write_kv6(const std::filesystem::path& path, const CubeList& cubes);
+
+/// binvox, without colours: a cube of cells.
+WriterNotes write_binvox(const std::filesystem::path& path, const CubeList& cubes);
+
+/// A numpy array of uint8: (x, y, z) with 0 and 1, or (x, y, z, 4) with colours.
+WriterNotes write_npy(const std::filesystem::path& path, const CubeList& cubes);
+
+/// NRRD, gzip: the same values as of a numpy array, x fastest, with the place in metres.
+WriterNotes write_nrrd(const std::filesystem::path& path, const CubeList& cubes);
+
+/// The writer for a file's name; null where the ending is of none.
+WriterNotes (*cube_writer(const std::filesystem::path& path))(const std::filesystem::path&,
+                                                              const CubeList&);
+
+}  // namespace voxelume

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goxel's .gox: "GOX ", a version, then chunks: four letters, a length, the content and a checksum.
+// BL16 is a block of 16 x 16 x 16 voxels as a PNG picture of 64 x 64 pixels, x fastest, then y.
+// LAYR is a layer: blocks by their numbers and places, then entries of a key and a value. Z is up.
+#include <map>
+
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/voxel_art/byte_reader.hpp"
+#include "runtime/io/voxel_art/cell_bricks.hpp"
+#include "runtime/io/voxel_art/voxel_art.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr size_t kBlockPixels = 64 * 64;
+constexpr int kFarthestBlock = 1'000'000;  // voxels
+
+struct GoxBlock {
+    size_t picture;  ///< number of the chunk BL16
+    glm::ivec3 first;
+};
+
+class GoxReader {
+  public:
+    explicit GoxReader(const std::filesystem::path& path)
+        : path_(path), file_(path), bytes_(read_all(file_)) {}
+
+    VoxelArt read() {
+        read_chunks();
+        glm::ivec3 low(1 << 30), high(-(1 << 30));
+        for (const GoxBlock& block : blocks_) {
+            low = glm::min(low, block.first);
+            high = glm::max(high, block.first + 16);
+        }
+        if (blocks_.empty()) file_.refuse("has no voxels to show");
+        // Z up becomes Y up.
+        CellBricks bricks({low.x, low.z, -high.y}, {high.x, high.z, -low.y}, file_);
+        for (const GoxBlock& block : blocks_) set_block(block, bricks);
+        VoxelArt art{bricks.model(), high - low, {}};
+        if (hidden_ > 0) art.notes.push_back(fmt::format("{} hidden layers, not shown", hidden_));
+        if (layers_ > 1) art.notes.push_back(fmt::format("{} layers, shown as one", layers_));
+        for (const auto& [letters, count] : others_)
+            art.notes.push_back(fmt::format("{} chunks {}, not shown", count, letters));
+        return art;
+    }
+
+  private:
+    void read_chunks() {
+        ByteReader reader(bytes_, file_);
+        if (reader.take_bytes(4) != "GOX ") file_.refuse("not a Goxel file");
+        const auto version = reader.take<int32_t>();
+        if (version < 1 || version > 12)
+            file_.refuse(fmt::format("a Goxel file of version {}, which isn't read", version));
+        while (reader.left() > 0) {
+            const std::string_view letters = reader.take_bytes(4);
+            const std::string_view content = reader.take_bytes(reader.take<uint32_t>());
+            reader.take<uint32_t>();  // the checksum, which Goxel writes as 0
+            if (letters == "BL16") pictures_.push_back(content);
+            if (letters == "LAYR") read_layer(ByteReader(content, file_));
+            if (letters == "CAMR" || letters == "LIGH") ++others_[std::string(letters)];
+        }
+    }
+
+    void read_layer(ByteReader reader) {
+        const auto count = reader.take<uint32_t>();
+        const size_t before = blocks_.size();
+        for (uint32_t i = 0; i < count; ++i) {
+            const auto numbers = reader.take<std::array<int32_t, 5>>();
+            if (numbers[0] < 0 || size_t(numbers[0]) >= pictures_.size())
+                file_.refuse("a layer has a block that the file lacks");
+            const glm::ivec3 first(numbers[1], numbers[2], numbers[3]);
+            for (int axis = 0; axis < 3; ++axis)
+                if (first[axis] < -kFarthestBlock || first[axis] > kFarthestBlock)
+                    file_.refuse("a block is too far away");
+            blocks_.push_back({size_t(numbers[0]), first});
+        }
+        ++layers_;
+        if (is_visible(reader)) return;
+        ++hidden_;
+        blocks_.resize(before);
+    }
+
+    static bool is_visible(ByteReader& reader) {
+        while (reader.left() >= 4) {
+            const std::string_view key = reader.take_bytes(reader.take<uint32_t>());
+            if (key.empty()) break;
+            const std::string_view value = reader.take_bytes(reader.take<uint32_t>());
+            if (key == "visible" && !value.empty() && value[0] == 0) return false;
+        }
+        return true;
+    }
+
+    void set_block(const GoxBlock& block, CellBricks& bricks) {
+        const std::string_view png = pictures_[block.picture];
+        const Picture picture = parse_png(
+            {reinterpret_cast<const uint8_t*>(png.data()), png.size()}, path_, kBlockPixels);
+        if (picture.pixels.size() != kBlockPixels)
+            file_.refuse("a block isn't a picture of 64 x 64 pixels");
+        for (size_t i = 0; i < kBlockPixels; ++i) {
+            const auto& [red, green, blue, alpha] = picture.pixels[i];
+            if (alpha == 0) continue;
+            const glm::ivec3 v =
+                block.first + glm::ivec3(int(i & 15), int(i >> 4 & 15), int(i >> 8));
+            bricks.set({v.x, v.z, -1 - v.y},
+                       uint32_t(red | green << 8 | blue << 16) | uint32_t(255 - alpha) << 24);
+        }
+    }
+
+    const std::filesystem::path& path_;
+    const InputFile file_;
+    std::string bytes_;
+    std::vector<std::string_view> pictures_;
+    std::vector<GoxBlock> blocks_;
+    std::map<std::string, int> others_;
+    int layers_ = 0, hidden_ = 0;
+};
+
+}  // namespace
+
+VoxelArt read_gox(const std::filesystem::path& path) {
+    return GoxReader(path).read();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/voxel_file_table.hpp"
+
+#include <algorithm>
+
+#include "runtime/base/input_file.hpp"
+#include "runtime/io/arrays/array_files.hpp"
+#include "runtime/io/arrays/array_voxels.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr std::array<VoxelFileFormat, 8> kVoxelFiles = {{
+    {"numpy array", {".npy"}, "\x93NUMPY", read_npy_header, nullptr},
+    {"NRRD array", {".nrrd", ".nhdr"}, "NRRD000", read_nrrd_header, nullptr},
+    {"NIfTI scan", {".nii", ".nii.gz"}, "", read_nifti_header, nullptr},
+    {"Qubicle file", {".qb"}, "", nullptr, read_qb},
+    {"KV6 voxel model", {".kv6"}, "Kvxl", nullptr, read_kv6},
+    {"binvox file", {".binvox"}, "#binvox", nullptr, read_binvox},
+    {"Goxel file", {".gox"}, "GOX ", nullptr, read_gox},
+    {"Minecraft schematic", {".schem", ".schematic", ".litematic"}, "", nullptr, read_schematic},
+}};
+
+bool is_named(const VoxelFileFormat& format, const std::filesystem::path& path) {
+    std::string name = path.filename().string();
+    std::ranges::transform(name, name.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return std::ranges::any_of(format.endings, [&](std::string_view ending) {
+        return !ending.empty() && name.size() > ending.size() && name.ends_with(ending);
+    });
+}
+
+}  // namespace
+
+std::span<const VoxelFileFormat> voxel_file_table() {
+    return kVoxelFiles;
+}
+
+const VoxelFileFormat* voxel_file_format(const std::filesystem::path& path) {
+    const InputFile file(path);
+    std::string start(std::min<uint64_t>(16, file.size()), '\0');
+    file.read(0, start.data(), start.size());
+    for (const VoxelFileFormat& format : kVoxelFiles)
+        if (!format.mark.empty() && start.starts_with(format.mark)) return &format;
+    for (const VoxelFileFormat& format : kVoxelFiles)
+        if (format.mark.empty() && is_named(format, path)) return &format;
+    return nullptr;
+}
+
+const VoxelFileFormat* voxel_format_named(const std::filesystem::path& name) {
+    for (const VoxelFileFormat& format : kVoxelFiles)
+        if (is_named(format, name)) return &format;
+    return nullptr;
+}
+
+VoxelModel read_voxel_file(const VoxelFileFormat& format, const std::filesystem::path& path,
+                           Surface surface, const VoxelValues& values) {
+    if (lists_primitives(surface))
+        InputFile(path).refuse("has no exact surface: give it \"cubes\" or \"smooth\"");
+    if (format.art) {
+        if (values.is_there())
+            InputFile(path).refuse("has voxels and no values: leave out \"iso\" and \"label\"");
+        if (surface != Surface::cubes)
+            InputFile(path).refuse("holds voxels alone: give it \"surface\": \"cubes\"");
+        return format.art(path).model;
+    }
+    const CellArray array = format.array(path);
+    return surface == Surface::smooth ? surface_of_array(array, values)
+                                      : cubes_of_array(array, values);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the voxels of NIfTI, NRRD and numpy files against what other readers make of them.
+
+Arrays with all 48 orders and directions of axes are written by nibabel and pynrrd. The program
+converts them to NRRD, which pynrrd reads: each voxel lies where nibabel's or pynrrd's own map has
+it. Exits with 77, which skips the test, where the modules aren't installed.
+
+Usage: array_readers_test.py PROGRAM
+"""
+import itertools
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import nibabel
+    import nrrd
+    import numpy
+except ImportError:
+    sys.exit(77)
+
+# Left, up and front of right-anterior-superior and of left-posterior-superior coordinates.
+FROM_RAS = numpy.array([[-1, 0, 0], [0, 0, 1], [0, 1, 0]])
+FROM_LPS = numpy.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+
+
+def maps():
+    """The 48 signed permutations with three different spacings, and an origin each."""
+    for order in itertools.permutations(range(3)):
+        for signs in itertools.product((1, -1), repeat=3):
+            rows = numpy.zeros((3, 3))
+            for axis in range(3):
+                rows[axis, order[axis]] = signs[axis] * (1.5, 2.0, 0.75)[axis]
+            yield rows, numpy.array([10.0, -20.5, 3.25]) * signs
+
+
+def places(values, rows, origin):
+    """The middles of the cells that aren't 0, in whole micrometres."""
+    indices = numpy.argwhere(values != 0)
+    return {tuple(p) for p in numpy.rint(1000 * (indices @ rows.T + origin)).astype(int).tolist()}
+
+
+def written_places(path):
+    values, header = nrrd.read(str(path))
+    rows = header["space directions"].T * 1000
+    return places(values, rows, header["space origin"] * 1000)
+
+
+def main():
+    program = sys.argv[1]
+    rng = numpy.random.default_rng(5)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+
+        def convert(source, target):
+            subprocess.run([program, "convert", source, target], check=True)
+            return target
+
+        for i, (rows, origin) in enumerate(maps()):
+            values = (rng.random((3, 4, 5)) < 0.3).astype(numpy.int16) * 7
+            affine = numpy.eye(4)
+            affine[:3, :3] = rows
+            affine[:3, 3] = origin
+            image = (nibabel.Nifti2Image if i % 2 else nibabel.Nifti1Image)(values, affine)
+            image.header.set_xyzt_units("mm")
+            if i % 3 == 0:  # the quaternion alone
+                image.set_sform(None, code=0)
+                image.set_qform(affine, code=1)
+            source = folder / ("a.nii.gz" if i % 5 else "a.nii")
+            nibabel.save(image, source)
+            found = written_places(convert(source, folder / "a.nrrd"))
+            loaded = nibabel.load(source).affine
+            expected = places(values, FROM_RAS @ loaded[:3, :3], FROM_RAS @ loaded[:3, 3])
+            assert found == expected, f"NIfTI {i}"
+
+            nrrd.write(str(folder / "b.nrrd"), values,
+                       {"space": "left-posterior-superior", "space directions": rows.T,
+                        "space origin": origin, "encoding": "raw" if i % 2 else "gzip"})
+            found = written_places(convert(folder / "b.nrrd", folder / "c.nrrd"))
+            assert found == places(values, FROM_LPS @ rows, FROM_LPS @ origin), f"NRRD {i}"
+
+        colors = rng.integers(0, 256, (6, 5, 4, 3), dtype=numpy.uint8)
+        colors[0, 0, 0] = colors[5, 4, 3] = (1, 2, 3)
+        for order in "CF":
+            numpy.save(folder / "d.npy", numpy.asarray(colors, order=order))
+            read = numpy.load(convert(folder / "d.npy", folder / "e.npy"))
+            assert read.shape == (6, 5, 4, 4), read.shape
+            assert (read[..., :3] == colors).all(), order
+            assert ((read[..., 3] == 255) == colors.any(-1)).all(), order
+
+
+main()

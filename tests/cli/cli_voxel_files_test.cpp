@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays and files of voxels on the command line: render, import, info, convert and voxelize.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/io/image/exr.hpp"
+#include "tests/support/array_writer.hpp"
+#include "tests/support/program_runner.hpp"
+
+namespace voxelume {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class CliVoxelFilesTest : public ProgramTest {
+  protected:
+    /// A ball of 20 x 16 x 12 cells whose values fall off from its middle.
+    void put_ball() {
+        std::vector<float> values;
+        for (int x = 0; x < 20; ++x)
+            for (int y = 0; y < 16; ++y)
+                for (int z = 0; z < 12; ++z) {
+                    const double dx = x - 9.5, dy = y - 7.5, dz = z - 5.5;
+                    values.push_back(float(30 - dx * dx - dy * dy - dz * dz));
+                }
+        put_bytes(folder / "ball.npy", npy_bytes("<f4", "20, 16, 12", bytes_of_values(values)));
+    }
+    nlohmann::json info(const std::string& name) {
+        return nlohmann::json::parse(run("info --json " + name).out);
+    }
+};
+
+TEST_F(CliVoxelFilesTest, AnArrayOfValuesIsASmoothSurfaceWithoutAScene) {
+    put_ball();
+    const ProgramResult result = run("render ball.npy -o a.exr --size 32x24 --samples 1");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_exr(folder / "a.exr").id_planes.at("objectId")[12 * 32 + 16], 1u);
+    const auto scene = nlohmann::json::parse(run("import ball.npy").out);
+    EXPECT_EQ(scene["models"]["ball"]["surface"], "smooth");
+    const double iso = scene["models"]["ball"]["iso"];
+    EXPECT_GT(iso, -100);
+    EXPECT_LT(iso, 20);
+    const auto report = info("ball.npy");
+    EXPECT_EQ(report["kind"], "numpy array");
+    EXPECT_THAT(report["size"], ElementsAre(20, 16, 12));
+    EXPECT_NEAR(double(report["threshold"]), iso, 0.01 * std::abs(iso) + 0.01);
+}
+
+TEST_F(CliVoxelFilesTest, LabelsHaveColoursAndZMayBeUp) {
+    std::vector<uint8_t> values(4 * 2 * 3);
+    values[0] = 1;
+    values[23] = 2;
+    put_bytes(folder / "l.npy", npy_bytes("|u1", "4, 2, 3", bytes_of_values(values)));
+    const auto scene = nlohmann::json::parse(run("import l.npy --up z").out);
+    EXPECT_EQ(scene["models"]["l"]["label"], "each");
+    EXPECT_THAT(scene["objects"][0]["turn"], ElementsAre(0, -90, 0));
+    EXPECT_EQ(info("l.npy")["labels"].size(), 2u);
+    EXPECT_EQ(run("render l.npy --up z -o l.png --size 16x12 --samples 1").exit_code, 0);
+}
+
+TEST_F(CliVoxelFilesTest, VoxelsAreConvertedAndStayTheSame) {
+    std::vector<uint8_t> values(5 * 4 * 3 * 3);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = i % 7 == 0 ? uint8_t(i + 1) : 0;
+    put_bytes(folder / "a.npy", npy_bytes("|u1", "5, 4, 3, 3", bytes_of_values(values)));
+    for (const char* pair : {"a.npy a.vox", "a.vox b.nrrd", "b.nrrd b.npy", "b.npy b.vox"}) {
+        const ProgramResult result = run(std::string("convert ") + pair);
+        EXPECT_EQ(result.exit_code, 0) << pair << result.err;
+        EXPECT_THAT(result.err, IsEmpty()) << pair;
+    }
+    EXPECT_EQ(bytes_of(folder / "a.vox"), bytes_of(folder / "b.vox"));
+    EXPECT_THAT(run("convert a.vox a.binvox").err, HasSubstr("note: a .binvox has no colours"));
+    EXPECT_THAT(run("convert missing.npy a.vox").err, HasSubstr("no such file"));
+    EXPECT_EQ(info("a.vox")["voxels"], info("a.binvox")["voxels"]);
+}
+
+TEST_F(CliVoxelFilesTest, VoxelizedCubesAreWrittenForOtherPrograms) {
+    put_bytes(folder / "a.obj",
+              "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+              "f 2 3 4\nf 3 1 4\n");
+    const ProgramResult result =
+        run("voxelize a.obj --surface cubes --resolution 20 -o a.vox -o a.npy -o a.binvox");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(run("convert a.npy b.vox").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "a.vox"), bytes_of(folder / "b.vox"));
+    EXPECT_THAT(run("voxelize a.obj --resolution 20 -o c.vox").err, HasSubstr("cubes alone"));
+}
+
+}  // namespace voxelume

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes a small valid file of each format that has a fuzzer: FOLDER/FORMAT/seed.
+
+Usage: make_seeds.py FOLDER
+"""
+import gzip
+import pathlib
+import struct
+import sys
+import zlib
+
+
+def npy(version=1):
+    header = "{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3, 4), }\n"
+    length = struct.pack("<H" if version == 1 else "<I", len(header))
+    return b"\x93NUMPY" + bytes([version, 0]) + length + header.encode() + bytes(range(48))
+
+
+def nrrd(encoding):
+    header = ("NRRD0005\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+              "sizes: 2 3 4\nspace directions: (1,0,0) (0,2,0) (0,0,3)\nendian: little\n"
+              f"encoding: {encoding}\nspace origin: (1,2,3)\nkey:=value\n\n")
+    data = bytes(range(48))
+    return header.encode() + (gzip.compress(data, mtime=0) if encoding == "gzip" else data)
+
+
+def nii():
+    head = bytearray(352)
+    struct.pack_into("<i", head, 0, 348)
+    struct.pack_into("<8h", head, 40, 3, 2, 3, 4, 1, 1, 1, 1)
+    struct.pack_into("<2h", head, 70, 4, 16)
+    struct.pack_into("<8f", head, 76, 1, 1, 2, 3, 0, 0, 0, 0)
+    struct.pack_into("<3f", head, 108, 352, 2, -5)
+    head[123] = 2
+    struct.pack_into("<2h6f", head, 252, 1, 0, 0, 0, 1, 1, 2, 3)
+    head[344:347] = b"n+1"
+    return bytes(head) + bytes(range(48))
+
+
+def qb(packed):
+    head = struct.pack("<6I", 257, 0, 1, packed, 0, 1) + b"\4name"
+    head += struct.pack("<3I3i", 2, 2, 1, 0, 1, 2)
+    if packed:
+        return head + struct.pack("<6I", 2, 3, 0xFF112233, 0, 6, 0)
+    return head + struct.pack("<4I", 0xFF112233, 0, 0x01445566, 0)
+
+
+def kv6():
+    head = b"Kvxl" + struct.pack("<3i3fi", 2, 1, 4, 1, 0.5, 2, 2)
+    voxels = b"bgr\x80\1\0\x3f\x11" + b"bgr\x80\3\0\x3f\x11"
+    return head + voxels + struct.pack("<2i2H", 2, 0, 2, 0)
+
+
+def binvox():
+    return b"#binvox 1\ndim 4 4 4\ntranslate 1 2 3\nscale 8\ndata\n" + bytes([0, 9, 1, 40, 0, 15])
+
+
+def png(width, height):
+    def chunk(letters, content):
+        check = struct.pack(">I", zlib.crc32(letters + content))
+        return struct.pack(">I", len(content)) + letters + content + check
+    rows = b"".join(b"\0" + bytes(((x * 7 + y) % 256 for x in range(4 * width)))
+                    for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" +
+            chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 6, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def gox():
+    def chunk(letters, content):
+        return letters + struct.pack("<i", len(content)) + content + bytes(4)
+    layer = struct.pack("<6i", 1, 0, 0, 16, -16, 0) + struct.pack("<i", 7) + b"visible"
+    layer += struct.pack("<i", 1) + b"\1" + bytes(4)
+    return b"GOX " + struct.pack("<i", 2) + chunk(b"BL16", png(64, 64)) + chunk(b"LAYR", layer)
+
+
+def named(kind, name, value):
+    return bytes([kind]) + struct.pack(">H", len(name)) + name + value
+
+
+def schem():
+    def size(name, n):
+        return named(2, name, struct.pack(">h", n))
+    palette = named(10, b"Palette", named(3, b"minecraft:stone", struct.pack(">i", 1)) +
+                    named(3, b"minecraft:air", struct.pack(">i", 0)) + b"\0")
+    data = named(7, b"BlockData", struct.pack(">i", 4) + b"\1\0\0\1")
+    return named(10, b"Schematic", size(b"Width", 2) + size(b"Height", 2) + size(b"Length", 1) +
+                 palette + data + b"\0")
+
+
+def schematic():
+    def size(name, n):
+        return named(2, name, struct.pack(">h", n))
+    return named(10, b"Schematic", size(b"Width", 2) + size(b"Height", 2) + size(b"Length", 1) +
+                 named(7, b"Blocks", struct.pack(">i", 4) + b"\1\0\2\x23") +
+                 named(7, b"Data", struct.pack(">i", 4) + b"\0\0\0\3") + b"\0")
+
+
+def litematic():
+    def place(name, x, y, z):
+        return named(10, name, named(3, b"x", struct.pack(">i", x)) +
+                     named(3, b"y", struct.pack(">i", y)) +
+                     named(3, b"z", struct.pack(">i", z)) + b"\0")
+    palette = named(9, b"BlockStatePalette", bytes([10]) + struct.pack(">i", 2) +
+                    named(8, b"Name", b"\0\3air") + b"\0" + named(8, b"Name", b"\0\5stone") + b"\0")
+    region = place(b"Position", 0, 1, 2) + place(b"Size", 2, -2, 2) + palette
+    region += named(12, b"BlockStates", struct.pack(">iQ", 1, 0x1441))
+    return named(10, b"", named(10, b"Regions", named(10, b"r", region + b"\0") + b"\0") + b"\0")
+
+
+def vox():
+    def chunk(letters, content):
+        return letters + struct.pack("<2i", len(content), 0) + content
+    body = chunk(b"SIZE", struct.pack("<3i", 3, 2, 4))
+    body += chunk(b"XYZI", struct.pack("<i", 2) + bytes([0, 1, 2, 3, 2, 0, 3, 79]))
+    body += chunk(b"nTRN", struct.pack("<7i", 0, 0, 1, -1, 0, 1, 0))
+    body += chunk(b"nGRP", struct.pack("<4i", 1, 0, 1, 2))
+    frame = struct.pack("<i", 2) + struct.pack("<i", 2) + b"_t" + struct.pack("<i", 5) + b"1 2 3"
+    frame += struct.pack("<i", 2) + b"_r" + struct.pack("<i", 2) + b"20"
+    body += chunk(b"nTRN", struct.pack("<6i", 2, 0, 3, -1, 0, 1) + frame)
+    body += chunk(b"nSHP", struct.pack("<5i", 3, 0, 1, 0, 0))
+    return b"VOX " + struct.pack("<i", 150) + b"MAIN" + struct.pack("<2i", 0, len(body)) + body
+
+
+MTL = b"newmtl a b\nKd 0.5 0.25 1\nKs 1 1 1\nNs 30\nd 0.5\nillum 7\nNi 1.5\nmap_Kd -s 2 2 t.png\n"
+
+SEEDS = {
+    "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip")],
+    "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
+    "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
+    "schem": [schem(), schematic(), litematic(), gzip.compress(schem(), mtime=0)],
+}
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    for name, files in SEEDS.items():
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        for i, content in enumerate(files):
+            (folder / name / f"seed{i}").write_bytes(content)
+
+
+main()

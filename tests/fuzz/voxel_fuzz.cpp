@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A libFuzzer target: any bytes in a file of voxels give a valid model or an error's sentence. It
+// is built once per format.
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/io/arrays/array_voxels.hpp"
+#include "runtime/io/voxel_file_table.hpp"
+#include "tests/support/voxel_invariants.hpp"
+
+namespace {
+
+using namespace voxelume;
+
+/// A file in memory that each input replaces.
+std::filesystem::path input_file() {
+    const std::filesystem::path shared = "/dev/shm";
+    const std::filesystem::path folder =
+        std::filesystem::is_directory(shared) ? shared : std::filesystem::temp_directory_path();
+    return folder / (std::to_string(getpid()) + "." VXL_FUZZ_NAME);
+}
+
+[[noreturn]] void fail(const char* what, const std::string& text) {
+    std::fprintf(stderr, "%s: %s\n", what, text.c_str());
+    std::abort();
+}
+
+/// Does it, and holds what comes of it against what must be.
+template <class Action>
+void check(const std::filesystem::path& file, const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        const std::string sentence = error.what();
+        if (!sentence.starts_with(file.string())) fail("no file in front of", sentence);
+    }
+}
+
+void check_model(const std::filesystem::path& file, Surface surface, const VoxelValues& values) {
+    check(file, [&] {
+        const std::string broken = broken_invariant(read_voxel_model(file, surface, 0, values));
+        if (!broken.empty()) fail("invalid model", broken);
+    });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    static const std::filesystem::path file = input_file();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(data), std::streamsize(size));
+    VoxelValues above, labels;
+    above.iso = 3;
+    labels.each_label = true;
+    check_model(file, Surface::cubes, {});
+    const VoxelFileFormat* format = voxel_file_format(file);
+    if (!format || !format->array) return 0;
+    check_model(file, Surface::cubes, labels);
+    check_model(file, Surface::smooth, above);
+    check(file, [&] { summary_of_array(format->array(file)); });
+    return 0;
+}
