@@ -21,6 +21,7 @@ struct SceneFiles {
     const std::function<AssetStore&()> store;  ///< made when it is first asked for
     std::vector<SceneChange> changes;
     double orbit = 0;  ///< degrees
+    GivenVoxels given;
 };
 
 using ReadScene = std::function<Scene(const SceneFiles& files)>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// file of the voxels of one model -> contents of a scene
+// file of the voxels of one model, or voxels in memory -> contents of a scene
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/text.hpp"
@@ -25,12 +25,7 @@ Surface surface_in(const std::filesystem::path& path) {
     return Surface::cubes;
 }
 
-}  // namespace
-
-Contents voxel_contents(const ImportedFile& file) {
-    Model model;
-    model.voxels = file.path;
-    model.surface = surface_in(file.path);
+Contents contents_of(const Model& model, const ImportedFile& file) {
     const Bounds box = file.assets.box_of_file(model, true);
     const VoxelModel& voxels = file.assets.voxels(model);
     const std::string name = stem_of(file);
@@ -49,6 +44,23 @@ Contents voxel_contents(const ImportedFile& file) {
     contents.objects.push_back(
         fmt::format("{{\"name\": {0}, \"model\": {0}, \"material\": {0}}}", json_text(name)));
     return contents;
+}
+
+}  // namespace
+
+Contents voxel_contents(const ImportedFile& file) {
+    Model model;
+    model.voxels = file.path;
+    model.surface = surface_in(file.path);
+    return contents_of(model, file);
+}
+
+Contents given_contents(const ImportedFile& file, const std::shared_ptr<const VoxelModel>& given) {
+    Model model;
+    model.voxels = file.path;
+    model.given = given;
+    model.surface = Surface::cubes;
+    return contents_of(model, file);
 }
 
 }  // namespace voxelume
