@@ -15,6 +15,7 @@ Usage: ./bootstrap.sh COMMAND
   test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   lint    check the format of the code, the host code and each kernel
+  python  build the Python package, build/python/wheels, and test it in a fresh environment
   docs    write the library's reference to build/docs/html/index.html
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
@@ -91,9 +92,31 @@ docs() {
     echo "The reference is build/docs/html/index.html."
 }
 
+# The wheel holds the library as it is installed; tests see the wheel alone. Both come from pip, as
+# does what builds them.
+python_package() {
+    build_targets voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader
+    local folder=$PWD/build/python
+    say "Building the wheel"
+    rm -rf "$folder/library" "$folder/wheels"
+    cmake --install "$build" --prefix "$folder/library" >/dev/null
+    python3 -m venv "$folder/fresh" --clear
+    "$folder/fresh/bin/pip" wheel -q --no-deps -w "$folder/wheels" ./python \
+        -C build-dir="$folder/module" -C cmake.define.CMAKE_PREFIX_PATH="$folder/library"
+    "$folder/fresh/bin/pip" install -q "$(echo "$folder"/wheels/*.whl)[test]"
+    say "Testing the wheel"
+    # From a folder without sources, so that what is tested is what was installed.
+    cd "$folder"
+    fresh/bin/python -m mypy.stubtest voxelume --allowlist ../../python/tests/stubs_allowed.txt
+    fresh/bin/python -m mypy --strict -p voxelume
+    fresh/bin/python -m pytest -q -p no:cacheprovider ../../python/tests
+    echo "The wheel is $(echo "$folder"/wheels/*.whl)."
+}
+
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
+    python) install_packages packages.txt .ci/python_packages.txt ;;
     help | -h | --help)
         usage
         exit 0
@@ -112,6 +135,7 @@ case "$1" in
         ;;
     test) run_tests "${2:-}" ;;
     docs) docs ;;
+    python) python_package ;;
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json
