@@ -16,6 +16,8 @@ Usage: ./bootstrap.sh COMMAND
   build   build the program, build/release/voxelume
   lint    check the format of the code, the host code and each kernel
   python  build the Python package, build/python/wheels, and test it in a fresh environment
+  package make build/package/voxelume_*.deb and check it; with --install, also install, use and
+          purge it in a bare Debian, which takes minutes and root
   docs    write the library's reference to build/docs/html/index.html
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
@@ -113,10 +115,28 @@ python_package() {
     echo "The wheel is $(echo "$folder"/wheels/*.whl)."
 }
 
+# debian_package [--install]. Its files have the date of the last commit.
+debian_package() {
+    local folder=$PWD/build/package
+    build_targets voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader
+    SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
+    export SOURCE_DATE_EPOCH
+    cmake "$build" >/dev/null # the changelog has the date, too
+    say "Packing"
+    rm -rf "$folder"
+    cpack --config "$build/CPackConfig.cmake" -G DEB -B "$folder" >"$build/package.log" 2>&1 ||
+        { cat "$build/package.log"; return 1; }
+    lintian --fail-on error --allow-root "$folder"/*.deb
+    [ "${1:-}" != --install ] ||
+        tests/cli/package_test.sh "$folder"/*.deb . build/package-root
+    echo "The package is $(echo "$folder"/*.deb)."
+}
+
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
     python) install_packages packages.txt .ci/python_packages.txt ;;
+    package | 'package --install') install_packages packages.txt .ci/package_packages.txt ;;
     help | -h | --help)
         usage
         exit 0
@@ -136,6 +156,7 @@ case "$1" in
     test) run_tests "${2:-}" ;;
     docs) docs ;;
     python) python_package ;;
+    package) debian_package "${2:-}" ;;
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json

@@ -19,6 +19,10 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake ${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake
         DESTINATION ${package})
 
+# Scenes to begin with, their schema and their manual, and what they name.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume
+        PATTERN pictures EXCLUDE)
+
 # The prefix of voxelume.pc is found from where the file is, so that an installed tree can be moved.
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(${CMAKE_SOURCE_DIR}/cmake/voxelume.pc.in ${CMAKE_BINARY_DIR}/voxelume.pc @ONLY)
