@@ -9,6 +9,7 @@
 #include "runtime/analysis/culling_hull.hpp"
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/scene_choices.hpp"
+#include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -25,7 +26,8 @@ constexpr double kRounding = 0x1p-17;
 bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     if (!scene.render.channels.color) return false;
     if (scene.render.light == LightMode::global && scene.render.bounces > 0) return true;
-    if (scene.world.sky && scene.render.shadows) return true;  // on any way to the sky
+    // Rays to the sky and to points of the sun go on any way.
+    if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
     const auto sends = [&](int number) {

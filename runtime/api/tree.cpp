@@ -2,26 +2,15 @@
 #include "runtime/api/tree.hpp"
 
 namespace voxelume::api {
-namespace {
-
-/// A value that stands on no line of a text.
-JsonValue value_of(JsonType type) {
-    JsonValue value;
-    value.type = type;
-    value.at = {0, 0};
-    return value;
-}
-
-}  // namespace
 
 JsonValue tree(bool value) {
-    JsonValue result = value_of(JsonType::boolean);
+    JsonValue result = json_value(JsonType::boolean);
     result.boolean = value;
     return result;
 }
 
 JsonValue tree(double value) {
-    JsonValue result = value_of(JsonType::number);
+    JsonValue result = json_value(JsonType::number);
     result.number = value;
     return result;
 }
@@ -31,7 +20,7 @@ JsonValue tree(int value) {
 }
 
 JsonValue tree(const std::string& text) {
-    JsonValue result = value_of(JsonType::string);
+    JsonValue result = json_value(JsonType::string);
     result.text = text;
     return result;
 }
@@ -45,12 +34,12 @@ JsonValue tree(const v1::Matrix& rows) {
 }
 
 JsonValue list_of(std::vector<JsonValue> items) {
-    JsonValue list = value_of(JsonType::array);
+    JsonValue list = json_value(JsonType::array);
     list.items = std::move(items);
     return list;
 }
 
-ObjectTree::ObjectTree() : value_(value_of(JsonType::object)) {}
+ObjectTree::ObjectTree() : value_(json_value(JsonType::object)) {}
 
 ObjectTree& ObjectTree::put(std::string_view key, JsonValue value) {
     value_.members.push_back({std::string(key), {0, 0}, std::move(value)});

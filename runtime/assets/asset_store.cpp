@@ -19,14 +19,34 @@ AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
     MeshFile file;
     if (cache_.is_open()) {
         const LoadTimer timer(load_seconds_);
-        file.source = mesh_source(read_mesh_bytes(name.first), name.first, name.second);
+        file.source = part_source(source_of_file(name.first), name.second);
     }
     return files_.emplace(name, std::move(file)).first->second;
 }
 
+const std::string& AssetStore::source_of_file(const std::filesystem::path& path) {
+    std::string& source = sources_[path];
+    if (source.empty()) source = mesh_source(read_mesh_bytes(path), path);
+    return source;
+}
+
+/// The bytes of a file, which are those that its source was made of.
+std::string AssetStore::bytes_of_file(const std::filesystem::path& path) {
+    std::string bytes = read_mesh_bytes(path);
+    if (!cache_.is_open()) return bytes;
+    std::string source = mesh_source(bytes, path);
+    std::string& known = sources_[path];
+    if (known.empty())
+        known = std::move(source);
+    else if (known != source)
+        throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
+                    path.string());
+    return bytes;
+}
+
 const GltfFile& AssetStore::gltf_file(const std::filesystem::path& name) {
     std::shared_ptr<const GltfFile>& file = gltf_files_[name];
-    if (!file) file = std::make_shared<const GltfFile>(read_mesh_bytes(name), name);
+    if (!file) file = std::make_shared<const GltfFile>(bytes_of_file(name), name);
     return *file;
 }
 
@@ -34,14 +54,10 @@ AssetStore::MapKey AssetStore::key_of(const FileMap& map) {
     return {map.scale, map.shift.x, map.shift.y, map.shift.z};
 }
 
-Mesh AssetStore::read(const MeshName& name, const MeshFile& file) {
+Mesh AssetStore::read(const MeshName& name) {
     const auto& [path, part] = name;
-    const bool is_gltf = is_gltf_file(path);
-    const std::string bytes = is_gltf && !cache_.is_open() ? "" : read_mesh_bytes(path);
-    if (cache_.is_open() && mesh_source(bytes, path, part) != file.source)
-        throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
-                    path.string());
-    Mesh mesh = is_gltf ? gltf_mesh(gltf_file(path), part) : parse_mesh(bytes, path);
+    Mesh mesh = is_gltf_file(path) ? gltf_mesh(gltf_file(path), part)
+                                   : parse_mesh(bytes_of_file(path), path);
     ++meshes_read_;
     return mesh;
 }
@@ -57,10 +73,26 @@ const Mesh& AssetStore::mesh(const std::filesystem::path& path, const FileMap& m
         mesh = std::move(file.mesh);
         file.mesh.reset();
     } else {
-        mesh = read(name, file);
+        mesh = read(name);
     }
     if (!map.is_identity()) apply(map, path, *mesh);
     return *mesh;
+}
+
+/// What is known of a mesh, from memory, the cache or `make`, which reads the mesh, in that order.
+template <typename Value, typename Make>
+const Value& AssetStore::known(std::optional<Value>& value, const std::string& source,
+                               CacheGetter<Value> cached, const Make& make) {
+    if (value) return *value;
+    value = (cache_.*cached)(source);
+    if (value) return *value;
+    double seconds = 0;
+    {
+        const LoadTimer timer(seconds);
+        value = make();
+    }
+    cache_.keep(source, *value, seconds);
+    return *value;
 }
 
 const MeshSummary& AssetStore::summary_of_file(const MeshName& name, const FileMap& map) {
@@ -70,30 +102,14 @@ const MeshSummary& AssetStore::summary_of_file(const MeshName& name, const FileM
         if (!summary) summary = mapped(map, summary_of_file(name));
         return *summary;
     }
-    if (file.summary) return *file.summary;
-    file.summary = cache_.summary(file.source);
-    if (file.summary) return *file.summary;
-    double seconds = 0;
-    {
-        const LoadTimer timer(seconds);
-        file.summary = voxelume::summary_of(mesh(name.first, {}, name.second));
-    }
-    cache_.keep(file.source, *file.summary, seconds);
-    return *file.summary;
+    return known(file.summary, file.source, &ModelCache::summary,
+                 [&] { return voxelume::summary_of(mesh(name.first, {}, name.second)); });
 }
 
 const MeshShape& AssetStore::shape_of_file(const MeshName& name) {
     MeshFile& file = this->file(name);
-    if (file.shape) return *file.shape;
-    file.shape = cache_.shape(file.source);
-    if (file.shape) return *file.shape;
-    double seconds = 0;
-    {
-        const LoadTimer timer(seconds);
-        file.shape = voxelume::shape_of(mesh(name.first, {}, name.second));
-    }
-    cache_.keep(file.source, *file.shape, seconds);
-    return *file.shape;
+    return known(file.shape, file.source, &ModelCache::shape,
+                 [&] { return voxelume::shape_of(mesh(name.first, {}, name.second)); });
 }
 
 MeshShape AssetStore::shape_of(const Model& model) {
@@ -188,16 +204,8 @@ const Mesh& AssetStore::morphed_mesh(const Model& model) {
 const MeshSummary& AssetStore::morphed_summary(const Model& model) {
     Morphed& entry = morphed(model);
     if (entry.summary) return *entry.summary;
-    const std::string source = source_of(model);
-    entry.summary = cache_.summary(source);
-    if (entry.summary) return *entry.summary;
-    double seconds = 0;
-    {
-        const LoadTimer timer(seconds);
-        entry.summary = voxelume::summary_of(morphed_mesh(model));
-    }
-    cache_.keep(source, *entry.summary, seconds);
-    return *entry.summary;
+    return known(entry.summary, source_of(model), &ModelCache::summary,
+                 [&] { return voxelume::summary_of(morphed_mesh(model)); });
 }
 
 const Mesh* AssetStore::mesh_of(const Model& model) {

@@ -107,10 +107,17 @@ class AssetStore {
     using MeshName = std::pair<std::filesystem::path, int>;
 
     MeshFile& file(const MeshName& name);
-    Mesh read(const MeshName& name, const MeshFile& file);
+    const std::string& source_of_file(const std::filesystem::path& path);
+    std::string bytes_of_file(const std::filesystem::path& path);
+    Mesh read(const MeshName& name);
     uint64_t triangles_of(const std::filesystem::path& name, const MeshFile& file) const;
     uint64_t bytes_of(const std::filesystem::path& name) const;
     void forget(const std::filesystem::path& name);
+    template <typename Value>
+    using CacheGetter = std::optional<Value> (ModelCache::*)(const std::string& source) const;
+    template <typename Value, typename Make>
+    const Value& known(std::optional<Value>& value, const std::string& source,
+                       CacheGetter<Value> cached, const Make& make);
     const MeshSummary& summary_of_file(const MeshName& name, const FileMap& map = {});
     const MeshShape& shape_of_file(const MeshName& name);
     VoxelModel read_voxels(const Model& model);
@@ -121,6 +128,7 @@ class AssetStore {
 
     ModelCache cache_;
     std::map<MeshName, MeshFile> files_;
+    std::map<std::filesystem::path, std::string> sources_;  ///< hashes of whole files
     std::map<std::filesystem::path, std::shared_ptr<const GltfFile>> gltf_files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
     /// Keyed by the file, the surface that it is read as, its map, and the part.

@@ -50,6 +50,7 @@ void AssetStore::retain(const Model& model, uint64_t& room) {
 
 void AssetStore::forget_unused() {
     std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first.first); });
+    std::erase_if(sources_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(gltf_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(vox_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(voxels_,

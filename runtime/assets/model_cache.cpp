@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <nlohmann/json.hpp>
 
+#include "runtime/assets/summary_bytes.hpp"
 #include "runtime/base/cache_key.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/producer_hash.hpp"
@@ -46,97 +46,6 @@ const std::string& producers() {
     return key;
 }
 
-nlohmann::json json_of(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-glm::dvec3 vector_of(const nlohmann::json& json) {
-    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-nlohmann::json json_of(const SurfaceArea& area) {
-    return {json_of(area.shadows), area.total};
-}
-
-SurfaceArea area_of(const nlohmann::json& json) {
-    return {vector_of(json.at(0)), json.at(1).get<double>()};
-}
-
-/// A name consists of the file's bytes, in whatever encoding.
-nlohmann::json json_of(const std::string& name) {
-    return nlohmann::json::binary({name.begin(), name.end()});
-}
-
-std::string text_of(const nlohmann::json& json) {
-    const auto& bytes = json.get_binary();
-    return {bytes.begin(), bytes.end()};
-}
-
-nlohmann::json json_of(const MeshPaint& paint) {
-    return {paint.colors, paint.has_corner_colors, paint.texels, paint.textures,
-            paint.uvs,    paint.has_corner_uvs};
-}
-
-MeshPaint read_paint(const nlohmann::json& json) {
-    return {json.at(0).get<uint64_t>(), json.at(1).get<bool>(),     json.at(2).get<uint64_t>(),
-            json.at(3).get<uint64_t>(), json.at(4).get<uint64_t>(), json.at(5).get<bool>()};
-}
-
-/// The summary as CBOR, in which numbers keep all their bits.
-std::string bytes_of(const MeshSummary& summary) {
-    const nlohmann::json json = {
-        summary.triangles,
-        {json_of(summary.surface.min), json_of(summary.surface.max)},
-        {json_of(summary.vertices.min), json_of(summary.vertices.max)},
-        {json_of(summary.area), json_of(summary.min_area)},
-        json_of(summary.paint),
-        nlohmann::json::array(),
-        summary.corners,
-        {summary.topology.open_edges, summary.topology.hole_area, summary.topology.volume},
-        {json_of(summary.material_library), json_of(summary.texture)},
-        summary.has_normals,
-        summary.longest_edge,
-        nlohmann::json::array()};
-    nlohmann::json whole = json;
-    for (const std::string& note : summary.notes) whole[11].push_back(json_of(note));
-    for (const std::string& name : summary.group_names) whole[5].push_back(json_of(name));
-    const std::vector<uint8_t> bytes = nlohmann::json::to_cbor(whole);
-    return {bytes.begin(), bytes.end()};
-}
-
-MeshSummary summary_of_bytes(const std::string& bytes) {
-    const nlohmann::json json = nlohmann::json::from_cbor(bytes);
-    MeshSummary summary;
-    summary.triangles = json.at(0).get<uint64_t>();
-    summary.surface = {vector_of(json.at(1).at(0)), vector_of(json.at(1).at(1))};
-    summary.vertices = {vector_of(json.at(2).at(0)), vector_of(json.at(2).at(1))};
-    summary.area = area_of(json.at(3).at(0));
-    summary.min_area = area_of(json.at(3).at(1));
-    summary.paint = read_paint(json.at(4));
-    summary.corners = json.at(6).get<uint64_t>();
-    for (const nlohmann::json& name : json.at(5)) summary.group_names.push_back(text_of(name));
-    const nlohmann::json& topology = json.at(7);
-    summary.topology = {topology.at(0).get<uint64_t>(), topology.at(1).get<double>(),
-                        topology.at(2).get<double>()};
-    summary.material_library = text_of(json.at(8).at(0));
-    summary.texture = text_of(json.at(8).at(1));
-    summary.has_normals = json.at(9).get<bool>();
-    summary.longest_edge = json.at(10).get<double>();
-    for (const nlohmann::json& note : json.at(11)) summary.notes.push_back(text_of(note));
-    return summary;
-}
-
-std::string bytes_of(const MeshShape& shape) {
-    const std::vector<uint8_t> bytes =
-        nlohmann::json::to_cbor({shape.sharp_length, shape.thickness});
-    return {bytes.begin(), bytes.end()};
-}
-
-MeshShape shape_of_bytes(const std::string& bytes) {
-    const nlohmann::json json = nlohmann::json::from_cbor(bytes);
-    return {json.at(0).get<double>(), json.at(1).get<double>()};
-}
-
 std::string shape_key(const std::string& source) {
     return key_of({producers(), "shape", source});
 }
@@ -167,15 +76,18 @@ uint64_t megabytes_of_user() {
 
 }  // namespace
 
-std::string mesh_source(const std::string& bytes, const std::filesystem::path& name, int part) {
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name) {
     std::string of_companions;
     const std::vector<std::filesystem::path> companions =
         is_gltf_file(name) ? gltf_companions(bytes, name) : companion_files(bytes, name);
     for (const std::filesystem::path& file : companions)
         of_companions += key_of({file.filename().string(), read_mesh_bytes(file)});
-    if (part > 0) of_companions += std::to_string(part);
     if (of_companions.empty()) return key_of({ending_of(name), bytes});
     return key_of({ending_of(name), bytes, of_companions});
+}
+
+std::string part_source(const std::string& source, int part) {
+    return part > 0 ? key_of({"part", source, std::to_string(part)}) : source;
 }
 
 std::string mapped_source(const std::string& source, const FileMap& map) {
@@ -219,12 +131,7 @@ ModelCache ModelCache::of_user(const std::filesystem::path& folder,
 std::optional<MeshSummary> ModelCache::summary(const std::string& source) const {
     if (!is_open_) return std::nullopt;
     const auto bytes = store_.read(summary_key(source));
-    if (!bytes) return std::nullopt;
-    try {
-        return summary_of_bytes(*bytes);
-    } catch (const nlohmann::json::exception&) {
-        return std::nullopt;
-    }
+    return bytes ? summary_of_bytes(*bytes) : std::nullopt;
 }
 
 void ModelCache::keep(const std::string& source, const MeshSummary& summary, double seconds) const {
@@ -234,12 +141,7 @@ void ModelCache::keep(const std::string& source, const MeshSummary& summary, dou
 std::optional<MeshShape> ModelCache::shape(const std::string& source) const {
     if (!is_open_) return std::nullopt;
     const auto bytes = store_.read(shape_key(source));
-    if (!bytes) return std::nullopt;
-    try {
-        return shape_of_bytes(*bytes);
-    } catch (const nlohmann::json::exception&) {
-        return std::nullopt;
-    }
+    return bytes ? shape_of_bytes(*bytes) : std::nullopt;
 }
 
 void ModelCache::keep(const std::string& source, const MeshShape& shape, double seconds) const {

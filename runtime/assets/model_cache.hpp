@@ -17,8 +17,10 @@
 namespace voxelume {
 
 /// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
-/// read as. Of the file's own name only the extension counts. `part` is that of a glTF file.
-std::string mesh_source(const std::string& bytes, const std::filesystem::path& name, int part = 0);
+/// read as. Of the file's own name only the extension counts.
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
+/// Names a part of the mesh that `source` names; 0 stands for all of it.
+std::string part_source(const std::string& source, int part);
 
 /// Names the mesh of a source after a map.
 std::string mapped_source(const std::string& source, const FileMap& map);

@@ -50,7 +50,10 @@ std::string matrix_text(const glm::dmat4& m) {
 class SceneOfGltf {
   public:
     explicit SceneOfGltf(const ImportedFile& file)
-        : file_(file), gltf_(file.assets.gltf_file(file.path)), root_(gltf_.root()) {}
+        : file_(file), gltf_(file.assets.gltf_file(file.path)), root_(gltf_.root()) {
+        for (size_t i = 0; i < gltf_.material_names().size(); ++i)
+            material_numbers_.emplace(gltf_.material_names()[i], i);
+    }
 
     Contents read() {
         contents_.box = {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
@@ -120,14 +123,10 @@ class SceneOfGltf {
 
     std::string add_material(const std::string& group) {
         std::string name = material_names_.unique(group);
-        for (size_t i = 0; i < root_.size("materials"); ++i) {
-            if (gltf_material_name(gltf_, int(i)) != group) continue;
-            const GltfValue material = root_.item("materials", i);
-            contents_.has_glass |= gltf_transmits(material);
-            contents_.materials.push_back(
-                fmt::format("{}: {{{}}}", json_text(name), gltf_values(material)));
-            break;
-        }
+        const GltfValue material = root_.item("materials", material_numbers_.at(group));
+        contents_.has_glass |= gltf_transmits(material);
+        contents_.materials.push_back(
+            fmt::format("{}: {{{}}}", json_text(name), gltf_values(material)));
         return name;
     }
 
@@ -136,7 +135,8 @@ class SceneOfGltf {
     GltfValue root_;
     Contents contents_;
     std::map<int, std::string> models_;
-    std::map<std::string, std::string> materials_;  ///< by group
+    std::map<std::string, size_t> material_numbers_;  ///< by group
+    std::map<std::string, std::string> materials_;    ///< by group
     NameList objects_{{"ground"}}, model_names_{{"ground"}};
     NameList material_names_{{"default", "ground"}};
     bool has_textures_ = false, has_colors_ = false;

@@ -37,8 +37,8 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
         const GltfFile& gltf = file.assets.gltf_file(file.path);
         for (size_t i = 0; i < gltf.root().size("materials"); ++i) {
             const GltfValue material = gltf.root().item("materials", i);
-            materials.push_back({gltf_material_name(gltf, int(i)), gltf_values(material),
-                                 gltf_transmits(material)});
+            materials.push_back(
+                {gltf.material_names()[i], gltf_values(material), gltf_transmits(material)});
         }
         return materials;
     }

@@ -12,14 +12,6 @@
 namespace voxelume {
 namespace {
 
-/// A value that stands in no text.
-JsonValue value_of(JsonType type) {
-    JsonValue value;
-    value.type = type;
-    value.at = {0, 0};
-    return value;
-}
-
 /// Marks where all parts of a value come from.
 void set_place(JsonValue& value, TextPosition at) {
     value.at = at;
@@ -35,7 +27,7 @@ std::optional<JsonValue> number_of(std::string_view text) {
     while (text.starts_with(' ')) text.remove_prefix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    JsonValue value = value_of(JsonType::number);
+    JsonValue value = json_value(JsonType::number);
     const char* last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, value.number);
     if (end != last || error != std::errc() || !std::isfinite(value.number)) return {};
@@ -44,7 +36,7 @@ std::optional<JsonValue> number_of(std::string_view text) {
 
 /// Numbers with commas between; nothing for other texts.
 std::optional<JsonValue> numbers_of(std::string_view text) {
-    JsonValue list = value_of(JsonType::array);
+    JsonValue list = json_value(JsonType::array);
     for (size_t start = 0; start <= text.size();) {
         const size_t end = std::min(text.find(',', start), text.size());
         std::optional<JsonValue> number = number_of(text.substr(start, end - start));
@@ -106,7 +98,7 @@ class Changer {
         here_ += (here_.empty() ? "" : ".") + step.key;
         if (found != of.members.end()) return found->value;
         JsonMember& added = of.members.emplace_back();
-        added = {step.key, at_, value_of(JsonType::object)};
+        added = {step.key, at_, json_value(JsonType::object)};
         added.value.at = at_;
         return added.value;
     }
@@ -167,7 +159,7 @@ JsonValue parse_value(std::string_view text, const std::string& origin) {
     if (std::optional<JsonValue> number = number_of(text)) return std::move(*number);
     if (text.find(',') != text.npos)
         if (std::optional<JsonValue> list = numbers_of(text)) return std::move(*list);
-    JsonValue value = value_of(JsonType::boolean);
+    JsonValue value = json_value(JsonType::boolean);
     value.boolean = text == "true";
     if (text == "true" || text == "false") return value;
     if (text.starts_with('[') || text.starts_with('{') || text.starts_with('"')) {

@@ -32,6 +32,14 @@ struct JsonMember {
     JsonValue value;
 };
 
+/// A value of a type that stands in no text.
+inline JsonValue json_value(JsonType type) {
+    JsonValue value;
+    value.type = type;
+    value.at = {0, 0};
+    return value;
+}
+
 inline constexpr int kMaxJsonDepth = 64;
 inline constexpr int kMaxJsonValues = 2'000'000;
 

@@ -52,6 +52,18 @@ TEST(Culling, DoesNotHappenWhereRaysGoInAllDirections) {
     EXPECT_EQ(visible_names(scene), "seen ");
 }
 
+TEST(Culling, HappensUnderASkyThatNoRaysAreSentTo) {
+    Scene scene = scene_of();
+    scene.world.sky.emplace().samples = 0;
+    EXPECT_EQ(visible_names(scene), "seen ");
+    expect_same_bits(scene);
+    scene.world.sky->kind = SkyKind::sun;
+    EXPECT_EQ(visible_names(scene), "seen left right behind beyond ");
+    scene.world.sky->intensity = 0;
+    EXPECT_EQ(visible_names(scene), "seen ");
+    expect_same_bits(scene);
+}
+
 TEST(Culling, WithoutShadowsIsWhatTheDisplaySees) {
     for (const bool lit : {false, true}) {
         Scene scene = scene_of(lit ? kPointLight : "");

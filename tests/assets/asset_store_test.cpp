@@ -6,6 +6,7 @@
 #include <openvdb/openvdb.h>
 
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {
@@ -41,6 +42,26 @@ TEST_F(AssetStoreTest, MeshesWaitWhereThereIsRoomAndSummariesAlways) {
     EXPECT_EQ(store.meshes_read(), 3u);
     store.mesh_of(b);
     EXPECT_EQ(store.meshes_read(), 4u);
+}
+
+TEST_F(AssetStoreTest, AGlbIsAnotherOneWithAnotherFileThatItNames) {
+    GltfWriter writer = triangle_gltf();
+    std::string numbers = writer.bytes;
+    put_bytes(folder / "numbers.bin", numbers);
+    writer.json["buffers"] = {{{"byteLength", writer.bytes.size()}, {"uri", "numbers.bin"}}};
+    writer.bytes.clear();
+    put_bytes(folder / "a.glb", writer.glb());
+    Model model;
+    model.mesh = folder / "a.glb";
+    const ModelCache cache(folder / "cache", 1 << 20);
+    const std::string before = AssetStore(cache).source_of(model);
+    EXPECT_EQ(AssetStore(cache).source_of(model), before);
+    model.part = 1;
+    EXPECT_NE(AssetStore(cache).source_of(model), before);
+    model.part = 0;
+    numbers[0] = char(numbers[0] + 1);
+    put_bytes(folder / "numbers.bin", numbers);
+    EXPECT_NE(AssetStore(cache).source_of(model), before);
 }
 
 /// Writes a file with two grids: a ball as a level set, and a fog.

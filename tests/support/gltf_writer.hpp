@@ -49,10 +49,10 @@ class GltfWriter {
         return whole.dump();
     }
 
-    /// The file as .glb.
+    /// The file as .glb. Its own buffer, if it has bytes, is the only one.
     std::string glb() const {
         nlohmann::json whole = json;
-        whole["buffers"] = {{{"byteLength", bytes.size()}}};
+        if (!bytes.empty()) whole["buffers"] = {{{"byteLength", bytes.size()}}};
         std::string text = whole.dump(), binary = bytes;
         while (text.size() % 4 != 0) text += ' ';
         while (binary.size() % 4 != 0) binary += '\0';

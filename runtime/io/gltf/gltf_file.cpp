@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <set>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
@@ -64,6 +65,52 @@ int depth_of(std::string_view text) {
     return deepest;
 }
 
+/// The chunks of a .glb, or the text of a .gltf.
+struct Chunks {
+    std::string_view json, binary;
+};
+
+/// Throws Error::input, which `name` opens, for a .glb that is damaged.
+Chunks chunks_of(std::string_view bytes, const std::string& name) {
+    constexpr size_t kHeader = 12, kChunk = 8;
+    constexpr uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
+    if (!bytes.starts_with("glTF")) return {bytes, {}};
+    const auto refuse = [&](const std::string& reason) {
+        throw Error(ErrorKind::input, "{}: {}", SourcePlace(name), reason);
+    };
+    if (bytes.size() < kHeader + kChunk) refuse("the file ends inside the header of a .glb");
+    if (load_word(bytes, 4) != 2)
+        refuse(fmt::format("version {} of glTF; version 2 is read", load_word(bytes, 4)));
+    Chunks chunks;
+    size_t at = kHeader;
+    for (int number = 0; number < 2 && bytes.size() - at >= kChunk; ++number) {
+        const size_t size = load_word(bytes, at);
+        const uint32_t type = load_word(bytes, at + 4);
+        at += kChunk;
+        if (size > bytes.size() - at)
+            refuse("the file ends inside a chunk; it is damaged or incomplete");
+        if (number == 0 && type != kJson) refuse("its first chunk isn't JSON");
+        if (number == 0) chunks.json = bytes.substr(at, size);
+        if (number == 1 && type == kBinary) chunks.binary = bytes.substr(at, size);
+        at = std::min(at + (size + 3) / 4 * 4, bytes.size());
+    }
+    return chunks;
+}
+
+/// The name of each material, which no other one has.
+std::vector<std::string> names_of_materials(const std::vector<GltfValue>& materials) {
+    std::vector<std::string> names;
+    names.reserve(materials.size());
+    std::set<std::string> taken;
+    for (size_t i = 0; i < materials.size(); ++i) {
+        std::string name = materials[i].text("name");
+        if (name.empty()) name = fmt::format("material {}", i);
+        while (!taken.insert(name).second) name += fmt::format(" {}", i);
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
 std::span<const uint8_t> span_of(std::string_view bytes) {
     return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
@@ -77,37 +124,12 @@ bool is_gltf_file(const std::filesystem::path& file) {
 
 GltfFile::GltfFile(std::string bytes, const std::filesystem::path& path)
     : bytes_(std::move(bytes)), path_(path), name_(path.string()) {
-    parse_json(take_chunks());
+    const Chunks chunks = chunks_of(bytes_, name_);
+    chunk_ = chunks.binary;
+    parse_json(chunks.json);
     check_json();
+    material_names_ = names_of_materials(root().items("materials"));
     read_buffers();
-}
-
-/// The JSON text of the file; sets the binary chunk of a .glb.
-std::string_view GltfFile::take_chunks() {
-    constexpr size_t kHeader = 12, kChunk = 8;
-    constexpr uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
-    const std::string_view bytes = bytes_;
-    if (!bytes.starts_with("glTF")) return bytes;
-    const auto refuse = [&](const std::string& reason) {
-        throw Error(ErrorKind::input, "{}: {}", SourcePlace(name_), reason);
-    };
-    if (bytes.size() < kHeader + kChunk) refuse("the file ends inside the header of a .glb");
-    if (load_word(bytes, 4) != 2)
-        refuse(fmt::format("version {} of glTF; version 2 is read", load_word(bytes, 4)));
-    std::string_view text;
-    size_t at = kHeader;
-    for (int number = 0; number < 2 && bytes.size() - at >= kChunk; ++number) {
-        const size_t size = load_word(bytes, at);
-        const uint32_t type = load_word(bytes, at + 4);
-        at += kChunk;
-        if (size > bytes.size() - at)
-            refuse("the file ends inside a chunk; it is damaged or incomplete");
-        if (number == 0 && type != kJson) refuse("its first chunk isn't JSON");
-        if (number == 0) text = bytes.substr(at, size);
-        if (number == 1 && type == kBinary) chunk_ = bytes.substr(at, size);
-        at = std::min(at + (size + 3) / 4 * 4, bytes.size());
-    }
-    return text;
 }
 
 void GltfFile::parse_json(std::string_view text) {
@@ -207,11 +229,11 @@ std::vector<uint8_t> GltfFile::image(const GltfValue& image) const {
 std::vector<std::filesystem::path> gltf_companions(const std::string& bytes,
                                                    const std::filesystem::path& path) {
     std::vector<std::filesystem::path> files;
-    if (bytes.starts_with("glTF")) return files;
+    const std::string_view text = chunks_of(bytes, path.string()).json;
     const nlohmann::json json =
-        depth_of(bytes) > kMaxLevels
+        depth_of(text) > kMaxLevels
             ? nlohmann::json()
-            : nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
+            : nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
     for (const char* const list : {"buffers", "images"}) {
         if (!json.is_object() || !json.contains(list)) continue;
         for (const nlohmann::json& item : json[list]) {

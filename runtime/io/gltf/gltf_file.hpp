@@ -74,11 +74,16 @@ class GltfFile {
     size_t buffer_count() const { return buffers_.size(); }
     /// The bytes of an image: its file's, a data URI's or a buffer view's.
     std::vector<uint8_t> image(const GltfValue& image) const;
+    /// The name of a material, which no other one has; -1 stands for that of primitives without
+    /// one.
+    std::string material_name(int material) const {
+        return material < 0 ? std::string() : material_names_[size_t(material)];
+    }
+    const std::vector<std::string>& material_names() const { return material_names_; }
     /// Extensions that the file uses and that aren't known, as sentences.
     std::vector<std::string> notes() const;
 
   private:
-    std::string_view take_chunks();
     void parse_json(std::string_view text);
     void check_json() const;
     void read_buffers();
@@ -91,12 +96,14 @@ class GltfFile {
     std::string_view chunk_;         ///< of a .glb, its binary chunk
     std::vector<std::string> read_;  ///< buffers from elsewhere
     std::vector<std::span<const uint8_t>> buffers_;
+    std::vector<std::string> material_names_;
 };
 
 /// True for names that end in .gltf or .glb.
 bool is_gltf_file(const std::filesystem::path& file);
 
-/// The files that a glTF file's buffers and images lie in.
+/// The files that a glTF file's buffers and images lie in. Throws Error::input for a .glb whose
+/// chunks are damaged.
 std::vector<std::filesystem::path> gltf_companions(const std::string& bytes,
                                                    const std::filesystem::path& path);
 

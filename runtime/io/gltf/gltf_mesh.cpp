@@ -167,7 +167,7 @@ class MeshBuilder {
         const auto [entry, is_new] =
             groups_.try_emplace(material, uint32_t(mesh_.group_names.size()));
         if (is_new) {
-            mesh_.group_names.push_back(gltf_material_name(file_, material));
+            mesh_.group_names.push_back(file_.material_name(material));
             mesh_.group_textures.push_back(textures_.append(material, mesh_));
         }
         return entry->second;
@@ -188,17 +188,6 @@ class MeshBuilder {
 };
 
 }  // namespace
-
-std::string gltf_material_name(const GltfFile& file, int material) {
-    if (material < 0) return "";
-    const GltfValue root = file.root();
-    std::string name = root.item("materials", size_t(material)).text("name");
-    if (name.empty()) return fmt::format("material {}", material);
-    for (int i = 0; i < material; ++i)
-        if (root.item("materials", size_t(i)).text("name") == name)
-            return fmt::format("{} {}", name, material);
-    return name;
-}
 
 Mesh read_mesh_file(const std::filesystem::path& path) {
     return is_gltf_file(path) ? gltf_mesh(GltfFile(read_mesh_bytes(path), path), 0)

@@ -10,7 +10,7 @@
 namespace voxelume {
 
 /// A mesh of the file, numbered from 1 on, in its own space; with 0 all that the file's scene
-/// shows, in its places. Groups are named by gltf_material_name().
+/// shows, in its places. Groups are named by GltfFile::material_name().
 ///
 /// Triangles, strips and fans are read, and points and lines are left out with a note. Base colour
 /// textures are those of metallic-roughness and of specular-glossiness materials. Throws
@@ -19,8 +19,5 @@ Mesh gltf_mesh(const GltfFile& file, int part);
 
 /// Reads a mesh of any format, of a glTF file all that its scene shows. Throws as read_mesh() does.
 Mesh read_mesh_file(const std::filesystem::path& path);
-
-/// The name of a material, which no other one has; -1 stands for that of primitives without one.
-std::string gltf_material_name(const GltfFile& file, int material);
 
 }  // namespace voxelume

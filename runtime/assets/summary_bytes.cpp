@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Summaries of meshes as CBOR, in which numbers keep all their bits.
+#include "runtime/assets/summary_bytes.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace voxelume {
+namespace {
+
+nlohmann::json json_of(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 vector_of(const nlohmann::json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+nlohmann::json json_of(const SurfaceArea& area) {
+    return {json_of(area.shadows), area.total};
+}
+
+SurfaceArea area_of(const nlohmann::json& json) {
+    return {vector_of(json.at(0)), json.at(1).get<double>()};
+}
+
+/// A name consists of the file's bytes, in whatever encoding.
+nlohmann::json json_of(const std::string& name) {
+    return nlohmann::json::binary({name.begin(), name.end()});
+}
+
+std::string text_of(const nlohmann::json& json) {
+    const auto& bytes = json.get_binary();
+    return {bytes.begin(), bytes.end()};
+}
+
+nlohmann::json json_of(const MeshPaint& paint) {
+    return {paint.colors, paint.has_corner_colors, paint.texels, paint.textures,
+            paint.uvs,    paint.has_corner_uvs};
+}
+
+MeshPaint read_paint(const nlohmann::json& json) {
+    return {json.at(0).get<uint64_t>(), json.at(1).get<bool>(),     json.at(2).get<uint64_t>(),
+            json.at(3).get<uint64_t>(), json.at(4).get<uint64_t>(), json.at(5).get<bool>()};
+}
+
+MeshSummary read_summary(const nlohmann::json& json) {
+    MeshSummary summary;
+    summary.triangles = json.at(0).get<uint64_t>();
+    summary.surface = {vector_of(json.at(1).at(0)), vector_of(json.at(1).at(1))};
+    summary.vertices = {vector_of(json.at(2).at(0)), vector_of(json.at(2).at(1))};
+    summary.area = area_of(json.at(3).at(0));
+    summary.min_area = area_of(json.at(3).at(1));
+    summary.paint = read_paint(json.at(4));
+    summary.corners = json.at(6).get<uint64_t>();
+    for (const nlohmann::json& name : json.at(5)) summary.group_names.push_back(text_of(name));
+    const nlohmann::json& topology = json.at(7);
+    summary.topology = {topology.at(0).get<uint64_t>(), topology.at(1).get<double>(),
+                        topology.at(2).get<double>()};
+    summary.material_library = text_of(json.at(8).at(0));
+    summary.texture = text_of(json.at(8).at(1));
+    summary.has_normals = json.at(9).get<bool>();
+    summary.longest_edge = json.at(10).get<double>();
+    for (const nlohmann::json& note : json.at(11)) summary.notes.push_back(text_of(note));
+    return summary;
+}
+
+std::string cbor_of(const nlohmann::json& json) {
+    const std::vector<uint8_t> bytes = nlohmann::json::to_cbor(json);
+    return {bytes.begin(), bytes.end()};
+}
+
+/// What `read` makes of the bytes; nothing where they aren't what was written.
+template <typename Value>
+std::optional<Value> value_of(const std::string& bytes, Value (*read)(const nlohmann::json&)) {
+    try {
+        return read(nlohmann::json::from_cbor(bytes));
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::string bytes_of(const MeshSummary& summary) {
+    nlohmann::json whole = {
+        summary.triangles,
+        {json_of(summary.surface.min), json_of(summary.surface.max)},
+        {json_of(summary.vertices.min), json_of(summary.vertices.max)},
+        {json_of(summary.area), json_of(summary.min_area)},
+        json_of(summary.paint),
+        nlohmann::json::array(),
+        summary.corners,
+        {summary.topology.open_edges, summary.topology.hole_area, summary.topology.volume},
+        {json_of(summary.material_library), json_of(summary.texture)},
+        summary.has_normals,
+        summary.longest_edge,
+        nlohmann::json::array()};
+    for (const std::string& note : summary.notes) whole[11].push_back(json_of(note));
+    for (const std::string& name : summary.group_names) whole[5].push_back(json_of(name));
+    return cbor_of(whole);
+}
+
+std::optional<MeshSummary> summary_of_bytes(const std::string& bytes) {
+    return value_of(bytes, read_summary);
+}
+
+std::string bytes_of(const MeshShape& shape) {
+    return cbor_of({shape.sharp_length, shape.thickness});
+}
+
+std::optional<MeshShape> shape_of_bytes(const std::string& bytes) {
+    return value_of<MeshShape>(bytes, [](const nlohmann::json& json) {
+        return MeshShape{json.at(0).get<double>(), json.at(1).get<double>()};
+    });
+}
+
+}  // namespace voxelume

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Summaries of meshes <-> the bytes of cache entries.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/mesh_summary.hpp"
+
+namespace voxelume {
+
+std::string bytes_of(const MeshSummary& summary);
+std::string bytes_of(const MeshShape& shape);
+/// Empty where the bytes aren't those of a summary or a shape.
+std::optional<MeshSummary> summary_of_bytes(const std::string& bytes);
+std::optional<MeshShape> shape_of_bytes(const std::string& bytes);
+
+}  // namespace voxelume
