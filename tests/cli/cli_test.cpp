@@ -50,7 +50,9 @@ TEST_F(CliTest, ACommandsHelpNamesItsOptions) {
 }
 
 TEST_F(CliTest, VersionIsOneLine) {
-    EXPECT_THAT(run("--version").out, testing::MatchesRegex("voxelume [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+    EXPECT_THAT(run("--version").out,
+                testing::MatchesRegex("voxelume [0-9]+\\.[0-9]+\\.[0-9]+\ncommit: [^\n]+\n"
+                                      "built by: [^\n]+\nwith: OpenEXR [^\n]+\n"));
 }
 
 TEST_F(CliTest, AMistypedCommandSuggestsTheNearest) {
