@@ -8,6 +8,7 @@
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/memory/voxel_bricks.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
@@ -163,31 +164,14 @@ GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& fram
     return counts_of(model, meshes_.summary_of(model), frame, extent);
 }
 
-/// What a file's voxels take of the world: the world's voxels in their volume, and no fewer bricks
-/// than the file's; at least one for all of the file's voxels that a larger voxel of the world
-/// holds, if the world shows all of them.
-SurfaceExtent ObjectCounts::voxels_in_world(const Object& object, const VoxelModel& voxels,
-                                            bool at_least) {
-    const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };
-    const GridFrame& frame = voxels.frame;
-    const double own = volume(frame.voxel_edge) / volume(scene_.world.voxel_size) *
-                       std::abs(glm::determinant(object.world_from_object));
-    const auto stored = double(voxels.coordinates.size()), count = double(voxels.voxels());
-    if (!at_least) return {count * std::max(1.0, own), 1.4 * stored * std::max(1.0, own)};
-    if (!extents_.lies_in_world(frame.origin,
-                                frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
-                                object.world_from_object))
-        return {};
-    return {count * std::min(1.0, own), stored * std::min(1.0, own)};
-}
-
 BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
     const auto alone = [](const SurfaceExtent& extent) {
         return BrickCount{extent, extent.bricks};
     };
     const Model& model = scene_.models[size_t(object.model)];
     if (!model.voxels.empty() && model.surface != Surface::exact)
-        return alone(voxels_in_world(object, meshes_.voxels(model), false));
+        return count_voxels(meshes_.voxels(model), object.world_from_object, spread_of(object),
+                            world_frame(scene_.world), taken);
     const bool keeps_inside = shows_inside(scene_, object);
     if (model.solid) {
         const double spread =
@@ -207,12 +191,19 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
     return alone(extent);
 }
 
+SurfaceExtent ObjectCounts::least_of_voxels(const Object& object, const VoxelModel& voxels) {
+    const GridFrame& frame = voxels.frame;
+    const glm::dvec3 end = frame.origin + frame.voxel_edge * glm::dvec3(frame.size);
+    if (!extents_.lies_in_world(frame.origin, end, object.world_from_object)) return {};
+    return least_count(voxels, object.world_from_object, world_frame(scene_.world));
+}
+
 WorldExtent ObjectCounts::least_in_world(size_t number) {
     const Object& object = scene_.objects[number];
     const Model& model = scene_.models[size_t(object.model)];
     const bool has_voxels = !model.voxels.empty() && model.surface != Surface::exact;
     SurfaceExtent extent =
-        has_voxels ? voxels_in_world(object, meshes_.voxels(model), true)
+        has_voxels ? least_of_voxels(object, meshes_.voxels(model))
                    : extents_.minimum(
                          object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
     // Areas say too much where objects are small.

@@ -54,7 +54,7 @@ class ObjectCounts {
     SurfaceExtent object_extent(const Object& object, const GridFrame& frame);
     BrickCount expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
-    SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
+    SurfaceExtent least_of_voxels(const Object& object, const VoxelModel& voxels);
 
     const Scene& scene_;
     AssetStore& meshes_;
