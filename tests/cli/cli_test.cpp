@@ -49,7 +49,7 @@ TEST_F(CliTest, ACommandsHelpNamesItsOptions) {
         EXPECT_THAT(run(arguments).out, HasSubstr("--fail"));
 }
 
-TEST_F(CliTest, VersionIsOneLine) {
+TEST_F(CliTest, VersionIsFollowedByTheFactsOfTheBuild) {
     EXPECT_THAT(run("--version").out,
                 testing::MatchesRegex("voxelume [0-9]+\\.[0-9]+\\.[0-9]+\ncommit: [^\n]+\n"
                                       "built by: [^\n]+\nwith: OpenEXR [^\n]+\n"));
