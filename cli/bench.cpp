@@ -34,7 +34,8 @@ int run(const BenchCommand& command) {
     const Device device = Device::open(command.device);
     BenchReport report;
     {
-        Progress bar("measuring", count_bench_rows(options), stderr, command.quiet);
+        Progress bar("measuring", count_bench_rows(options), stderr,
+                     command.quiet ? Drawing::never : Drawing::where_watched);
         report = run_bench(device, options, [&bar](size_t, size_t) { bar.advance(); });
     }
     if (!command.quiet)

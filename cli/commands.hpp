@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of `voxelume`: one file each, plugged into the table in main.cpp.
+// The commands of `voxelume`: one file each, plugged into the table in
+// command_table.cpp.
 #pragma once
 
 #include <functional>
+#include <span>
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name
 namespace CLI {
@@ -21,23 +23,35 @@ using Action = std::function<int()>;
 /// code. Results go to stdout, everything said to a person goes to stderr.
 using AddCommand = Action (*)(CLI::App& app);
 
-/// A line of the table in main.cpp.
+/// A line of the table of commands.
 struct Command {
     const char* name;
     const char* help;  ///< one line, for `voxelume help`
     AddCommand add;
 };
 
+/// All of them. Help, manual page and completion are made from this table and the options that the
+/// commands declare.
+std::span<const Command> commands();
+
+/// The exit codes, in lines for people.
+const char* exit_codes_text();
+
 Action add_bench(CLI::App& app);
 Action add_check(CLI::App& app);
+Action add_completion(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
+Action add_doctor(CLI::App& app);
 Action add_render(CLI::App& app);
 Action add_import(CLI::App& app);
 Action add_info(CLI::App& app);
+Action add_man(CLI::App& app);
+Action add_merge(CLI::App& app);
 Action add_stress(CLI::App& app);
 Action add_view(CLI::App& app);
+Action add_warm(CLI::App& app);
 Action add_voxelize(CLI::App& app);
 
 }  // namespace voxelume::cli

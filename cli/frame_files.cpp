@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/frame_files.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
 
 #include "cli/checks.hpp"
+#include "cli/finished_files.hpp"
+#include "cli/output_stream.hpp"
+#include "cli/render_progress.hpp"
+#include "cli/shard.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -52,6 +58,21 @@ std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Standard output has one image, and nothing else.
+void check_stream(const RenderCommand& options) {
+    const auto count = std::ranges::count_if(options.outputs, is_stream);
+    if (count == 0) return;
+    if (count > 1) fail_usage("render: two outputs are standard output; leave one of them out");
+    if (options.plan_only) fail_usage("render: --dry-run and -o - both write standard output");
+    if (isatty(STDOUT_FILENO) == 1)
+        fail_usage(
+            "render: -o -: standard output is a terminal; write the image to a file or pipe");
+}
+
+}  // namespace
+
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
                    "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl "
@@ -92,6 +113,24 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_flag("--no-overlap", command.one_by_one,
                  "build, render and write one frame after another, in less memory; several devices "
                  "always do so, each with its own frames");
+    app.add_option("--crop", command.crop,
+                   "render X,Y,WIDTH,HEIGHT of the image alone, in pixels from the top left; .exr "
+                   "files have it as their data window")
+        ->type_name("X,Y,W,H");
+    app.add_option("--shard", command.shard,
+                   "render part I of N alone, of the frames or of one image; `voxelume merge` puts "
+                   "the parts together")
+        ->type_name("I/N");
+    app.add_option("--overwrite", command.overwrite,
+                   "which files to render that are there already: always (the default), never, or "
+                   "changed: those that are damaged, or made from something else")
+        ->type_name("always|never|changed");
+    app.add_flag("--resume", command.resume,
+                 "go on where a run ended: the same as --overwrite changed");
+    app.add_option("--progress", command.progress,
+                   "how progress is told on stderr: auto (the default; a bar on a terminal, and "
+                   "else a line for each frame), bar, plain, json (a JSON object a line), or none")
+        ->type_name("auto|bar|plain|json|none");
     app.add_flag("-v,--verbose", command.verbose,
                  "print more: times of kernels, memory, a line for each frame");
     app.add_flag("-q,--quiet", command.quiet, "print errors only");
@@ -105,7 +144,8 @@ std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& s
     for (const int frame : frames) {
         if (list.empty() || scene.moves()) list.push_back({frame, {}, {}});
         for (const std::string& pattern : options.outputs)
-            list.back().images.emplace_back(frame_path(pattern, frame, animation));
+            if (!is_stream(pattern))
+                list.back().images.emplace_back(frame_path(pattern, frame, animation));
         for (const std::string& pattern : options.volumes)
             list.back().volumes.emplace_back(!animation ? pattern
                                              : is_slices(pattern)
@@ -127,13 +167,21 @@ void check_options(const RenderCommand& options) {
         fail_usage("render: say where the image goes: -o image.exr, or --volume image.vdb");
     const bool animation = !options.frames.empty();
     const int first = animation ? parse_frame_list(options.frames).front() : 1;
+    progress_style(options.progress);
+    if (!options.shard.empty()) parse_shard(options.shard);
+    overwrite_of(options);
+    check_stream(options);
     for (const std::string& pattern : options.outputs)
-        check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
+        if (!is_stream(pattern))
+            check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
     if (!options.stats.empty()) check_output(options.stats, {}, "render");
 }
 
 void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
                  const RenderCommand& options) {
+    if (list.size() > 1 && std::ranges::any_of(options.outputs, is_stream))
+        fail_usage("render: -o -: standard output takes one image, not {}; choose with --frames",
+                   list.size());
     std::vector<std::string> names{options.stats};
     for (const FrameFiles& files : list) {
         for (const auto* paths : {&files.images, &files.volumes})

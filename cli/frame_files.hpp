@@ -21,6 +21,8 @@ struct RenderCommand {
     int views = 0;                    ///< around the scene; 0: the scene's own alone
     std::vector<std::string> outputs, volumes;
     std::string frames;
+    std::string crop;   ///< X,Y,WIDTH,HEIGHT; empty: all of the image
+    std::string shard;  ///< I/N; empty: all of the run
     double exposure = 0;
     bool float_color = false;
     std::string channels = "RGBA,Z,P,N,objectId";
@@ -29,6 +31,9 @@ struct RenderCommand {
     bool one_by_one = false;
     bool verbose = false;
     bool quiet = false;
+    std::string progress = "auto";
+    std::string overwrite;  ///< empty: always
+    bool resume = false;
 };
 
 /// Declares the options on `app`; returns that of --frames.

@@ -18,48 +18,25 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/complaint.hpp"
+#include "cli/interrupt.hpp"
 
 namespace voxelume::cli {
 
 namespace {
 
-/// In the order in which a user meets them.
-constexpr std::array kCommands = {
-    Command{"devices", "list the devices that can render, and say why others can't", add_devices},
-    Command{"render", "render a scene or a model file: images, volumetric images, animations",
-            add_render},
-    Command{"check", "check a scene, and say what rendering it needs", add_check},
-    Command{"import", "write the scene that shows a model file, to be changed", add_import},
-    Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
-    Command{"info", "describe a file: image, volume, model or mesh", add_info},
-    Command{"convert", "convert a volumetric image to another format", add_convert},
-    Command{"view", "show a volumetric image as a picture, or as a page to turn it in", add_view},
-    Command{"diff", "measure how far two images are apart", add_diff},
-    Command{"stress", "compare what a device computes with exact arithmetic", add_stress},
-    Command{"bench", "measure run time against error", add_bench},
-};
-
-constexpr const char* kExitCodes =
-    "Exit codes:\n"
-    "  0  done                               5  output that can't be written\n"
-    "  1  rendering or a comparison failed   6  no device, or not the one asked for\n"
-    "  2  wrong command line                 7  a kernel doesn't compile on the device\n"
-    "  3  invalid scene                      8  too little memory, or a limit\n"
-    "  4  input that is missing, unreadable or damaged\n"
-    "  130  ended by Ctrl-C; `stress` first reports what it has found\n";
-
 int print_help() {
     fmt::print("voxelume {}: images of voxel worlds, flat and volumetric\n\n", version());
     fmt::print("Usage: voxelume COMMAND [OPTIONS], options in any order\n\nCommands:\n");
-    for (const Command& command : kCommands) fmt::print("  {:<10}{}\n", command.name, command.help);
-    fmt::print("  {:<10}{}\n\n", "help", "print this, or a command's options: `help COMMAND`");
-    fmt::print("{}", kExitCodes);
+    for (const Command& command : commands())
+        fmt::print("  {:<12}{}\n", command.name, command.help);
+    fmt::print("  {:<12}{}\n\n", "help", "print this, or a command's options: `help COMMAND`");
+    fmt::print("{}", exit_codes_text());
     return 0;
 }
 
 const Command& find_command(const std::string& name) {
     std::vector<std::string_view> names = {"help"};
-    for (const Command& command : kCommands) {
+    for (const Command& command : commands()) {
         if (name == command.name) return command;
         names.emplace_back(command.name);
     }
@@ -144,10 +121,15 @@ int main(int count, char** arguments) {
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
                              .image_threads = int(std::thread::hardware_concurrency())});
+        cli::handle_interrupts();
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();
         return code;
     } catch (const voxelume::Error& error) {
+        if (error.kind() == ErrorKind::cancelled) {
+            if (cli::may_tell_interruption()) cli::complain(error.what(), error.kind());
+            return cli::interrupted_code();
+        }
         return cli::complain(error.what(), error.kind());
     } catch (const std::bad_alloc&) {
         return cli::complain("out of memory: use fewer or larger voxels, or a smaller picture",

@@ -20,22 +20,21 @@ bool is_set(const Variables& environment, const char* name) {
     return value != nullptr && *value != '\0';
 }
 
-std::string clock_text(double seconds) {
-    const auto whole = std::lround(std::min(seconds, 359999.0));
-    if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
-    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 /// Time passed at the end, time left before.
 std::string time_text(const ProgressState& state, double part) {
     if (part >= 1.0) return clock_text(state.seconds);
-    if (part <= 0.0) return "";
-    return clock_text(state.seconds * (1.0 - part) / part) + " left";
+    return state.left ? clock_text(*state.left) + " left" : "";
 }
 
 constexpr std::string_view kClearLine = "\r\x1b[K";
 
 }  // namespace
+
+std::string clock_text(double seconds) {
+    const auto whole = std::lround(std::min(seconds, 359999.0));
+    if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
 
 Terminal describe_terminal(bool is_terminal, const Variables& environment) {
     const bool dumb =
@@ -76,9 +75,16 @@ std::string progress_line(const ProgressState& state, const Terminal& terminal) 
     return fmt::format("{} [{}{}{}{}] {}", state.label, color, bar, plain, rest, text);
 }
 
-Progress::Progress(std::string label, uint64_t total, std::FILE* stream, bool quiet)
-    : state_{std::move(label), 0, total, 0.0}, stream_(stream) {
-    if (!quiet) terminal_ = describe_terminal(stream);
+Progress::Progress(std::string label, uint64_t total, std::FILE* stream, Drawing drawing)
+    : state_{std::move(label), 0, total, 0.0, {}}, stream_(stream) {
+    if (drawing != Drawing::never) terminal_ = describe_terminal(stream);
+    terminal_.draws_bars |= drawing == Drawing::always;
+}
+
+void Progress::foretell(std::optional<double> seconds) {
+    const std::lock_guard lock(mutex_);
+    is_foretold_ = true;
+    state_.left = seconds;
 }
 
 Progress::~Progress() {
@@ -112,6 +118,8 @@ void Progress::advance(uint64_t count) {
     if (now - drawn_ < std::chrono::milliseconds(100) && state_.done < state_.total) return;
     drawn_ = moved_ = now;
     state_.seconds = std::chrono::duration<double>(now - start_).count();
+    if (!is_foretold_ && state_.done > 0)
+        state_.left = state_.seconds * (double(state_.total) / double(state_.done) - 1.0);
     const std::string line = fmt::format("\r{}", progress_line(state_, terminal_));
     std::fwrite(line.data(), 1, line.size(), stream_);
     std::fflush(stream_);

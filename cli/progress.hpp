@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace voxelume {
@@ -31,25 +32,36 @@ Terminal describe_terminal(std::FILE* stream);
 struct ProgressState {
     std::string label;
     uint64_t done = 0;
-    uint64_t total = 0;    ///< 0: nothing to do, shown as complete
-    double seconds = 0.0;  ///< since the start
+    uint64_t total = 0;               ///< 0: nothing to do, shown as complete
+    double seconds = 0.0;             ///< since the start
+    std::optional<double> left = {};  ///< seconds, as far as that is known
 };
+
+/// "1:30", or "1:00:00" from an hour on.
+std::string clock_text(double seconds);
 
 /// One line without its end, never wider than the terminal: label, bar, per cent, time passed or
 /// left.
 std::string progress_line(const ProgressState& state, const Terminal& terminal);
 
+/// Whether a bar is drawn.
+enum class Drawing { never, where_watched, always };
+
 /// Redraws a line on `stream` at most ten times a second; silent where no bar is to be drawn. Any
 /// thread may call it.
 class Progress {
   public:
-    Progress(std::string label, uint64_t total, std::FILE* stream, bool quiet = false);
+    Progress(std::string label, uint64_t total, std::FILE* stream,
+             Drawing drawing = Drawing::where_watched);
     /// Clears the line, so that what is printed next starts in a clean one.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     void advance(uint64_t count = 1);
+    /// Sets the time left that is shown from now on; without a call it is what the time passed so
+    /// far foretells.
+    void foretell(std::optional<double> seconds);
     /// Shows a text instead of the bar until there is progress, if a second has passed without
     /// any.
     void say(const std::string& text);
@@ -65,6 +77,7 @@ class Progress {
     Terminal terminal_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point drawn_{};
+    bool is_foretold_ = false;
     Clock::time_point moved_{};  ///< when the bar was last drawn
 };
 

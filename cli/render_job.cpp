@@ -2,69 +2,72 @@
 // One job of `render`: a scene to its files.
 #include "cli/render_job.hpp"
 
-#include <CLI/CLI.hpp>
 #include <chrono>
+#include <optional>
 
+#include "cli/channels.hpp"
 #include "cli/checks.hpp"
-#include "cli/progress.hpp"
+#include "cli/crop.hpp"
+#include "cli/finished_files.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_stream.hpp"
+#include "cli/render_progress.hpp"
 #include "cli/render_report.hpp"
+#include "cli/shard_part.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
 
-/// The channels of OpenEXR files that `--channels` names.
-Channels listed_channels(const RenderCommand& command) {
-    Channels channels{false, false, false, false, false};
-    for (const std::string& name : CLI::detail::split(command.channels, ',')) {
-        if (name == "RGBA")
-            channels.color = true;
-        else if (name == "Z")
-            channels.depth = true;
-        else if (name == "P")
-            channels.position = true;
-        else if (name == "N")
-            channels.normal = true;
-        else if (name == "objectId")
-            channels.object = true;
-        else
-            fail_usage("render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
-    }
-    return channels;
+/// The scene with the part of the image that --crop names.
+Scene cropped(const Scene& scene, const std::string& text) {
+    const ImagePart part = part_of(text, scene);
+    return scene.with_crop(part.first, part.size);
 }
 
-/// A line for logs, by which a farm follows an animation; a bar shows people as much.
-void tell_written(const FrameFiles& files) {
-    for (const auto* paths : {&files.images, &files.volumes})
-        for (const std::filesystem::path& path : *paths)
-            fmt::print(stderr, "frame {}: {}\n", files.frame, path.string());
+/// `-q` silences what nobody asked for by name.
+ProgressStyle style_of(const RenderCommand& command) {
+    const ProgressStyle style = progress_style(command.progress);
+    return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
+}
+
+/// Leaves the frames that have to be rendered, and says how many have not. Returns whether any are
+/// left.
+bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
+    if (OutputStream(command.outputs).is_wanted()) return true;
+    const size_t count = job.frames.size();
+    if (count == 0 && !command.quiet)
+        fmt::print(stderr,
+                   "this part has nothing to render: there are more parts than frames or rows\n");
+    const size_t skipped = skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
+    if (skipped > 0 && !command.quiet)
+        fmt::print(stderr, "{} of {} frames are there already\n", skipped, count);
+    return !job.frames.empty();
 }
 
 /// Renders the files of a job, and tells of them while it does.
 Statistics render_files(const Scene& scene, const std::vector<Device>& devices, FrameJob job,
                         const RenderCommand& command, const std::string& label) {
-    Progress bar(label, 100 * job.frames.size(), stderr, command.quiet);
-    uint64_t shown = 0;
+    RenderProgress progress(label, job.frames.size(), style_of(command));
+    const Interruptible interruptible;
     RenderOptions render;
+    render.stop = interruptible.stop();
     render.cache = cache_options(command.scene);
     render.overlap = !command.one_by_one;
     render.time_kernels = command.verbose || !command.stats.empty();
-    render.progress = [&](double done, int) {
-        const auto now = uint64_t(done * 100 * double(job.frames.size()));
-        bar.advance(now - shown);
-        shown = now;
-    };
-    render.compiling = [&bar](int kernel, int known) {
-        bar.say(fmt::format("compiling kernels: {} of {}", kernel, known));
-    };
+    render.progress = [&](double done, int frame) { progress.advance(done, frame); };
+    render.compiling = [&](int kernel, int known) { progress.compiling(kernel, known); };
     render.strict = command.scene.strict;
-    if (!command.quiet) render.warn = warning_printer(render.strict, [&bar] { bar.clear(); });
-    const bool tells =
-        !command.quiet && job.frames.size() > 1 && !describe_terminal(stderr).draws_bars;
-    if (tells)
-        job.deliver = [files = job.frames.begin()](const RenderedFrame&) mutable {
-            tell_written(*files++);
-        };
+    if (!command.quiet) render.warn = warning_printer(render.strict, [&] { progress.clear(); });
+    const OutputStream stream(command.outputs);
+    if (stream.is_wanted()) {
+        job.deliver_images = true;
+        render.channels = stream.channels(job.image_files);
+    }
+    job.deliver = [&, files = job.frames.begin()](const RenderedFrame& frame) mutable {
+        if (stream.is_wanted()) stream.write(*frame.image, job.image_files);
+        progress.written(*files++);
+    };
     return render_frames(scene, devices, job, render);
 }
 
@@ -81,10 +84,18 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     FrameJob job;
-    job.image_files = {command.exposure, command.float_color, listed_channels(command)};
-    const Scene scene = read_with(command.scene, "render");
+    job.image_files = {command.exposure, command.float_color,
+                       parse_channels(command.channels, "render: --channels")};
+    Scene scene = read_with(command.scene, "render");
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
+    if (!command.crop.empty()) scene = cropped(scene, command.crop);
+    std::optional<ShardPart> part;
+    if (!command.shard.empty()) part.emplace(command, scene, job);
+    if (!command.plan_only && !remove_finished(scene, command, job)) {
+        if (part) part->write();
+        return;
+    }
     const std::vector<Device>& devices = lazy_devices.open();
     if (command.plan_only) {
         print_plan(scene, devices[0],
@@ -100,6 +111,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     const double open_seconds = seconds();
     Statistics statistics = render_files(scene, devices, std::move(job), command, label);
     statistics.open_seconds += open_seconds;
+    if (part) part->write();
     statistics.total_seconds = seconds();
     if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
     if (command.quiet) return;

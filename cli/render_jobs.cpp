@@ -7,6 +7,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/output_names.hpp"
+#include "cli/output_stream.hpp"
 #include "cli/sweep.hpp"
 
 namespace voxelume::cli {
@@ -43,6 +44,7 @@ class JobList {
             for (size_t view = 0; view < views_; ++view)
                 for (size_t n = 0; n < combinations_.size(); ++n)
                     jobs.push_back(job({input, view, n, combinations_[n]}));
+        refuse_shared_stream(jobs);
         refuse_shared_files(jobs);
         return jobs;
     }
@@ -101,6 +103,11 @@ class JobList {
         if (combinations_.size() > 1)
             for (const Sweep& sweep : sweeps_) names.push_back("{" + last_key(sweep.path) + "}");
         return fmt::format("have {} in its name", fmt::join(names, " and "));
+    }
+
+    static void refuse_shared_stream(const std::vector<RenderJob>& jobs) {
+        if (jobs.size() > 1 && std::ranges::any_of(jobs.front().command.outputs, is_stream))
+            fail_usage("render: -o -: standard output takes one image, not {}", jobs.size());
     }
 
     void refuse_shared_files(const std::vector<RenderJob>& jobs) const {

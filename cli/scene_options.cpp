@@ -3,6 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
 #include "cli/checks.hpp"
 
 namespace voxelume::cli {
@@ -76,13 +81,39 @@ ImportOptions import_of(const SceneOptions& options, Size size, const char* comm
 
 }  // namespace
 
+namespace {
+
+/// Standard input as the text of a scene.
+std::string read_stdin() {
+    constexpr size_t kMaxBytes = size_t{64} << 20;
+    std::string text;
+    std::array<char, 1 << 16> block{};
+    while (const size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
+        text.append(block.data(), count);
+        if (text.size() > kMaxBytes)
+            throw Error(ErrorKind::limit, "stdin: a scene has at most 64 MiB");
+    }
+    if (std::ferror(stdin) != 0)
+        throw Error(ErrorKind::input,
+                    fmt::format("stdin: can't be read: {}", std::strerror(errno)));
+    return text;
+}
+
+Scene load_scene(const std::string& name, const v1::SceneOptions& options) {
+    if (name != "-") return Scene::load(name, options);
+    static const std::string text = read_stdin();  // several views or values read it once
+    return Scene::parse(text, "stdin", options);
+}
+
+}  // namespace
+
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
     const bool is_model = is_model_file(options.scene);
     if (!is_model) refuse_choices(options.import, command);
     const v1::SceneOptions files = files_of(options, size, command);
     Scene scene = is_model ? scene_of_file(options.scene, import_of(options, size, command), files)
-                           : Scene::load(options.scene, files);
+                           : load_scene(options.scene, files);
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.samples != 0) scene = scene.with_samples(options.samples);
     if (!options.light.empty())

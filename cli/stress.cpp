@@ -67,7 +67,7 @@ StressResult run_test(const StressTest& test, const StressCommand& command, cons
         {
             Progress bar(fmt::format("{} {} of {}", test.name, done / at_once + 1,
                                      (count + at_once - 1) / at_once),
-                         now, stderr, command.quiet);
+                         now, stderr, command.quiet ? Drawing::never : Drawing::where_watched);
             std::stop_source stop;
             const auto advance = [&](uint64_t cases) {
                 bar.advance(cases);

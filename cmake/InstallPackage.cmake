@@ -4,6 +4,21 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS voxelume)
+# The program itself makes its manual page and completions, from the table of its options.
+install(CODE "
+    set(share \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATAROOTDIR}\")
+    foreach(page \"man/man1/voxelume.1:man\" \"bash-completion/completions/voxelume:completion bash\"
+                 \"zsh/site-functions/_voxelume:completion zsh\"
+                 \"fish/vendor_completions.d/voxelume.fish:completion fish\")
+        string(REGEX MATCH \"^([^:]*):(.*)\" all \"\${page}\")
+        set(file \"\${share}/\${CMAKE_MATCH_1}\")
+        separate_arguments(words UNIX_COMMAND \"\${CMAKE_MATCH_2}\")
+        get_filename_component(folder \"\${file}\" DIRECTORY)
+        file(MAKE_DIRECTORY \"\${folder}\")
+        execute_process(COMMAND \"$<TARGET_FILE:voxelume>\" \${words} OUTPUT_FILE \"\${file}\"
+                        COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()
+")
 install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
 install(TARGETS voxelume_vdb_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside the module
 install(TARGETS voxelume_shared EXPORT voxelumeTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

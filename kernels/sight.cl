@@ -29,10 +29,10 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     const lane_int row = (int)(tile / tiles_x * 4u) + (pixel >> 2);
     lane_int seen = LANE_MASK(column < camera.width) & LANE_MASK(row < camera.height);
 
-    const lane_float px = LANES_FLOAT(column) + offsets[2u * sample];
-    const lane_float py = LANES_FLOAT(row) + offsets[2u * sample + 1u];
-    const lane_float u = exact_divide(2.0f * px, (lane_float)(float)camera.width) - 1.0f;
-    const lane_float v = exact_divide(2.0f * py, (lane_float)(float)camera.height) - 1.0f;
+    const lane_float px = LANES_FLOAT(column + camera.first_column) + offsets[2u * sample];
+    const lane_float py = LANES_FLOAT(row + camera.first_row) + offsets[2u * sample + 1u];
+    const lane_float u = exact_divide(2.0f * px, (lane_float)(float)camera.frame_width) - 1.0f;
+    const lane_float v = exact_divide(2.0f * py, (lane_float)(float)camera.frame_height) - 1.0f;
     const SightRay ray = sight_ray(&camera, u, v, &seen);
 
     lane_float dx = along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.direction);

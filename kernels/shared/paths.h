@@ -13,12 +13,13 @@ namespace voxelume {
 // The pixels and samples of a batch of sight rays, which come in tiles of 4 x 4 pixels as sight.cl
 // has them, and the length of their paths.
 typedef struct PathSampling {
-    unsigned int first_tile;  // of the batch
-    unsigned int tiles_x;     // tiles side by side in the image
-    unsigned int samples;     // per pixel
-    unsigned int bounces;     // the maximum number of times that a path is scattered
+    unsigned int first_tile;               // of the batch
+    unsigned int tiles_x;                  // tiles side by side in the image
+    unsigned int samples;                  // per pixel
+    unsigned int bounces;                  // the maximum number of times that a path is scattered
+    unsigned int first_column, first_row;  // of the image in its frame, as Camera has them
 } PathSampling;
-VXL_SIZE_IS(PathSampling, 16);
+VXL_SIZE_IS(PathSampling, 24);
 
 // The area of a light around LightRecord::position, in voxels: its points are
 // position + a * axis_x + b * axis_y.

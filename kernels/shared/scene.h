@@ -47,15 +47,17 @@ typedef struct Camera {
     float half_y;
     float near_plane;  // metres; along Z_E for pyramid and box, along the ray for sector and ball
     float far_plane;
-    int width, height;  // pixels
+    int width, height;  // pixels of the image
     int samples;        // per pixel
     int shape;
     float sample_weight;  // 1 / samples
     float lead;  // metres along Z_E from the observer to `origin`, where a pyramid's rays are
                  // spread out already; near_plane and far_plane count from there
-    float unused[2];
+    int first_column, first_row;    // of the image in its frame, which it may be a part of
+    int frame_width, frame_height;  // pixels that half_x and half_y span
+    int unused[2];
 } Camera;
-VXL_SIZE_IS(Camera, 128);
+VXL_SIZE_IS(Camera, 144);
 
 typedef struct MaterialRecord {
     float color[3];

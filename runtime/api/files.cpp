@@ -9,6 +9,7 @@
 #include "runtime/api/handles.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/base/atomic_file.hpp"
+#include "runtime/base/file_hash.hpp"
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/text.hpp"
@@ -102,6 +103,10 @@ void write_file(const fs::path& file, std::string_view text) {
 
 std::string quote(std::string_view text) {
     return voxelume::quote(text);
+}
+
+std::string hash_of_file(const std::filesystem::path& file) {
+    return api::guarded([&] { return voxelume::hash_of_file(file); });
 }
 
 std::string suggest(std::string_view text, std::span<const std::string_view> names) {

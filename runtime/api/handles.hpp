@@ -42,6 +42,11 @@ class ReadAssets {
 /// Texts for the header of a file.
 using Attributes = std::map<std::string, std::string>;
 
+/// The name of the attribute that has a file's stamp.
+inline constexpr const char* kStamp = "stamp";
+/// The name of the attribute that has the hash of an image's frame, from which stamps are made.
+inline constexpr const char* kFrameHash = "frame hash";
+
 }  // namespace api
 
 struct v1::Device::Implementation {
@@ -51,6 +56,7 @@ struct v1::Device::Implementation {
 
 struct v1::Scene::Implementation {
     voxelume::Scene scene;
+    std::string hash;                       ///< of the document that it was read from
     std::shared_ptr<api::ReadAssets> read;  ///< shared by scenes that differ in settings alone
 };
 
@@ -70,7 +76,7 @@ namespace api {
 
 v1::DeviceInfo info_for_callers(const DeviceInfo& info);
 
-v1::Scene handle_of(Scene scene, std::shared_ptr<ReadAssets> read);
+v1::Scene handle_of(Scene scene, std::string hash, std::shared_ptr<ReadAssets> read);
 v1::Image handle_of(std::shared_ptr<const Image> image, Attributes attributes = {},
                     bool holds_codes = false);
 v1::Volume handle_of(std::shared_ptr<Volume> volume, Attributes attributes);

@@ -4,17 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/image/image_difference.hpp"
+#include "runtime/image/join_images.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/voxelume/render.hpp"
 
 namespace voxelume {
 namespace {
@@ -86,35 +91,66 @@ std::vector<const char*> left_out(const v1::Channels& channels) {
     return names;
 }
 
-void write_channels(const std::filesystem::path& file, const v1::Image::Implementation& image,
-                    const v1::ImageFileOptions& options) {
+/// The texts for the header of a file: the frame's hash becomes the file's stamp.
+api::Attributes attributes_for(const v1::Image::Implementation& image, std::string_view ending,
+                               const v1::ImageFileOptions& options) {
+    api::Attributes attributes = image.attributes;
+    if (const auto hash = attributes.extract(api::kFrameHash))
+        attributes[api::kStamp] = stamp_of(api::hash_for_image(hash.mapped(), ending, options));
+    return attributes;
+}
+
+PngOptions png_options(const v1::Image::Implementation& image,
+                       const v1::ImageFileOptions& options) {
+    PngOptions png;
+    const api::Attributes attributes = attributes_for(image, ".png", options);
+    if (const auto stamp = attributes.find(api::kStamp); stamp != attributes.end())
+        png.stamp = stamp->second;
+    png.exposure = float(options.exposure);
+    return png;
+}
+
+/// Calls `write` with the image that has the channels asked for, and how its colours are stored.
+template <class Write>
+auto with_channels(const v1::Image::Implementation& image, const v1::ImageFileOptions& options,
+                   const Write& write) {
     const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
     std::vector<const char*> names = left_out(options.channels);
     std::erase_if(names, [&](const char* name) {
         return !image.image->planes.contains(name) && !image.image->id_planes.contains(name);
     });
-    if (names.empty()) {
-        write_exr(file, *image.image, depth, image.attributes);
-        return;
-    }
+    if (names.empty()) return write(*image.image, depth);
     Image shown = *image.image;
     for (const char* name : names) shown.planes.erase(name), shown.id_planes.erase(name);
-    write_exr(file, shown, depth, image.attributes);
+    return write(shown, depth);
+}
+
+[[noreturn]] void refuse_ending(const std::string& name) {
+    throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
+                SourcePlace(name));
 }
 
 void write(const std::filesystem::path& file, const v1::Image::Implementation& image,
            const v1::ImageFileOptions& options) {
     const std::string extension = ending_of(file);
     if (extension == ".png") {
-        PngOptions png;
-        png.exposure = float(options.exposure);
-        write_png(file, *image.image, png);
+        write_png(file, *image.image, png_options(image, options));
     } else if (extension == ".exr") {
-        write_channels(file, image, options);
+        with_channels(image, options, [&](const Image& shown, ColorDepth depth) {
+            return write_exr(file, shown, depth, attributes_for(image, extension, options));
+        });
     } else {
-        throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
-                    SourcePlace(file.string()));
+        refuse_ending(file.string());
     }
+}
+
+std::string encoded(std::string_view extension, const v1::Image::Implementation& image,
+                    const v1::ImageFileOptions& options) {
+    if (extension == ".png") return png_bytes(*image.image, png_options(image, options));
+    if (extension != ".exr") refuse_ending(std::string(extension));
+    return with_channels(image, options, [&](const Image& shown, ColorDepth depth) {
+        return exr_bytes(shown, depth, attributes_for(image, extension, options));
+    });
 }
 
 v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
@@ -192,6 +228,26 @@ void Image::copy(std::string_view channel, std::span<float> to) const {
 
 void Image::write(const std::filesystem::path& file, const ImageFileOptions& options) const {
     api::guarded([&] { voxelume::write(file, *implementation_, options); });
+}
+
+std::string Image::encode(std::string_view ending, const ImageFileOptions& options) const {
+    return api::guarded([&] { return encoded(ending, *implementation_, options); });
+}
+
+void merge_image_files(const std::vector<std::filesystem::path>& parts,
+                       const std::vector<std::filesystem::path>& files, const std::string& hash,
+                       const ImageFileOptions& options) {
+    api::guarded([&] {
+        std::vector<voxelume::Image> images;
+        for (const std::filesystem::path& part : parts) images.push_back(read_exr(part));
+        voxelume::Image whole = join_images(std::move(images));
+        api::Attributes attributes = std::exchange(whole.attributes, {});
+        attributes.erase(api::kStamp);
+        attributes[api::kFrameHash] = hash;
+        const Image image = api::handle_of(
+            std::make_shared<const voxelume::Image>(std::move(whole)), std::move(attributes));
+        for (const std::filesystem::path& file : files) image.write(file, options);
+    });
 }
 
 ImageDifference compare(const Image& a, const Image& b) {

@@ -4,6 +4,8 @@
 #include <mutex>
 
 #include "runtime/api/guarded.hpp"
+#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/temporary_files.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/vdb/vdb.hpp"
@@ -46,6 +48,19 @@ void configure(const ProcessOptions& options) {
         const std::lock_guard lock(options_mutex);
         apply(options);
     });
+}
+
+std::filesystem::path user_cache_folder() {
+    return api::guarded([] { return cache_folder(); });
+}
+
+std::vector<std::filesystem::path> user_cache_bases() {
+    return api::guarded([] { return cache_bases(); });
+}
+
+void remove_unfinished_files() {
+    delete_temporary_files();
+    PoclFolder::remove();
 }
 
 }  // namespace v1

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "runtime/assets/asset_store.hpp"
@@ -20,7 +21,8 @@ struct SceneFiles {
     const FileBoxes& boxes;
     const std::function<AssetStore&()> store;  ///< made when it is first asked for
     std::vector<SceneChange> changes;
-    double orbit = 0;  ///< degrees
+    double orbit = 0;   ///< degrees
+    std::string& hash;  ///< to be set to that of the scene's document
     GivenVoxels given;
 };
 

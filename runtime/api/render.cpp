@@ -6,11 +6,13 @@
 #include <chrono>
 
 #include "runtime/api/convert.hpp"
+#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
+#include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -91,6 +93,7 @@ class Run {
         const v1::RenderOptions& options)
         : scene_(api::inside(scene)),
           assets_(api::assets_of(scene, options.cache)),
+          hashes_(scene),
           devices_(api::inside(devices)),
           job_(job),
           options_(options),
@@ -153,12 +156,18 @@ class Run {
     void take(const FrameResult& result) {
         const v1::FrameFiles& files = job_.frames[reports_.size()];
         reports_.push_back(result.report);
-        const api::Attributes attributes = attributes_of(scene_, files.frame);
+        api::Attributes attributes = attributes_of(scene_, files.frame);
+        const std::string hash = hashes_.of(files.frame);
         v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
-        if (result.image) rendered.image = api::handle_of(result.image, attributes);
+        if (result.image) {
+            api::Attributes all = attributes;
+            all[api::kFrameHash] = hash;
+            rendered.image = api::handle_of(result.image, std::move(all));
+        }
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
             for (const auto& [name, text] : attributes) all[name] = text;
+            all[api::kStamp] = stamp_of(hash);
             rendered.volume = api::handle_of(result.volume, std::move(all));
         }
         write(rendered, files);
@@ -178,6 +187,7 @@ class Run {
 
     Scene scene_;
     AssetStore assets_;
+    api::FrameHashes hashes_;
     std::vector<Device> devices_;
     const v1::FrameJob& job_;
     const v1::RenderOptions& options_;

@@ -10,6 +10,7 @@
 #include "runtime/api/tree.hpp"
 #include "runtime/api/voxel_array.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/document_hash.hpp"
 #include "runtime/scene_file/orbit.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -36,9 +37,9 @@ std::optional<AssetStore> api::ReadAssets::take(const v1::CacheOptions& cache) {
     return is_same ? std::exchange(store_, std::nullopt) : std::nullopt;
 }
 
-v1::Scene api::handle_of(Scene scene, std::shared_ptr<ReadAssets> read) {
+v1::Scene api::handle_of(Scene scene, std::string hash, std::shared_ptr<ReadAssets> read) {
     return v1::Scene(std::make_shared<const v1::Scene::Implementation>(
-        v1::Scene::Implementation{std::move(scene), std::move(read)}));
+        v1::Scene::Implementation{std::move(scene), std::move(hash), std::move(read)}));
 }
 
 AssetStore api::assets_of(const v1::Scene& scene, const v1::CacheOptions& cache) {
@@ -62,15 +63,16 @@ v1::Scene api::read_handle(const v1::SceneOptions& options, const ReadScene& rea
                 throw Error(error.kind(), "{}: {}", model.where, error.what());
             }
         };
+        std::string hash;
         std::vector<SceneChange> changes;
         for (const v1::SceneChange& change : options.changes)
             changes.push_back(
                 {change.path, change.value, change.origin.empty() ? change.path : change.origin});
         Scene scene = read({asset_folders(options.assets), boxes, store_now, std::move(changes),
-                            options.orbit, given_voxels(options.voxels)});
+                            options.orbit, hash, given_voxels(options.voxels)});
         std::shared_ptr<ReadAssets> assets;
         if (store) assets = std::make_shared<ReadAssets>(std::move(*store), options.cache);
-        return handle_of(std::move(scene), std::move(assets));
+        return handle_of(std::move(scene), std::move(hash), std::move(assets));
     });
 }
 
@@ -78,9 +80,11 @@ Scene api::read_with_changes(const JsonValue& document, const std::filesystem::p
                              const SceneFiles& files) {
     return read_changed(document, files.changes, [&](const JsonValue& changed) {
         Scene scene = read_scene(changed, file, files.assets, files.boxes, files.given);
+        files.hash = document_hash(changed);
         if (files.orbit == 0) return scene;
-        return read_scene(orbited(changed, scene, files.orbit), file, files.assets, files.boxes,
-                          files.given);
+        const JsonValue turned = orbited(changed, scene, files.orbit);
+        files.hash = document_hash(turned);
+        return read_scene(turned, file, files.assets, files.boxes, files.given);
     });
 }
 
@@ -111,7 +115,15 @@ Scene Scene::with_size(Size size) const {
     return api::guarded([&] {
         voxelume::Scene scene = api::inside(*this);
         resize(scene, api::vector_of(size));
-        return api::handle_of(std::move(scene), implementation().read);
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
+    });
+}
+
+Scene Scene::with_crop(Size first, Size size) const {
+    return api::guarded([&] {
+        voxelume::Scene scene = api::inside(*this);
+        crop(scene, api::vector_of(first), api::vector_of(size));
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
     });
 }
 
@@ -122,7 +134,7 @@ Scene Scene::with_samples(int samples) const {
                                   "an image has from 1 to 4096 samples a pixel, not {}", samples);
         voxelume::Scene scene = api::inside(*this);
         scene.render.samples = samples;
-        return api::handle_of(std::move(scene), implementation().read);
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
     });
 }
 
@@ -131,7 +143,7 @@ Scene Scene::with_light(LightMode light) const {
         voxelume::Scene scene = api::inside(*this);
         scene.render.light =
             light == LightMode::global ? voxelume::LightMode::global : voxelume::LightMode::local;
-        return api::handle_of(std::move(scene), implementation().read);
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
     });
 }
 

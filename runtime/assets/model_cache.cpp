@@ -124,8 +124,10 @@ ModelCache ModelCache::of_user(const std::filesystem::path& folder,
                                std::optional<uint64_t> megabytes) {
     const std::filesystem::path of_user = cache_folder();
     const uint64_t maximum = megabytes ? *megabytes : megabytes_of_user();
-    if (folder.empty() && of_user.empty()) return {};
-    return ModelCache(folder.empty() ? of_user / "models" : folder, maximum << 20).with_worlds();
+    if (!folder.empty()) return ModelCache(folder, maximum << 20).with_worlds();
+    return ModelCache(of_user.empty() ? of_user : of_user / "models", maximum << 20, 0.001,
+                      cache_bases("models"))
+        .with_worlds();
 }
 
 std::optional<MeshSummary> ModelCache::summary(const std::string& source) const {

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
@@ -46,9 +47,11 @@ class ModelCache {
     /// Makes a cache that keeps nothing.
     ModelCache() = default;
     /// Makes a cache of up to `max_bytes` for results that take at least `min_seconds` to make.
-    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double min_seconds = 0.001)
-        : is_open_(!folder.empty() && max_bytes > 0),
-          store_(std::move(folder), max_bytes),
+    /// `bases` are folders that are only read.
+    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double min_seconds = 0.001,
+               std::vector<std::filesystem::path> bases = {})
+        : is_open_((!folder.empty() || !bases.empty()) && max_bytes > 0),
+          store_(std::move(folder), max_bytes, std::move(bases)),
           max_bytes_(max_bytes),
           min_seconds_(min_seconds) {}
 

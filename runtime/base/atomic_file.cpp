@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "runtime/base/process_tag.hpp"
+#include "runtime/base/stamp.hpp"
 
 namespace voxelume {
 
@@ -131,6 +132,7 @@ void AtomicFile::create_temporary() {
         descriptor_ = open(candidate.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
             temporary_ = candidate;
+            registered_ = TemporaryFile(temporary_);
             // Tells processes that can't see this one, in other containers, that it lives.
             lock_ = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
             flock(lock_, LOCK_EX | LOCK_NB);
@@ -156,12 +158,14 @@ void AtomicFile::write(const void* data, size_t size) {
 
 void AtomicFile::commit() {
     if (failure_) throw *failure_;
+    seal(descriptor_);
     if (fsync(descriptor_) != 0) fail_with_errno(errno);
     const int closing = descriptor_;
     descriptor_ = -1;
     if (close(closing) != 0) fail_with_errno(errno);
     if (rename(temporary_.c_str(), final_.c_str()) != 0) fail_with_errno(errno);
     temporary_.clear();
+    registered_ = {};
     close(std::exchange(lock_, -1));
     sync_folder();
 }

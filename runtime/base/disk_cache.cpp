@@ -56,6 +56,25 @@ std::string whole_file(const PrivateFolder& folder, const std::string& name) {
     return text;
 }
 
+/// What a folder has under a key.
+struct Found {
+    std::optional<std::string> bytes;
+    bool is_damaged = false;
+};
+
+Found read_entry(const PrivateFolder& folder, const std::string& key) {
+    std::string entry = whole_file(folder, key);
+    if (entry.empty()) return {};
+    Header found = {};
+    std::memcpy(&found, entry.data(), std::min(entry.size(), sizeof found));
+    const std::string_view bytes =
+        std::string_view(entry).substr(std::min(entry.size(), sizeof found));
+    const Header expected = header_of(key, bytes);
+    if (std::memcmp(&found, &expected, sizeof found) != 0) return {{}, true};
+    entry.erase(0, sizeof found);
+    return {std::move(entry), false};
+}
+
 bool write_all(int file, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -77,11 +96,26 @@ fs::path environment_path(const char* name) {
 }  // namespace
 
 fs::path cache_folder() {
-    if (std::getenv("VOXELUME_CACHE_DIR")) return environment_path("VOXELUME_CACHE_DIR");
+    if (const char* folders = std::getenv("VOXELUME_CACHE_DIR")) {
+        const std::string_view text = folders;
+        return text.substr(text.find_last_of(':') + 1);
+    }
     const fs::path shared = environment_path("XDG_CACHE_HOME");
     if (shared.is_absolute()) return shared / "voxelume";
     const fs::path home = environment_path("HOME");
     return home.is_absolute() ? home / ".cache" / "voxelume" : fs::path();
+}
+
+std::vector<fs::path> cache_bases(const std::string& name) {
+    std::vector<fs::path> bases;
+    const char* folders = std::getenv("VOXELUME_CACHE_DIR");
+    std::string_view text = folders ? folders : "";
+    for (size_t end = text.find(':'); end != text.npos; end = text.find(':')) {
+        const fs::path base = text.substr(0, end);
+        if (end > 0) bases.push_back(name.empty() ? base : base / name);
+        text.remove_prefix(end + 1);
+    }
+    return bases;
 }
 
 std::string cache_key(std::span<const std::string_view> parts) {
@@ -95,23 +129,22 @@ std::string cache_key(std::span<const std::string_view> parts) {
 }
 
 std::optional<std::string> DiskCache::read(const std::string& key) const noexcept try {
-    if (folder_.empty()) return std::nullopt;
-    const PrivateFolder folder = PrivateFolder::open(folder_);
-    if (!folder) return std::nullopt;
-    std::string entry = whole_file(folder, key);
-    if (entry.empty()) return std::nullopt;
-    Header found = {};
-    std::memcpy(&found, entry.data(), std::min(entry.size(), sizeof found));
-    const std::string_view bytes =
-        std::string_view(entry).substr(std::min(entry.size(), sizeof found));
-    const Header expected = header_of(key, bytes);
-    if (std::memcmp(&found, &expected, sizeof found) != 0) {
-        unlinkat(folder.descriptor(), key.c_str(), 0);
-        return std::nullopt;
+    if (!folder_.empty()) {
+        const PrivateFolder folder = PrivateFolder::open(folder_);
+        if (folder) {
+            Found found = read_entry(folder, key);
+            if (found.is_damaged) unlinkat(folder.descriptor(), key.c_str(), 0);
+            if (found.bytes)
+                utimensat(folder.descriptor(), key.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
+            if (found.bytes) return std::move(found.bytes);
+        }
     }
-    utimensat(folder.descriptor(), key.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
-    entry.erase(0, sizeof found);
-    return entry;
+    for (const fs::path& base : bases_) {
+        const PrivateFolder folder = PrivateFolder::open_base(base);
+        if (!folder) continue;
+        if (Found found = read_entry(folder, key); found.bytes) return std::move(found.bytes);
+    }
+    return std::nullopt;
 } catch (const std::exception&) {
     return std::nullopt;
 }

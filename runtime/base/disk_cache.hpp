@@ -13,10 +13,14 @@
 
 namespace voxelume {
 
-/// The user's folder for results that can be computed again: VOXELUME_CACHE_DIR, else
-/// XDG_CACHE_HOME/voxelume, else ~/.cache/voxelume. It is empty if there is none, and if
-/// VOXELUME_CACHE_DIR is set to nothing.
+/// The user's folder for results that can be computed again: the last one of VOXELUME_CACHE_DIR,
+/// else XDG_CACHE_HOME/voxelume, else ~/.cache/voxelume. It is empty if there is none, and if
+/// VOXELUME_CACHE_DIR ends with nothing.
 std::filesystem::path cache_folder();
+
+/// The folders before the last one of VOXELUME_CACHE_DIR, between colons: what is in them is read,
+/// and nothing is written there. Those of `name` below them.
+std::vector<std::filesystem::path> cache_bases(const std::string& name = {});
 
 /// A 128-bit hash (XXH3) of all `parts` and their lengths, as 32 hexadecimal digits.
 std::string cache_key(std::span<const std::string_view> parts);
@@ -30,12 +34,15 @@ class PrivateFolder;
 /// the folder grows past `max_bytes`, the entries used longest ago are removed first. Nothing here
 /// throws: a folder that can't be written keeps nothing.
 ///
+/// What the folder doesn't have is looked for in folders that are only read, its bases.
+///
 /// The checksum tells damage, not malice, so the folder is a PrivateFolder: nothing is read from
-/// one that others may write to.
+/// one that others may write to. A base may be root's.
 class DiskCache {
   public:
-    DiskCache(std::filesystem::path folder, uint64_t max_bytes)
-        : folder_(std::move(folder)), max_bytes_(max_bytes) {}
+    DiskCache(std::filesystem::path folder, uint64_t max_bytes,
+              std::vector<std::filesystem::path> bases = {})
+        : folder_(std::move(folder)), bases_(std::move(bases)), max_bytes_(max_bytes) {}
 
     std::optional<std::string> read(const std::string& key) const noexcept;
     void write(const std::string& key, std::string_view bytes) const noexcept;
@@ -49,6 +56,7 @@ class DiskCache {
     void trim(const PrivateFolder& folder) const;
 
     std::filesystem::path folder_;  ///< empty if nothing is kept
+    std::vector<std::filesystem::path> bases_;
     uint64_t max_bytes_;
 };
 

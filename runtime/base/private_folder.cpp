@@ -27,6 +27,14 @@ void make_folders(const fs::path& path) {
 }  // namespace
 
 PrivateFolder PrivateFolder::open(const fs::path& path) {
+    return open_trusted(path, false);
+}
+
+PrivateFolder PrivateFolder::open_base(const fs::path& path) {
+    return open_trusted(path, true);
+}
+
+PrivateFolder PrivateFolder::open_trusted(const fs::path& path, bool may_be_roots) {
     PrivateFolder folder;
     // With a slash at its end, a link's target would be opened.
     const fs::path name = path.has_filename() ? path : path.parent_path();
@@ -43,7 +51,7 @@ PrivateFolder PrivateFolder::open(const fs::path& path) {
     struct stat status {};
     if (fstat(folder.descriptor_, &status) != 0)
         folder.refusal_ = std::strerror(errno);
-    else if (status.st_uid != geteuid())
+    else if (status.st_uid != geteuid() && !(may_be_roots && status.st_uid == 0))
         folder.refusal_ = "it belongs to another user";
     else if (status.st_mode & kOthersWrite)
         folder.refusal_ = "other users may write to it; `chmod go-w` forbids them";

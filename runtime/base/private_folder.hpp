@@ -13,6 +13,8 @@ class PrivateFolder {
   public:
     /// Opens the folder. A link in its place isn't followed; links above it are.
     static PrivateFolder open(const std::filesystem::path& path);
+    /// Opens a folder to read from, which may be root's as well.
+    static PrivateFolder open_base(const std::filesystem::path& path);
     /// Makes the folder, and those above it that are missing, for this user alone (0700), then
     /// opens it.
     static PrivateFolder make(const std::filesystem::path& path);
@@ -29,6 +31,7 @@ class PrivateFolder {
 
   private:
     PrivateFolder() = default;
+    static PrivateFolder open_trusted(const std::filesystem::path& path, bool may_be_roots);
 
     int descriptor_ = -1;
     std::string refusal_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <string>
@@ -22,6 +23,8 @@ struct Image {
     std::map<std::string, Plane<float>> planes;
     std::map<std::string, Plane<uint32_t>> id_planes;  ///< objectId
     std::map<std::string, std::string> attributes;     ///< text for the header: scene, version, ...
+    glm::ivec2 first{0};  ///< where the planes begin in a picture that they are a part of
+    glm::ivec2 frame{0};  ///< pixels of that picture; 0 for an image that is whole
 };
 
 }  // namespace voxelume

@@ -130,6 +130,7 @@ class DisplayCounter {
     double pixel_width() const {
         Scene scene = scene_;
         scene.render.size = {frame_.size.x, frame_.size.y};
+        scene.render.crop = {};
         scene.render.samples = 1;
         return voxels_a_pixel(scene, camera_of(scene, world_.frame), world_.frame);
     }

@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The process's folder once it is made, for those who may not make it.
+std::atomic<const PoclFolder*> existing_folder = nullptr;
+
 constexpr const char* kPrefix = "pocl-";
 constexpr const char* kLock = "lock";
 
@@ -119,6 +122,13 @@ PoclFolder& PoclFolder::instance() {
     return folder;
 }
 
+void PoclFolder::remove() {
+    const PoclFolder* const folder = existing_folder;
+    if (folder == nullptr || folder->folder_.empty()) return;
+    std::error_code ignored;
+    fs::remove_all(folder->folder_, ignored);
+}
+
 PoclFolder::PoclFolder() : process_(getpid()) {
     if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
     // PoCL loads compiled kernels from this folder. Some systems forbid programs in the temporary
@@ -131,6 +141,7 @@ PoclFolder::PoclFolder() : process_(getpid()) {
         if (!folder_.empty()) break;
     }
     if (folder_.empty()) return;
+    existing_folder = this;
     lock_ = open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
 }

@@ -38,6 +38,9 @@ class PoclFolder {
     /// environment. It has one unless this forbids it before `instance` is first called.
     static void allow(bool is_allowed);
 
+    /// Deletes the process's folder if it has one, for a program that ends without destructors.
+    static void remove();
+
     /// Runs `first_call`, which makes PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
     void announce(const std::function<void()>& first_call) const;
 

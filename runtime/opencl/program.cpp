@@ -40,10 +40,8 @@ size_t group_size(const Device& device, WorkItem work) {
 
 /// Empty names where the driver keeps no types.
 std::vector<std::string> parameter_types(const cl::Kernel& kernel) {
-    cl_uint count = 0;
-    clGetKernelInfo(kernel(), CL_KERNEL_NUM_ARGS, sizeof count, &count, nullptr);
-    std::vector<std::string> types(count);
-    for (cl_uint i = 0; i < count; ++i) {
+    std::vector<std::string> types(kernel.getInfo<CL_KERNEL_NUM_ARGS>());
+    for (cl_uint i = 0; i < types.size(); ++i) {
         std::array<char, 64> name{};
         if (clGetKernelArgInfo(kernel(), i, CL_KERNEL_ARG_TYPE_NAME, name.size() - 1, name.data(),
                                nullptr) == CL_SUCCESS)
@@ -98,8 +96,9 @@ void Kernel::set_buffer(uint32_t index, const BufferStorage* buffer) {
 void Kernel::set_bytes(uint32_t index, size_t bytes, const void* value) {
     const cl_int status = clSetKernelArg((*kernel_)(), index, bytes, value);
     if (status != CL_SUCCESS)
-        throw Error(ErrorKind::render, "kernel {}: argument {} of {} bytes refused with {}", name_,
-                    index, bytes, status_name(status));
+        throw_device_error(
+            cl::Error(status, "clSetKernelArg"), device_.info(),
+            fmt::format("setting argument {} of {} bytes of {}", index, bytes, name_));
 }
 
 void Kernel::enqueue(WorkItem work, size_t count) {
@@ -161,8 +160,10 @@ Kernel Program::kernel(const std::string& name) const {
         device_.note_kernel(*program_, name);
         return kernel;
     } catch (const cl::Error& error) {
-        throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
-                    device_.info().name, status_name(error.err()));
+        if (error.err() == CL_INVALID_KERNEL_NAME)
+            throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
+                        device_.info().name, status_name(error.err()));
+        throw_device_error(error, device_.info(), fmt::format("making {} of {}", name, label_));
     }
 }
 

@@ -23,7 +23,8 @@ constexpr const char* kCacheVersion = "voxelume programs 2";
 
 DiskCache program_store() {
     const std::filesystem::path folder = cache_folder();
-    return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes);
+    return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes,
+                     cache_bases("programs"));
 }
 
 /// The key of an entry of the cache. `what` says what is kept: a program, or compiled kernels.
@@ -46,11 +47,13 @@ std::set<std::string> kernel_names(std::string_view source) {
     return names;
 }
 
+/// The compiler's messages; empty where the driver has none.
 std::string log_of(const cl::Program& program, const cl::Device& device) {
-    std::string log;
-    if (program() && program.getBuildInfo(device, CL_PROGRAM_BUILD_LOG, &log) != CL_SUCCESS)
+    try {
+        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
+    } catch (const cl::Error&) {
         return {};
-    return log;
+    }
 }
 
 cl::Program compile(const Device& device, const ProgramText& text) {
@@ -63,7 +66,10 @@ cl::Program compile(const Device& device, const ProgramText& text) {
     if (status != CL_SUCCESS && log_of(program, device.handle()).find("error") == std::string::npos)
         status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
     if (status == CL_SUCCESS) return program;
-    throw Error(ErrorKind::build, "{}:\n{}", status_name(status), log_of(program, device.handle()));
+    const std::string log = log_of(program, device.handle());
+    if (log.empty() && status != CL_BUILD_PROGRAM_FAILURE)
+        throw cl::Error(status, "clBuildProgram");
+    throw Error(ErrorKind::build, "{}:\n{}", status_name(status), log);
 }
 
 /// The program from the bytes that its driver gave us in an earlier run; empty if the driver now

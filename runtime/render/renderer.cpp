@@ -43,8 +43,12 @@ Features without_light(Features features) {
 
 /// The pixels and samples of the tiles from `first` on.
 PathSampling path_sampling(const Scene& scene, const Camera& camera, uint32_t first) {
-    return {first, uint32_t(camera.width + 3) / 4, uint32_t(camera.samples),
-            uint32_t(scene.render.bounces)};
+    return {first,
+            uint32_t(camera.width + 3) / 4,
+            uint32_t(camera.samples),
+            uint32_t(scene.render.bounces),
+            uint32_t(camera.first_column),
+            uint32_t(camera.first_row)};
 }
 
 /// Notes what an image's rays came to in a world.
@@ -196,6 +200,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     }
     view_ = std::move(view);
     Image image = resolve.image();
+    image.first = scene.render.crop.first;
+    image.frame = scene.render.crop.frame;
     report.not_finite = resolve.not_finite();
     note_counts(illumination, beams, world, report);
     report.image_seconds =

@@ -67,6 +67,7 @@ Features with_transmission(Features features, const Scene& scene, const Pyramid&
 /// The observer's camera with one sight ray for each (u, v) of the display.
 Camera display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
     scene.render.size = {frame.size.x, frame.size.y};
+    scene.render.crop = {};
     scene.render.samples = 1;
     return camera_of(scene, world);
 }

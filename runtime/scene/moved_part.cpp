@@ -78,7 +78,7 @@ void MovedPart::form_display(Observer& observer) {
     display.shape = observer.display.shape;
     shape_row(display).measure(
         observer_.display,
-        {distance_to_farthest_corner(scene_.world, observer.position), scene_.render.size},
+        {distance_to_farthest_corner(scene_.world, observer.position), frame_size(scene_.render)},
         refusal("display."), display);
     display.voxels = observer.display.voxels;
     display.layout = observer.display.layout;

@@ -40,11 +40,26 @@ void resize(Scene& scene, glm::ivec2 size) {
                     kMaxImageSide, size.x, size.y);
     }
     scene.render.size = size;
+    scene.render.crop = {};
     if (scene.fitted.observer) return frame_observer(scene);
     Display& display = scene.observer.display;
     if (display.square_pixels) {
         display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);
     }
+}
+
+void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size) {
+    const glm::ivec2 frame = frame_size(scene.render);
+    for (int axis = 0; axis < 2; ++axis) {
+        const bool is_inside = first[axis] >= 0 && size[axis] >= 1 && first[axis] < frame[axis] &&
+                               size[axis] <= frame[axis] - first[axis];
+        if (!is_inside)
+            throw Error(ErrorKind::usage,
+                        "{}x{} pixels from column {} and row {} on don't lie in a picture of {}x{}",
+                        size.x, size.y, first.x, first.y, frame.x, frame.y);
+    }
+    scene.render.crop = {first, frame};
+    scene.render.size = size;
 }
 
 }  // namespace voxelume

@@ -45,8 +45,18 @@ enum class LightMode : uint8_t {
     global,  ///< all of it, along random paths from surface to surface: Kajiya 1986
 };
 
+/// The part of a larger picture that an image is.
+struct ImageCrop {
+    glm::ivec2 first{0};  ///< column and row of its first pixel
+    glm::ivec2 frame{0};  ///< pixels of the whole picture; 0 for an image that is whole
+
+    bool is_whole() const { return frame.x == 0; }
+    friend bool operator==(const ImageCrop&, const ImageCrop&) = default;
+};
+
 struct RenderSettings {
-    glm::ivec2 size{640, 480};  ///< pixels
+    glm::ivec2 size{640, 480};  ///< pixels of the image
+    ImageCrop crop;             ///< not in scene files
     int samples = 1;            ///< per pixel, 1..4096
     int depth = 5;              ///< reflections and refractions in a row, 0..64
     bool shadows = true;
@@ -79,9 +89,18 @@ struct Scene {
     friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// Changes the size of the image, and with it the angles of a display with square pixels and the
-/// place of a fitted observer.
+/// Changes the size of the image, which is whole then, and with it the angles of a display with
+/// square pixels and the place of a fitted observer.
 void resize(Scene& scene, glm::ivec2 size);
+
+/// The size of the whole picture, pixels.
+inline glm::ivec2 frame_size(const RenderSettings& render) {
+    return render.crop.is_whole() ? render.size : render.crop.frame;
+}
+
+/// Makes the image a part of the picture that it was: `size` pixels from column and row `first` on,
+/// which must lie in it. Displays and observers stay those of the whole picture.
+void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size);
 
 /// Sets where each model can be seen: the world's box carried into the space of every object that
 /// shows it.

@@ -72,6 +72,9 @@ std::string frame_path(const std::string& pattern, int frame, bool one_of_many);
 /// Throws Error::output when no file can be made there, or not of that kind; leaves nothing behind.
 void check_output_file(const std::filesystem::path& file);
 
+/// A hash of a file's bytes, 32 hexadecimal digits; empty for a file that can't be read.
+std::string hash_of_file(const std::filesystem::path& file);
+
 /// Writes a file that appears whole or not at all. Throws Error::output.
 void write_file(const std::filesystem::path& file, std::string_view text);
 

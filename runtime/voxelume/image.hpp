@@ -73,6 +73,9 @@ class Image {
     /// Error::output.
     void write(const std::filesystem::path& file, const ImageFileOptions& options = {}) const;
 
+    /// The bytes of the file that `write` would write, of an ending such as ".png".
+    std::string encode(std::string_view ending, const ImageFileOptions& options = {}) const;
+
     struct Implementation;
     /// For the library's own use.
     explicit Image(std::shared_ptr<const Implementation> implementation)

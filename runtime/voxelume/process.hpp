@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace voxelume::v1 {
 
@@ -33,6 +34,20 @@ struct ProcessOptions {
 /// Sets the options for the whole process; to be called before any other function of the library,
 /// once.
 void configure(const ProcessOptions& options);
+
+/// Deletes what the process has begun to write and not finished: the hidden files beside outputs
+/// and the folder of its kernels. For a program that has to end while calls of the library still
+/// run; those fail, if they go on. Any thread may call it.
+void remove_unfinished_files();
+
+/// The user's folder for compiled kernels, models and worlds: the last one of VOXELUME_CACHE_DIR,
+/// or else XDG_CACHE_HOME/voxelume, or else ~/.cache/voxelume. Empty if nothing is kept.
+std::filesystem::path user_cache_folder();
+
+/// The folders before the last one of VOXELUME_CACHE_DIR, between colons. Nothing is written to
+/// them; what the user's folder lacks is read from them, if they are the user's or root's and
+/// nobody else may write there.
+std::vector<std::filesystem::path> user_cache_bases();
 
 /// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
 /// their sources.

@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "device.hpp"
@@ -87,6 +89,40 @@ struct FrameJob {
 /// The channels of images that render_frames computes for a job: those that some file or `deliver`
 /// shows. A job without either stands for the OpenEXR files of its options.
 Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
+
+/// What frames are made from: 32 hexadecimal digits each, a hash of the library's version, of the
+/// scene with its size, samples, light and crop, and of the bytes of all files that the frame
+/// shows, with those that they lead to. render_frames writes it, for images with the options of
+/// their files, into the files of formats that have room for a text in their headers (.exr, .png,
+/// .nrrd, .vdb, .ply), with a hash of all their bytes.
+std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames);
+
+/// What is known of a frame's file that was written before.
+enum class FrameFileState {
+    missing,  ///< there is none
+    damaged,  ///< it isn't as it was written, or its format has no room for a hash
+    stale,    ///< it was made from something else
+    current   ///< it is whole, and what would be rendered
+};
+
+/// Reads the file of a frame's image, .png or .exr, and compares it with the frame's hash and the
+/// options that change such a file.
+FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,
+                                const ImageFileOptions& options = {});
+
+/// Reads the file of a frame's volumetric image and compares it with the frame's hash.
+FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash);
+
+/// Puts an image together from the OpenEXR files of its parts and writes it to `files`, .exr or
+/// .png, with the bytes that render_frames writes of the whole image.
+///
+/// The parts are those of Scene::with_crop, whole rows one below the other in any order, written
+/// with `float_color` and with all channels that `files` need. `hash` is that of the whole frame,
+/// of frame_hashes. Throws Error::input for rows that two parts have or that none has, and for
+/// parts of different images; Error as Image::read and Image::write do.
+void merge_image_files(const std::vector<std::filesystem::path>& parts,
+                       const std::vector<std::filesystem::path>& files, const std::string& hash,
+                       const ImageFileOptions& options = {});
 
 /// Renders frames of a scene. What a frame shows doesn't depend on the frames before it, nor on the
 /// number of devices: several devices take a frame each, or the tiles of a job's only image.

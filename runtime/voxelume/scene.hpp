@@ -92,9 +92,14 @@ class Scene {
     /// the description's name as its file, and a key such as "objects[0].material", but no line.
     static Scene build(const SceneDescription& description, const SceneOptions& options = {});
 
-    /// Returns the scene with another image size; the angles of a display with square pixels
+    /// Returns the scene with another image size, whole; the angles of a display with square pixels
     /// follow, and so does a fitted observer.
     Scene with_size(Size size) const;
+    /// Returns the scene with a part of its flat image as the image: `size` pixels from column and
+    /// row `first` on, counted from 0 at the top left. The bits are those of the whole image there;
+    /// OpenEXR files have the part as their data window. Volumetric images stay whole. Throws
+    /// Error::usage for a part that isn't in the image.
+    Scene with_crop(Size first, Size size) const;
     /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 

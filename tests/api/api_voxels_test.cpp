@@ -114,6 +114,17 @@ TEST_F(ApiVoxels, AreReadByStridesAndNotKept) {
     EXPECT_EQ(Scene::build(built, {.voxels = {cells.array()}}).object_names().size(), 1u);
 }
 
+TEST_F(ApiVoxels, OfOtherColoursMakeFramesStale) {
+    Cells cells;
+    const auto hash = [&] {
+        return frame_hashes(Scene::parse(kScene, "scene", {.voxels = {cells.array()}}), {1});
+    };
+    const std::vector<std::string> before = hash();
+    EXPECT_EQ(hash(), before);
+    cells.rgba[0] ^= 1;
+    EXPECT_NE(hash(), before);
+}
+
 TEST_F(ApiVoxels, StandInAStudioByThemselves) {
     Cells cells;
     const Scene scene = scene_of_voxels(cells.array(), {.size = {40, 30}});

@@ -44,6 +44,56 @@ TEST_F(DiskCacheFiles, SaysWhyItCannotBeWrittenWithoutWriting) {
     EXPECT_EQ(DiskCache(folder / "locked" / "deep", 1000).refusal(), "Permission denied");
 }
 
+TEST_F(DiskCacheFiles, WhatIsMissingIsReadFromBasesToWhichNothingIsWritten) {
+    const fs::path base = folder / "base", own = folder / "own";
+    const std::string in_base = key_of("base"), in_both = key_of("both"), in_own = key_of("own");
+    DiskCache(base, 1000).write(in_base, "from base");
+    DiskCache(base, 1000).write(in_both, "from base");
+    const DiskCache cache(own, 1000, {folder / "none", base});
+    cache.write(in_both, "from own");
+    cache.write(in_own, "from own");
+    EXPECT_EQ(cache.read(in_base), "from base");
+    EXPECT_EQ(cache.read(in_both), "from own");
+    EXPECT_EQ(cache.read(in_own), "from own");
+    EXPECT_FALSE(fs::exists(base / in_own));
+    EXPECT_FALSE(fs::exists(own / in_base));
+    EXPECT_EQ(DiskCache({}, 1000, {base}).read(in_base), "from base");
+}
+
+TEST_F(DiskCacheFiles, ADamagedEntryOfABaseIsAbsentAndStays) {
+    const std::string key = key_of("program");
+    DiskCache(folder / "base", 1000).write(key, "whole");
+    std::ofstream(folder / "base" / key, std::ios::app) << "more";
+    const DiskCache cache(folder / "own", 1000, {folder / "base"});
+    EXPECT_EQ(cache.read(key), std::nullopt);
+    EXPECT_TRUE(fs::exists(folder / "base" / key));
+    cache.write(key, "again");
+    EXPECT_EQ(cache.read(key), "again");
+}
+
+TEST_F(DiskCacheFiles, ABaseThatOthersMayWriteToIsNotRead) {
+    const std::string key = key_of("program");
+    DiskCache(folder / "base", 1000).write(key, "whole");
+    fs::permissions(folder / "base", fs::perms::group_write, fs::perm_options::add);
+    EXPECT_EQ(DiskCache(folder / "own", 1000, {folder / "base"}).read(key), std::nullopt);
+}
+
+TEST(DiskCache, TheLastFolderOfTheVariableIsWrittenToAndThoseBeforeItAreBases) {
+    {
+        const Setting folders("VOXELUME_CACHE_DIR", "/a:/b c::/d");
+        EXPECT_EQ(cache_folder(), "/d");
+        EXPECT_EQ(cache_bases("x"), (std::vector<fs::path>{"/a/x", "/b c/x"}));
+    }
+    {
+        const Setting folders("VOXELUME_CACHE_DIR", "/a:");
+        EXPECT_EQ(cache_folder(), "");
+        EXPECT_EQ(cache_bases(), std::vector<fs::path>{"/a"});
+    }
+    const Setting folders("VOXELUME_CACHE_DIR", "/a");
+    EXPECT_EQ(cache_folder(), "/a");
+    EXPECT_TRUE(cache_bases().empty());
+}
+
 TEST(DiskCache, AKeyDependsOnWhereItsPartsEnd) {
     const std::string_view left[] = {"ab", "c"}, right[] = {"a", "bc"};
     EXPECT_NE(cache_key(left), cache_key(right));

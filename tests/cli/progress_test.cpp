@@ -42,7 +42,7 @@ TEST(DescribeTerminal, NoColorTakesTheColourAndLeavesTheBar) {
 }
 
 TEST(ProgressLine, ShowsPartBarAndTimeLeft) {
-    EXPECT_EQ(progress_line({"frame", 1, 4, 10.0}, plain(37)),
+    EXPECT_EQ(progress_line({"frame", 1, 4, 10.0, 30.0}, plain(37)),
               "frame [##--------]  25% 0:30 left   ");
     EXPECT_EQ(progress_line({"frame", 4, 4, 75.0}, plain(37)),
               "frame [##########] 100% 1:15        ");

@@ -117,7 +117,7 @@ TEST(KeptMemory, WhatDoesNotFitLaterIsToldWithItsPlaceItsSizeAndItsFrame) {
             run_frames({device_of(megabytes)}, 2, steps, {.overlap = megabytes % 2 == 0});
             break;
         } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::limit);
+            ASSERT_EQ(error.kind(), ErrorKind::limit) << error.what();
             told = error.what();
         }
         is_models |= told.find(": models.lens: a grid of 148x128x148 voxels: ") < 20;

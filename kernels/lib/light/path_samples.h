@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of the unit square by which paths decide. They depend on the pixel, the sample and the
-// decision alone, so no order of rays, tiles or batches changes an image.
+// The points of the unit square by which paths decide. They depend on the pixel of the frame, the
+// sample and the decision alone, so no order of rays, tiles or batches changes an image.
 #ifndef VXL_PATH_SAMPLES_H
 #define VXL_PATH_SAMPLES_H
 
@@ -19,8 +19,8 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     const lane_uint group = target / 16u;
     const lane_uint tile = group / of->samples + of->first_tile;
     const lane_uint row = tile / tiles_x;
-    const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u);
-    const lane_uint y = row * 4u + ((target >> 2) & 3u);
+    const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u) + of->first_column;
+    const lane_uint y = row * 4u + ((target >> 2) & 3u) + of->first_row;
     const PathSamples s = {x | (y << 16), group % of->samples, state & VXL_STATE_MET};
     return s;
 }

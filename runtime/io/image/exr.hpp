@@ -28,7 +28,12 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  ColorDepth color = ColorDepth::float16,
                  const std::map<std::string, std::string>& others = {});
 
-/// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes.
+/// The bytes of the file that `write_exr` writes.
+std::string exr_bytes(const Image& image, ColorDepth color = ColorDepth::float16,
+                      const std::map<std::string, std::string>& others = {});
+
+/// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,
+/// where its data window is a part of its display window, the place of that.
 /// It reads the first part of a file with several.
 ///
 /// Throws Error::input for a file that is missing, damaged, deep or subsampled, or that declares

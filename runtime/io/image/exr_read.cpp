@@ -182,6 +182,13 @@ Image read_exr(const std::filesystem::path& path) {
         input.setFrameBuffer(attach_planes(file, input, image));
         const Imath::Box2i window = input.header().dataWindow();
         input.readPixels(window.min.y, window.max.y);
+        const Imath::Box2i display = input.header().displayWindow();
+        if (window != display && window.min.x >= display.min.x && window.max.x <= display.max.x &&
+            window.min.y >= display.min.y && window.max.y <= display.max.y) {
+            const Imath::V2i first = window.min - display.min, size = display.size();
+            image.first = {first.x, first.y};
+            image.frame = {size.x + 1, size.y + 1};
+        }
         for (auto a = input.header().begin(); a != input.header().end(); ++a)
             // "type" belongs to the file format: it says that a part consists of scanlines or of
             // tiles.

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "runtime/base/atomic_file.hpp"
+#include "runtime/base/stamp.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/exr_chunks.hpp"
 
@@ -34,7 +35,7 @@ std::vector<ExrPlane> planes_of(const Image& image, ColorDepth color) {
     return planes;
 }
 
-void check_image(AtomicFile& file, const Image& image) {
+void check_image(ByteSink& file, const Image& image) {
     if (image.width <= 0 || image.height <= 0) file.fail("the image has no pixels");
     const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
     for (const auto& [name, plane] : image.planes)
@@ -43,11 +44,11 @@ void check_image(AtomicFile& file, const Image& image) {
         if (plane.size() != pixels) file.fail("plane " + name + " hasn't the image's size");
 }
 
-/// OpenEXR's writer of headers and chunks, onto an AtomicFile. OpenEXR 3.1.5's own stream truncates
+/// OpenEXR's writer of headers and chunks, onto a ByteSink. OpenEXR 3.1.5's own stream truncates
 /// small files silently on a full disk.
 class ExrWriter {
   public:
-    ExrWriter(AtomicFile& file, const std::filesystem::path& path) : file_(file) {
+    ExrWriter(ByteSink& file, const std::filesystem::path& path) : file_(file) {
         exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
         setup.user_data = this;
         setup.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
@@ -65,8 +66,7 @@ class ExrWriter {
 
     void header(const Image& image, const Attributes& others, const std::vector<ExrPlane>& planes) {
         check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
-        check(exr_initialize_required_attr_simple(context_, part_, image.width, image.height,
-                                                  EXR_COMPRESSION_ZIP));
+        set_windows(image);
         constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                                        0.15f, 0.06f, 0.3127f, 0.3290f};
         check(exr_attr_set_chromaticities(context_, part_, "chromaticities", &kRec709));
@@ -85,7 +85,7 @@ class ExrWriter {
     }
 
     void chunk(const ExrChunk& chunk) {
-        check(exr_write_scanline_chunk(context_, part_, chunk.row, chunk.bytes.data(),
+        check(exr_write_scanline_chunk(context_, part_, first_row_ + chunk.row, chunk.bytes.data(),
                                        chunk.bytes.size()));
     }
 
@@ -93,21 +93,36 @@ class ExrWriter {
     void finish() { check(exr_finish(&context_)); }
 
   private:
+    /// A part of a picture has its place in that as its data window.
+    void set_windows(const Image& image) {
+        const auto window = [](glm::ivec2 first, glm::ivec2 size) -> exr_attr_box2i_t {
+            return {{first.x, first.y}, {first.x + size.x - 1, first.y + size.y - 1}};
+        };
+        const glm::ivec2 size(image.width, image.height);
+        const exr_attr_box2i_t data = window(image.first, size);
+        const exr_attr_box2i_t display = image.frame.x > 0 ? window({0, 0}, image.frame) : data;
+        constexpr exr_attr_v2f_t kCenter = {0, 0};
+        check(exr_initialize_required_attr(context_, part_, &display, &data, 1.0f, &kCenter, 1.0f,
+                                           EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
+        first_row_ = image.first.y;
+    }
+
     int64_t write(const void* bytes, uint64_t size, uint64_t position) noexcept try {
         file_.seek(position);
         file_.write(bytes, size);
         return int64_t(size);
     } catch (const Error&) {
-        return -1;  // the AtomicFile keeps the error, and check() reports OpenEXR's
+        return -1;  // the sink keeps the error, and check() reports OpenEXR's
     }
 
     void check(exr_result_t result) {
         if (result != EXR_ERR_SUCCESS) file_.fail(exr_get_default_error_message(result));
     }
 
-    AtomicFile& file_;
+    ByteSink& file_;
     exr_context_t context_ = nullptr;
     int part_ = 0;
+    int first_row_ = 0;
 };
 
 }  // namespace
@@ -116,22 +131,31 @@ void set_exr_threads(int threads) {
     Imf::setGlobalThreadCount(threads);
 }
 
+namespace {
+
+/// Returns how many values weren't finite.
+size_t encode(ByteSink& sink, const std::filesystem::path& name, const Image& image,
+              ColorDepth color, const std::map<std::string, std::string>& others) {
+    check_image(sink, image);
+    const std::vector<ExrPlane> planes = planes_of(image, color);
+    size_t replaced = 0;
+    ExrWriter writer(sink, name);
+    writer.header(image, others, planes);
+    compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
+                    [&](const ExrChunk& chunk) {
+                        writer.chunk(chunk);
+                        replaced += chunk.replaced;
+                    });
+    writer.finish();
+    return replaced;
+}
+
+}  // namespace
+
 size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color,
                  const std::map<std::string, std::string>& others) {
     AtomicFile file(path);
-    check_image(file, image);
-    const std::vector<ExrPlane> planes = planes_of(image, color);
-    size_t replaced = 0;
-    {
-        ExrWriter writer(file, path);
-        writer.header(image, others, planes);
-        compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
-                        [&](const ExrChunk& chunk) {
-                            writer.chunk(chunk);
-                            replaced += chunk.replaced;
-                        });
-        writer.finish();
-    }
+    const size_t replaced = encode(file, path, image, color, others);
     try {
         if (!Imf::InputFile(file.temporary().c_str()).isComplete())
             file.fail("rows are missing when it is read back");
@@ -140,6 +164,15 @@ size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDep
     }
     file.commit();
     return replaced;
+}
+
+std::string exr_bytes(const Image& image, ColorDepth color,
+                      const std::map<std::string, std::string>& others) {
+    MemorySink sink("OpenEXR");
+    encode(sink, "image.exr", image, color, others);
+    std::string bytes = sink.take();
+    seal(bytes);
+    return bytes;
 }
 
 }  // namespace voxelume

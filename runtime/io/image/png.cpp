@@ -11,6 +11,7 @@
 
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/stamp.hpp"
 
 namespace voxelume {
 
@@ -41,7 +42,7 @@ struct ColorPlanes {
     glm::vec3 color(size_t i) const { return {red[i], green[i], blue[i]}; }
 };
 
-ColorPlanes find_planes(AtomicFile& file, const Image& image) {
+ColorPlanes find_planes(ByteSink& file, const Image& image) {
     if (image.width <= 0 || image.height <= 0) file.fail("the image has no pixels");
     const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
     for (const char* name : {"R", "G", "B"}) {
@@ -88,11 +89,24 @@ std::vector<uint8_t> pack_pixels(const Picture& picture, bool with_alpha) {
     return bytes;
 }
 
-void check_encoding(AtomicFile& file, int code) {
+void check_encoding(ByteSink& file, int code) {
     if (code != 0) file.fail(spng_strerror(code));
 }
 
-void encode(AtomicFile& file, const Picture& picture, bool with_alpha) {
+/// Texts of pictures come before their pixels. The library reads `stamp` when it encodes these.
+void put_stamp(ByteSink& file, spng_ctx* context, std::string& stamp) {
+    if (stamp.empty()) return;
+    spng_text text{};
+    text.type = SPNG_TEXT;
+    constexpr std::string_view kKeyword = "Comment";
+    kKeyword.copy(text.keyword, kKeyword.size());
+    text.text = stamp.data();
+    text.length = stamp.size();
+    check_encoding(file, spng_set_text(context, &text, 1));
+}
+
+void encode(ByteSink& file, const Picture& picture, const PngOptions& options) {
+    const bool with_alpha = options.keep_alpha;
     const std::vector<uint8_t> bytes = pack_pixels(picture, with_alpha);
     const Context context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
     check_encoding(file, spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
@@ -104,6 +118,8 @@ void encode(AtomicFile& file, const Picture& picture, bool with_alpha) {
     check_encoding(file, spng_set_ihdr(context.get(), &header));
     constexpr uint8_t kPerceptual = 0;
     check_encoding(file, spng_set_srgb(context.get(), kPerceptual));
+    std::string stamp = options.stamp;
+    put_stamp(file, context.get(), stamp);
     check_encoding(file, spng_encode_image(context.get(), bytes.data(), bytes.size(), SPNG_FMT_PNG,
                                            SPNG_ENCODE_FINALIZE));
     size_t size = 0;
@@ -112,6 +128,11 @@ void encode(AtomicFile& file, const Picture& picture, bool with_alpha) {
         spng_get_png_buffer(context.get(), &size, &code), std::free);
     check_encoding(file, code);
     file.write(png.get(), size);
+}
+
+void encode(ByteSink& file, const Image& image, const PngOptions& options) {
+    const ColorPlanes planes = find_planes(file, image);
+    encode(file, develop(image, planes, options), options);
 }
 
 }  // namespace
@@ -127,9 +148,16 @@ uint8_t srgb_code(float linear) {
 
 void write_png(const std::filesystem::path& path, const Image& image, const PngOptions& options) {
     AtomicFile file(path);
-    const ColorPlanes planes = find_planes(file, image);
-    encode(file, develop(image, planes, options), options.keep_alpha);
+    encode(file, image, options);
     file.commit();
+}
+
+std::string png_bytes(const Image& image, const PngOptions& options) {
+    MemorySink sink("PNG");
+    encode(sink, image, options);
+    std::string bytes = sink.take();
+    seal(bytes);
+    return bytes;
 }
 
 Picture parse_png(std::span<const uint8_t> bytes, const std::filesystem::path& name,

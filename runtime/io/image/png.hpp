@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "runtime/image/image.hpp"
@@ -18,6 +19,7 @@ struct PngOptions {
     float exposure = 0.0f;       ///< stops: colours are multiplied by 2^exposure
     bool keep_alpha = false;     ///< if false, the background shows through where alpha is below 1
     glm::vec3 background{0.0f};  ///< linear Rec. 709, exposed like the image
+    std::string stamp = {};      ///< of the file, as a text chunk; empty for none
 };
 
 /// The pixels of a PNG: red, green, blue and alpha, row 0 at the top.
@@ -38,6 +40,9 @@ uint8_t srgb_code(float linear);
 /// images give equal bytes. Throws Error::output.
 void write_png(const std::filesystem::path& path, const Image& image,
                const PngOptions& options = {});
+
+/// The bytes of the file that `write_png` writes.
+std::string png_bytes(const Image& image, const PngOptions& options = {});
 
 /// Reads any PNG as 8-bit RGBA. Throws Error::input for a file that is missing, damaged or above
 /// 2^28 pixels.

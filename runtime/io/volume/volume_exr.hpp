@@ -27,7 +27,8 @@ inline constexpr size_t kChecksumDigits = 16;
 /// The offset of the checksum's text in the file; 0 if the header has none.
 uint64_t find_checksum(const InputFile& file);
 
-/// The XXH3 of the file with '0' characters in place of the checksum, as text.
+/// The XXH3 of the file with '0' characters in place of the checksum, and of the check of a stamp,
+/// which is filled in later, as text.
 std::string compute_checksum(const InputFile& file, uint64_t place);
 
 }  // namespace voxelume::volume_exr

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/base/stamp.hpp"
 #include "runtime/io/volume/volume_exr.hpp"
 
 namespace voxelume::volume_exr {
@@ -33,6 +34,9 @@ std::string compute_checksum(const InputFile& file, uint64_t place) {
         file.read(position, block.data(), size);
         for (uint64_t i = place; i < place + kChecksumDigits; ++i)
             if (i >= position && i < position + size) block[i - position] = '0';
+        if (position == 0)
+            if (const auto check = stamp_check_place({block.data(), size}))
+                std::fill_n(block.data() + *check, kStampCheckDigits, '0');
         XXH3_64bits_update(state.get(), block.data(), size);
     }
     return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));

@@ -143,6 +143,8 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     check_lines(camera, frame);
     camera.half_x = 0.5f * float(camera.width);
     camera.half_y = 0.5f * float(camera.height);
+    camera.frame_width = camera.width;
+    camera.frame_height = camera.height;
     camera.far_plane = float(frame.size[axis]);
     camera.samples = 1;
     camera.sample_weight = 1;

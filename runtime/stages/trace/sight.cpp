@@ -51,6 +51,11 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
     camera.lead = float(lead);
     camera.width = scene.render.size.x;
     camera.height = scene.render.size.y;
+    const glm::ivec2 frame = frame_size(scene.render);
+    camera.first_column = scene.render.crop.first.x;
+    camera.first_row = scene.render.crop.first.y;
+    camera.frame_width = frame.x;
+    camera.frame_height = frame.y;
     camera.samples = scene.render.samples;
     camera.shape = shape.kernel_number;
     camera.sample_weight = 1.0f / float(scene.render.samples);
@@ -60,7 +65,7 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
 double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world) {
     const Observer& observer = scene.observer;
     const glm::dvec2 pixel =
-        2.0 * half_extent(observer.display) / glm::dvec2(camera.width, camera.height);
+        2.0 * half_extent(observer.display) / glm::dvec2(camera.frame_width, camera.frame_height);
     const glm::dvec3 middle = world.origin + 0.5 * world.voxel_edge * glm::dvec3(world.size);
     const double metres = shape_row(observer.display).projection == SightProjection::parallel
                               ? 1.0

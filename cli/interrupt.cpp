@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/interrupt.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "runtime/voxelume.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kGrace{1500};
+
+// The handler may do no more than write to a pipe; a thread reads from it.
+std::array<int, 2> signal_pipe{-1, -1};
+std::atomic<int> signal_number = 0;
+std::atomic<int> interruptibles = 0;
+std::atomic<bool> is_told = false;
+
+/// Never destroyed: the thread may use it when the process ends.
+std::stop_source& stop_source() {
+    static auto* const source = new std::stop_source;
+    return *source;
+}
+
+void note_signal(int number) {
+    const int error = errno;
+    const auto byte = static_cast<char>(number);
+    [[maybe_unused]] const ssize_t written = write(signal_pipe[1], &byte, 1);
+    errno = error;
+}
+
+void handle(int number) {
+    struct sigaction action {};
+    if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+    action.sa_handler = note_signal;
+    action.sa_flags = int(SA_RESTART | SA_RESETHAND);
+    sigaction(number, &action, nullptr);
+}
+
+/// What the program says when it ends in the middle of something.
+void tell() {
+    if (may_tell_interruption())
+        fmt::print(stderr, "\nvoxelume: {}\n",
+                   signal_number == SIGTERM ? "terminated" : "interrupted");
+}
+
+void wait_for_signal() {
+    char number = 0;
+    while (read(signal_pipe[0], &number, 1) < 0)
+        if (errno != EINTR) return;
+    signal_number = number;
+    // The second signal, of either kind, is the system's to handle.
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    stop_source().request_stop();
+    if (interruptibles > 0) std::this_thread::sleep_for(kGrace);
+    tell();
+    remove_unfinished_files();
+    _exit(interrupted_code());
+}
+
+}  // namespace
+
+void handle_interrupts() {
+    if (pipe2(signal_pipe.data(), O_CLOEXEC) != 0) return;  // signals end the program as usual
+    stop_source();
+    std::thread(wait_for_signal).detach();
+    handle(SIGINT);
+    handle(SIGTERM);
+}
+
+Interruptible::Interruptible() {
+    ++interruptibles;
+}
+
+Interruptible::~Interruptible() {
+    --interruptibles;
+}
+
+std::stop_token Interruptible::stop() const {
+    return stop_source().get_token();
+}
+
+int interrupted_code() {
+    return 128 + (signal_number == SIGTERM ? SIGTERM : SIGINT);
+}
+
+bool may_tell_interruption() {
+    return !is_told.exchange(true);
+}
+
+}  // namespace voxelume::cli

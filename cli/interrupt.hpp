@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM: the program ends within two seconds, and leaves nothing half written.
+#pragma once
+
+#include <stop_token>
+
+namespace voxelume::cli {
+
+/// Has SIGINT and SIGTERM end the program: at once, or, as long as an `Interruptible` lives, by its
+/// stop token and at the latest after a second and a half. What is unfinished on disk is removed,
+/// and one line says why the program ends. A second signal ends it as if nothing was prepared.
+/// Signals that are ignored when the program starts stay so.
+void handle_interrupts();
+
+/// A part of the program that ends soon when it is asked to.
+class Interruptible {
+  public:
+    Interruptible();
+    ~Interruptible();
+    Interruptible(const Interruptible&) = delete;
+    Interruptible& operator=(const Interruptible&) = delete;
+
+    /// Requested by a signal.
+    std::stop_token stop() const;
+};
+
+/// The exit code of a program that was interrupted: 130 after SIGINT, 143 after SIGTERM.
+int interrupted_code();
+
+/// Whether the caller is the one to say that the program was interrupted; true once.
+bool may_tell_interruption();
+
+}  // namespace voxelume::cli

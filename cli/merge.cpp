@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// voxelume merge PART...: parts of a run that several processes rendered -> the run's files, or
+// that they are all there.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "cli/checks.hpp"
+#include "cli/commands.hpp"
+#include "cli/shard_manifest.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MergeCommand {
+    std::vector<std::string> parts;
+    bool quiet = false;
+};
+
+/// A part, and the file that tells of it.
+struct Part {
+    fs::path file;
+    ShardManifest manifest;
+};
+
+template <class... Args>
+[[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
+    throw Error(ErrorKind::input, "merge: " + fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// What two parts of one run have in common, or why these have not.
+std::string difference(const ShardManifest& a, const ShardManifest& b) {
+    if (a.shard.count != b.shard.count)
+        return fmt::format("one is of {} parts, the other of {}", a.shard.count, b.shard.count);
+    if (a.frames != b.frames) return "they have different frames";
+    if (a.outputs != b.outputs) return "they have different outputs";
+    if (a.rows.has_value() != b.rows.has_value() ||
+        (a.rows && (a.rows->height != b.rows->height || a.rows->outputs != b.rows->outputs)))
+        return "their images differ in size";
+    const auto options = [](const ImageFileOptions& o) {
+        return std::tuple(o.exposure, o.float_color, o.channels.color, o.channels.depth,
+                          o.channels.position, o.channels.normal, o.channels.object);
+    };
+    if (a.rows && options(a.rows->options) != options(b.rows->options))
+        return "their options of images differ";
+    if (a.scene != b.scene || (a.rows && a.rows->hash != b.rows->hash))
+        return "the scene, one of its files, its settings or the version differ";
+    return {};
+}
+
+void check_same_run(const std::vector<Part>& parts) {
+    const Part& first = parts.front();
+    for (const Part& part : parts)
+        if (const std::string reason = difference(first.manifest, part.manifest); !reason.empty())
+            refuse("{} and {} are parts of different runs: {}", first.file.string(),
+                   part.file.string(), reason);
+}
+
+/// Throws where a part isn't there, or there twice.
+void check_numbers(const std::vector<Part>& parts) {
+    std::map<int, const Part*> known;
+    for (const Part& part : parts) {
+        const auto [other, is_new] = known.emplace(part.manifest.shard.number, &part);
+        if (!is_new)
+            refuse("{} and {} are both part {}; leave one out", other->second->file.string(),
+                   part.file.string(), text_of(part.manifest.shard));
+    }
+    constexpr size_t kMaxNames = 20;
+    std::vector<std::string> missing;
+    const int count = parts.front().manifest.shard.count;
+    for (int number = 1; number <= count && missing.size() <= kMaxNames; ++number)
+        if (!known.contains(number)) missing.push_back(std::to_string(number));
+    if (missing.empty()) return;
+    if (missing.size() > kMaxNames) missing.back() = "...";
+    refuse("of {} parts {} {} missing: {}", count, count - int(known.size()),
+           count - int(known.size()) == 1 ? "is" : "are", fmt::join(missing, ", "));
+}
+
+/// The path of a part's file, which has the bytes that it was told of with.
+fs::path checked_file(const Part& part, const ShardFile& file) {
+    const fs::path path = part.file.parent_path() / file.name;
+    if (const std::string hash = hash_of_file(path); hash != file.hash)
+        refuse("{}: {}; render part {} again, with --resume", path.string(),
+               hash.empty() ? "isn't there" : "isn't as it was rendered",
+               text_of(part.manifest.shard));
+    return path;
+}
+
+/// Every frame of the run must be one part's, and its files as they were written.
+void check_frames(const std::vector<Part>& parts) {
+    std::map<int, const Part*> known;
+    for (const Part& part : parts)
+        for (const ShardManifest::Frame& frame : part.manifest.own) {
+            const auto [other, is_new] = known.emplace(frame.frame, &part);
+            if (!is_new)
+                refuse("frame {} is in both {} and {}", frame.frame, other->second->file.string(),
+                       part.file.string());
+            if (frame.files.empty())
+                refuse("{} has no file of frame {}", part.file.string(), frame.frame);
+            for (const ShardFile& file : frame.files) checked_file(part, file);
+        }
+    for (const int frame : parts.front().manifest.frames)
+        if (!known.contains(frame)) refuse("no part has frame {}", frame);
+}
+
+/// Writes the files of an image of which each part has some rows. Returns them.
+std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
+    std::vector<fs::path> files, outputs;
+    int height = 0;
+    for (const Part& part : parts) {
+        const ShardRows& rows = *part.manifest.rows;
+        if (rows.first != height)
+            refuse("{} begins with row {} instead of row {}", part.file.string(), rows.first,
+                   height);
+        height = rows.end;
+        if (rows.file) files.push_back(checked_file(part, *rows.file));
+    }
+    const ShardRows& rows = *parts.front().manifest.rows;
+    if (height != rows.height) refuse("the parts have {} of {} rows", height, rows.height);
+    for (const std::string& output : rows.outputs)
+        outputs.push_back(parts.front().file.parent_path() / output);
+    merge_image_files(files, outputs, rows.hash, rows.options);
+    return outputs;
+}
+
+int run(const MergeCommand& command) {
+    std::vector<Part> parts;
+    for (const std::string& file : command.parts) parts.push_back({file, read_manifest(file)});
+    check_same_run(parts);
+    check_numbers(parts);
+    std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.number; });
+    const auto say = [&](const std::string& what) {
+        if (!command.quiet) fmt::print(stderr, "{} of {} parts\n", what, parts.size());
+    };
+    if (parts.front().manifest.rows) {
+        for (const fs::path& file : merge_rows(parts)) say(file.string());
+    } else {
+        check_frames(parts);
+        say(fmt::format("all {} frames are there, whole,", parts.front().manifest.frames.size()));
+    }
+    return 0;
+}
+
+}  // namespace
+
+Action add_merge(CLI::App& app) {
+    const auto command = std::make_shared<MergeCommand>();
+    app.add_option("PART", command->parts, "files .shard of all parts, of `render --shard`")
+        ->required();
+    app.add_flag("-q,--quiet", command->quiet, "print errors only");
+    return [command] { return run(*command); };
+}
+
+}  // namespace voxelume::cli

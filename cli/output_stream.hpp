@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// `-o -`: an image on standard output.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/voxelume.hpp"
+
+namespace voxelume::cli {
+
+/// Whether an output is standard output: "-" is a PNG there, "-.exr" OpenEXR.
+bool is_stream(const std::string& output);
+
+/// The one among a job's outputs that is standard output, if there is one.
+class OutputStream {
+  public:
+    explicit OutputStream(const std::vector<std::string>& outputs);
+
+    bool is_wanted() const { return !ending_.empty(); }
+    /// What the image has to have.
+    Channels channels(const ImageFileOptions& options) const;
+    /// Throws Error::output.
+    void write(const Image& image, const ImageFileOptions& options) const;
+
+  private:
+    std::string ending_;
+};
+
+}  // namespace voxelume::cli

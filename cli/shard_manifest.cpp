@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/shard_manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "cli/channels.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+constexpr const char* kFormatKey = "voxelume_shard";
+
+Json json_of(const ShardFile& file) {
+    return {{"name", file.name}, {"hash", file.hash}};
+}
+
+ShardFile file_of(const Json& json) {
+    return {json.at("name").get<std::string>(), json.at("hash").get<std::string>()};
+}
+
+Json json_of(const ShardRows& rows) {
+    Json json = {{"first", rows.first},
+                 {"end", rows.end},
+                 {"height", rows.height},
+                 {"file", nullptr},
+                 {"hash", rows.hash},
+                 {"outputs", rows.outputs},
+                 {"exposure", rows.options.exposure},
+                 {"float", rows.options.float_color},
+                 {"channels", channel_names(rows.options.channels)}};
+    if (rows.file) json["file"] = json_of(*rows.file);
+    return json;
+}
+
+ShardRows rows_of(const Json& json) {
+    ShardRows rows;
+    rows.first = json.at("first").get<int>();
+    rows.end = json.at("end").get<int>();
+    rows.height = json.at("height").get<int>();
+    if (!json.at("file").is_null()) rows.file = file_of(json.at("file"));
+    rows.hash = json.at("hash").get<std::string>();
+    rows.outputs = json.at("outputs").get<std::vector<std::string>>();
+    rows.options.exposure = json.at("exposure").get<double>();
+    rows.options.float_color = json.at("float").get<bool>();
+    rows.options.channels = parse_channels(json.at("channels").get<std::string>(), "channels");
+    return rows;
+}
+
+ShardManifest manifest_of(const Json& json) {
+    ShardManifest manifest;
+    manifest.shard = {json.at("part").get<int>(), json.at("of").get<int>()};
+    manifest.scene = json.at("scene").get<std::string>();
+    manifest.frames = json.at("frames").get<std::vector<int>>();
+    manifest.outputs = json.at("outputs").get<std::vector<std::string>>();
+    for (const Json& frame : json.at("own")) {
+        ShardManifest::Frame& own = manifest.own.emplace_back();
+        own.frame = frame.at("frame").get<int>();
+        for (const Json& file : frame.at("files")) own.files.push_back(file_of(file));
+    }
+    if (json.contains("rows")) manifest.rows = rows_of(json.at("rows"));
+    return manifest;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
+    throw Error(ErrorKind::input, fmt::format("{}: {}", file.string(), reason), {file.string()});
+}
+
+}  // namespace
+
+void write_manifest(const std::filesystem::path& file, const ShardManifest& manifest) {
+    Json json = {
+        {kFormatKey, kFormat},           {"software", fmt::format("voxelume {}", version())},
+        {"part", manifest.shard.number}, {"of", manifest.shard.count},
+        {"scene", manifest.scene},       {"frames", manifest.frames},
+        {"outputs", manifest.outputs},   {"own", Json::array()}};
+    for (const ShardManifest::Frame& frame : manifest.own) {
+        Json files = Json::array();
+        for (const ShardFile& own : frame.files) files.push_back(json_of(own));
+        json["own"].push_back({{"frame", frame.frame}, {"files", files}});
+    }
+    if (manifest.rows) json["rows"] = json_of(*manifest.rows);
+    write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+ShardManifest read_manifest(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "there is no such file");
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) refuse(file, "can't be read");
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object() || !json.contains(kFormatKey))
+        refuse(file, "isn't a part of a run: `voxelume render --shard` writes those, .shard");
+    try {
+        if (json.at(kFormatKey).get<int>() != kFormat)
+            refuse(file, "is of another version of voxelume");
+        ShardManifest manifest = manifest_of(json);
+        const auto& [number, count] = manifest.shard;
+        if (number < 1 || number > count) refuse(file, "is damaged: its number is none");
+        return manifest;
+    } catch (const nlohmann::json::exception&) {
+        refuse(file, "is damaged: render this part again");
+    }
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/shard_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "cli/checks.hpp"
+#include "cli/crop.hpp"
+#include "cli/output_names.hpp"
+#include "cli/output_stream.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The files that writing a volumetric image makes: some have a header of their own, and slices are
+/// a file each.
+std::vector<fs::path> files_of_volume(const fs::path& volume) {
+    std::vector<fs::path> files;
+    const auto add = [&](const fs::path& file) {
+        std::error_code error;
+        if (fs::is_regular_file(file, error)) files.push_back(file);
+    };
+    add(volume);
+    const std::string name = volume.filename().string();
+    const size_t last = name.find_last_of('#');
+    if (ending_of(volume) == ".raw") add(fs::path(volume).replace_extension(".json"));
+    if (ending_of(volume) == ".json") add(fs::path(volume).replace_extension(".raw"));
+    if (!files.empty() || last == std::string::npos) return files;
+    const size_t first = name.find_last_not_of('#', last) + 1;
+    const std::string start = name.substr(0, first), end = name.substr(last + 1);
+    std::error_code error;
+    const fs::path folder = volume.has_parent_path() ? volume.parent_path() : fs::path(".");
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string slice = entry.path().filename().string();
+        if (slice.size() > start.size() + end.size() && slice.starts_with(start) &&
+            slice.ends_with(end) &&
+            slice.find_first_not_of("0123456789", start.size()) == slice.size() - end.size())
+            files.push_back(volume.parent_path() / slice);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// The manifest's name is that of the first output as the options have it.
+fs::path manifest_path(const RenderCommand& command, const Shard& shard) {
+    const std::vector<std::string>& outputs =
+        command.outputs.empty() ? command.volumes : command.outputs;
+    return fmt::format("{}.{}-of-{}.shard", outputs.front(),
+                       padded(size_t(shard.number), size_t(shard.count)), shard.count);
+}
+
+}  // namespace
+
+ShardPart::ShardPart(const RenderCommand& command, Scene& scene, FrameJob& job) {
+    manifest_.shard = parse_shard(command.shard);
+    if (OutputStream(command.outputs).is_wanted())
+        fail_usage("render: --shard writes files beside each other, and standard output has none");
+    file_ = manifest_path(command, manifest_.shard);
+    manifest_.frames = numbers_of(job.frames);
+    manifest_.scene = frame_hashes(scene, {manifest_.frames.front()}).front();
+    manifest_.outputs = command.outputs;
+    manifest_.outputs.insert(manifest_.outputs.end(), command.volumes.begin(),
+                             command.volumes.end());
+    if (job.frames.size() == 1)
+        cut_image(command, scene, job);
+    else
+        job.frames = frames_ = frames_of(manifest_.shard, job.frames);
+}
+
+void ShardPart::cut_image(const RenderCommand& command, Scene& scene, FrameJob& job) {
+    FrameFiles& frame = job.frames.front();
+    if (!frame.volumes.empty())
+        fail_usage(
+            "render: --shard cuts images, and frames of animations, but no volumetric image "
+            "of one frame: leave --volume out");
+    const ImagePart whole = part_of(command.crop, scene);
+    const auto [first, end] = rows_of(manifest_.shard, whole.size[1]);
+    ShardRows rows{first, end, whole.size[1], {}, manifest_.scene, {}, job.image_files};
+    for (const fs::path& file : frame.images) rows.outputs.push_back(described(file).name);
+    rows_ = file_.string() + ".exr";
+    job.image_files = {.float_color = true, .channels = needed_channels(job)};
+    frame.images = {rows_};
+    manifest_.rows = std::move(rows);
+    if (first == end)
+        job.frames.clear();
+    else
+        scene =
+            scene.with_crop({whole.first[0], whole.first[1] + first}, {whole.size[0], end - first});
+}
+
+ShardFile ShardPart::described(const fs::path& file) const {
+    const auto whole = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
+    return {whole(file).lexically_relative(whole(file_).parent_path()).string(),
+            hash_of_file(file)};
+}
+
+void ShardPart::write() const {
+    ShardManifest manifest = manifest_;
+    for (const FrameFiles& frame : frames_) {
+        ShardManifest::Frame& own = manifest.own.emplace_back();
+        own.frame = frame.frame;
+        for (const fs::path& file : frame.images) own.files.push_back(described(file));
+        for (const fs::path& volume : frame.volumes)
+            for (const fs::path& file : files_of_volume(volume))
+                own.files.push_back(described(file));
+    }
+    if (manifest.rows && manifest.rows->end > manifest.rows->first)
+        manifest.rows->file = described(rows_);
+    write_manifest(file_, manifest);
+}
+
+}  // namespace voxelume::cli

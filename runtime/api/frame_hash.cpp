@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/api/frame_hash.hpp"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
+#include "runtime/assets/model_cache.hpp"
+#include "runtime/base/cache_key.hpp"
+#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/base/file_hash.hpp"
+#include "runtime/base/stamp.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/base/version.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/voxelume/render.hpp"
+
+namespace voxelume::api {
+namespace {
+
+/// Where hashes of files are asked for.
+struct FileHashes {
+    std::function<void(const std::filesystem::path&)> add_file;
+    std::function<void(const std::filesystem::path&)> add_mesh;  ///< with all that it leads to
+    std::function<void(const Model&)> add_given;                 ///< voxels in memory
+};
+
+/// Adds the files whose contents a scene shows, at the frame that it is at.
+void add_files(const Scene& scene, const FileHashes& hashes) {
+    for (const Model& model : scene.models) {
+        if (!model.mesh.empty()) hashes.add_mesh(model.mesh);
+        if (model.given)
+            hashes.add_given(model);
+        else if (!model.voxels.empty())
+            hashes.add_file(model.voxels);
+        if (model.morph && !model.morph->mesh.empty()) hashes.add_mesh(model.morph->mesh);
+    }
+    if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
+        hashes.add_file(grid->file);
+}
+
+/// The hash of a mesh's file and of the libraries, textures and buffers that it leads to; empty for
+/// a file that can't be read, of which rendering says why.
+std::string read_mesh_hash(const std::filesystem::path& file) {
+    try {
+        return mesh_source(read_mesh_bytes(file), file);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+template <class Value>
+std::string_view bytes_of(const std::vector<Value>& values) {
+    return {reinterpret_cast<const char*>(values.data()), sizeof(Value) * values.size()};
+}
+
+/// The hash of voxels in memory.
+std::string hash_of_voxels(const VoxelModel& voxels) {
+    CacheKey key;
+    key.add_all(voxels.frame.size);
+    const std::array<std::string_view, 4> parts = {
+        key.bytes(), bytes_of(voxels.slots), bytes_of(voxels.occupancy), bytes_of(voxels.colors)};
+    return cache_key(parts);
+}
+
+void add_settings(const RenderSettings& render, CacheKey& key) {
+    key.add_all(render.size).add_all(render.crop.first).add_all(render.crop.frame);
+    key.add(render.samples).add(int(render.light));
+}
+
+}  // namespace
+
+std::string FrameHashes::of(int frame) {
+    const Scene& scene = inside(scene_);
+    CacheKey key;
+    key.add_text(version()).add_text(scene_.implementation().hash);
+    add_settings(scene.render, key);
+    if (moves(scene)) key.add(frame);
+    const auto adder = [&](std::string (*read)(const std::filesystem::path&)) {
+        return [this, &key, read](const std::filesystem::path& file) {
+            const auto [entry, is_new] = files_.try_emplace(file);
+            if (is_new) entry->second = read(file);
+            key.add_text(entry->second);
+        };
+    };
+    const auto add_given = [&](const Model& model) {
+        const auto [entry, is_new] = files_.try_emplace(model.voxels);
+        if (is_new) entry->second = hash_of_voxels(*model.given);
+        key.add_text(entry->second);
+    };
+    add_files(scene_at(scene, frame), {adder(hash_of_file), adder(read_mesh_hash), add_given});
+    const std::array<std::string_view, 1> parts = {key.bytes()};
+    return cache_key(parts);
+}
+
+std::string hash_for_image(const std::string& hash, std::string_view ending,
+                           const v1::ImageFileOptions& options) {
+    CacheKey key;
+    key.add_text(hash);
+    const v1::Channels& c = options.channels;
+    if (ending == ".png") key.add(options.exposure);
+    if (ending == ".exr")
+        key.add(options.float_color)
+            .add(c.color)
+            .add(c.depth)
+            .add(c.position)
+            .add(c.normal)
+            .add(c.object);
+    const std::array<std::string_view, 2> parts = {ending, key.bytes()};
+    return cache_key(parts);
+}
+
+}  // namespace voxelume::api
+
+namespace voxelume::v1 {
+
+std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames) {
+    return api::guarded([&] {
+        api::FrameHashes hashes(scene);
+        std::vector<std::string> list;
+        list.reserve(frames.size());
+        for (const int frame : frames) list.push_back(hashes.of(frame));
+        return list;
+    });
+}
+
+FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,
+                                const ImageFileOptions& options) {
+    return api::guarded([&] {
+        const std::string own = api::hash_for_image(hash, ending_of(file), options);
+        return static_cast<FrameFileState>(check_stamp(file, own));
+    });
+}
+
+FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash) {
+    return api::guarded([&] { return static_cast<FrameFileState>(check_stamp(file, hash)); });
+}
+
+}  // namespace voxelume::v1

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame's files are made from, as a hash.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "runtime/voxelume/image.hpp"
+#include "runtime/voxelume/scene.hpp"
+
+namespace voxelume::api {
+
+/// The hashes of a scene's frames, with every file read once.
+class FrameHashes {
+  public:
+    explicit FrameHashes(const v1::Scene& scene) : scene_(scene) {}
+
+    /// 32 hexadecimal digits: of the version, the scene, its settings, and the bytes of all files
+    /// that the frame shows, with those that they lead to. Throws Error::scene as `scene_at` does.
+    std::string of(int frame);
+
+  private:
+    v1::Scene scene_;
+    std::map<std::filesystem::path, std::string> files_;
+};
+
+/// The hash of a frame's image file: of the frame's hash and the options that change a file of that
+/// ending, ".png" or ".exr".
+std::string hash_for_image(const std::string& hash, std::string_view ending,
+                           const v1::ImageFileOptions& options);
+
+}  // namespace voxelume::api

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A text in files of frames that tells what they are made from, and whether they are as written.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace voxelume {
+
+/// What is known of a file by its stamp.
+enum class StampState {
+    missing,  ///< there is no file
+    damaged,  ///< its bytes aren't those that were written, or it has no stamp
+    stale,    ///< made from something else
+    current   ///< made from this, and whole
+};
+
+/// The text for the header of a file: "voxelume-frame=0123...cdef check=0000000000000000". The
+/// check is filled in by `seal`. `hash` has 32 hexadecimal digits and tells what the file is made
+/// from.
+std::string stamp_of(std::string_view hash);
+
+/// The hexadecimal digits of a stamp's check.
+inline constexpr size_t kStampCheckDigits = 16;
+
+/// Where in a file's first bytes the check of its stamp begins; empty where there is none. A
+/// checksum of another kind in the same file leaves it out.
+std::optional<size_t> stamp_check_place(std::string_view header);
+
+/// Fills in the check of the stamp in a file's bytes, if there is one near its start: a hash of all
+/// other bytes. The bytes may be those of any format that has the text as it is; in PNG files the
+/// checksum of its chunk follows. Returns whether there was one.
+bool seal(std::string& bytes);
+
+/// The same for an open file. Throws nothing: a file whose stamp can't be sealed counts as damaged.
+bool seal(int descriptor) noexcept;
+
+/// Compares a file with what it should be made from.
+StampState check_stamp(const std::filesystem::path& file, std::string_view hash);
+
+}  // namespace voxelume

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/base/stamp.hpp"
+
+#include <gtest/gtest.h>
+
+#include "runtime/base/atomic_file.hpp"
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+const std::string kHash = "0123456789abcdef0123456789abcdef";
+const std::string kOther = "ff23456789abcdef0123456789abcdef";
+
+class StampTest : public FileTest {
+  protected:
+    std::filesystem::path path() const { return folder / "frame"; }
+
+    /// A file of 3 MB whose stamp lies behind a thousand bytes.
+    void write_file() const {
+        AtomicFile file(path());
+        const std::string bytes =
+            std::string(1000, 'h') + stamp_of(kHash) + '\0' + std::string(3 << 20, 'p');
+        file.write(bytes.data(), bytes.size());
+        file.commit();
+    }
+};
+
+TEST_F(StampTest, AFileThatWasWrittenIsCurrentForItsHashAndStaleForOthers) {
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::missing);
+    write_file();
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::current);
+    EXPECT_EQ(check_stamp(path(), kOther), StampState::stale);
+}
+
+TEST_F(StampTest, AnyChangedByteOrLengthIsDamage) {
+    write_file();
+    const std::string bytes = bytes_of(path());
+    for (const size_t at :
+         {size_t(0), size_t(999), size_t(1070), size_t(2 << 20), bytes.size() - 1}) {
+        std::string damaged = bytes;
+        damaged[at] ^= 1;
+        put_bytes(path(), damaged);
+        EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged) << at;
+    }
+    put_bytes(path(), bytes.substr(0, bytes.size() - 1));
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged);
+    put_bytes(path(), bytes + "x");
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged);
+    put_bytes(path(), bytes);
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::current);
+}
+
+TEST_F(StampTest, WhatHasNoSealedStampIsDamaged) {
+    for (const std::string& bytes :
+         {std::string(), std::string("voxelume-frame="), "x" + stamp_of(kHash),
+          "voxelume-frame=" + kHash + " check=xyz"}) {
+        put_bytes(path(), bytes);
+        EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged) << bytes;
+    }
+    std::filesystem::remove(path());
+    std::filesystem::create_directory(path());
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::damaged);
+}
+
+TEST_F(StampTest, BytesInMemoryAreSealedLikeFiles) {
+    std::string bytes = "head " + stamp_of(kHash) + " tail";
+    EXPECT_TRUE(seal(bytes));
+    put_bytes(path(), bytes);
+    EXPECT_EQ(check_stamp(path(), kHash), StampState::current);
+    std::string none = "head and tail";
+    EXPECT_FALSE(seal(none));
+    EXPECT_EQ(none, "head and tail");
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every OpenCL call of some renders fails once, with statuses that it may return: the program ends
+// with a documented code, one sentence and no file, or does without the call and makes the same
+// file.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <map>
+
+#include "tests/cli/scene_program.hpp"
+#include "tests/support/exhaustive.hpp"
+
+namespace voxelume {
+
+class CliFaultsTest : public SceneProgramTest {
+  protected:
+    /// Renders, with environment variables of the preloaded library.
+    ProgramResult render(const std::string& environment) const {
+        return run_line(fmt::format("env LD_PRELOAD='{}' {} timeout 60 voxelume {} -q", VXL_FAULTS,
+                                    environment, command_));
+    }
+
+    /// How often each function is called.
+    std::map<std::string, long> counts() const {
+        const ProgramResult result = render("VXL_FAULT_COUNTS=counts");
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        std::ifstream file(folder / "counts");
+        std::map<std::string, long> counts;
+        std::string name;
+        for (long count = 0; file >> name >> count;) counts[name] = count;
+        std::filesystem::remove(folder / "counts");
+        return counts;
+    }
+
+    std::map<std::string, std::string> files() const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+            files[entry.path().filename()] = bytes_of(entry.path());
+        return files;
+    }
+
+    void remove_files() const {
+        std::filesystem::remove_all(folder / "out");
+        std::filesystem::create_directory(folder / "out");
+    }
+
+    /// The `number`-th call of the function fails.
+    void expect_handled(const std::string& function, long number, int status,
+                        const std::map<std::string, std::string>& expected) const {
+        const std::string fault = fmt::format("{}:{}:{}", function, number, status);
+        SCOPED_TRACE(fault);
+        remove_files();
+        const ProgramResult result = render("VXL_FAULT=" + fault);
+        if (result.exit_code == 0) {
+            EXPECT_TRUE(files() == expected);
+            return;
+        }
+        EXPECT_THAT(result.exit_code, testing::AnyOf(1, 6, 7, 8)) << result.err;
+        EXPECT_THAT(result.err, testing::MatchesRegex("voxelume: [^\n]+\n"));
+        EXPECT_THAT(result.err,
+                    testing::AnyOf(testing::HasSubstr("device"), testing::HasSubstr("while ")));
+        EXPECT_THAT(files(), testing::IsEmpty());
+    }
+
+    /// Has calls of all functions fail: of each the first, the last or one between by turns; in an
+    /// exhaustive run all three and some forty others, each with all statuses.
+    void expect_all_handled(const std::string& arguments, size_t turn) {
+        command_ = "render scene.json --no-cache " + arguments;
+        remove_files();
+        ASSERT_EQ(render("").exit_code, 0);  // compiles
+        const std::map<std::string, std::string> expected = files();
+        ASSERT_FALSE(expected.empty());
+        // Of memory, of a dead queue, of an event, and one that no list has.
+        const std::vector statuses = {-5, -6, -4, -36, -14, -9999};
+        for (const auto& [function, count] : counts()) {
+            std::vector<long> numbers = {1, (count + 1) / 2, count};
+            if (is_exhaustive())
+                for (long i = 2; i < count; i = i + 1 + count / 40) numbers.push_back(i);
+            for (const long number : in_turn(numbers, turn))
+                for (const int status : in_turn(statuses, turn))
+                    expect_handled(function, number, status, expected);
+            ++turn;
+        }
+    }
+
+  private:
+    std::string command_;
+};
+
+TEST_F(CliFaultsTest, InAnImageWithShadowsAreTold) {
+    expect_all_handled("-o out/a.exr", 0);
+}
+
+TEST_F(CliFaultsTest, InPathsThroughGlassAreTold) {
+    write_scene([](Json& scene) {
+        scene["materials"]["brick"] = {{"refraction", 0.9}, {"ior", 1.4}, {"reflection", 0.1}};
+        scene["models"]["thing"] = {{"shape", "sphere"}, {"radius", 0.4}, {"surface", "smooth"}};
+    });
+    expect_all_handled("-o out/a.png", 1);
+}
+
+TEST_F(CliFaultsTest, InVolumetricImagesAreTold) {
+    write_scene([](Json& scene) {
+        scene["world"]["medium"] = {{"absorption", {0.1, 0.2, 0.3}}};
+        scene["observer"]["display"]["layout"] = "lattice";
+    });
+    expect_all_handled("--volume out/v.nrrd", 2);
+}
+
+TEST_F(CliFaultsTest, InFramesAreTold) {
+    write_scene([](Json& scene) {
+        scene["animation"] = {{"tracks",
+                               {{{"target", "objects.thing.position"},
+                                 {"keys",
+                                  {{{"frame", 1}, {"value", {1, 1, 0.5}}},
+                                   {{"frame", 3}, {"value", {2, 1, 0.5}}}}}}}}};
+    });
+    expect_all_handled("--frames 1-3 -o out/a.##.exr", 3);
+}
+
+TEST_F(CliFaultsTest, OnTwoDevicesAreTold) {
+    expect_all_handled("--device all/2 -o out/a.exr", 4);
+}
+
+}  // namespace voxelume

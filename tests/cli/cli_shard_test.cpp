@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs that several processes share: the parts together have the bytes of a single run.
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "tests/cli/scene_program.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CliShardTest : public SceneProgramTest {
+  protected:
+    static constexpr const char* kImage =
+        "render scene.json -q -o p.exr -o p.png --size 21x37 --samples 2 --exposure 0.5 ";
+    static constexpr const char* kFrames = "render moving.json -q -o f.##.exr -o f.##.png ";
+
+    void SetUp() override {
+        SceneProgramTest::SetUp();
+        Json scene = Json::parse(kScene);
+        scene["animation"] = Json::parse(R"({"frames": 5, "tracks": [{
+            "target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                  {"frame": 5, "value": [9, 9, 9]}]}]})");
+        put_bytes(folder / "moving.json", scene.dump(1));
+    }
+
+    /// The files of pictures, but for those of parts.
+    std::map<std::string, std::string> pictures(char first) const {
+        std::map<std::string, std::string> files;
+        for (const std::string& name : names())
+            if (name.front() == first && name.find(".shard") == name.npos)
+                files[name] = bytes_of(folder / name);
+        return files;
+    }
+
+    void remove(const std::map<std::string, std::string>& files) const {
+        for (const auto& [name, bytes] : files) std::filesystem::remove(folder / name);
+    }
+
+    void remove_parts() const {
+        for (const std::string& name : names())
+            if (name.find(".shard") != name.npos) std::filesystem::remove(folder / name);
+    }
+
+    void render_parts(const std::string& line, int count) const {
+        for (int number = count; number >= 1; --number) {
+            const ProgramResult result = run(fmt::format("{} --shard {}/{}", line, number, count));
+            ASSERT_EQ(result.exit_code, 0) << result.err;
+        }
+    }
+
+    /// Expects that the parts of `line` merge to its files.
+    void expect_merged(const std::string& line, char first, const std::string& parts) {
+        ASSERT_EQ(run(line).exit_code, 0);
+        const auto whole = pictures(first);
+        ASSERT_GE(whole.size(), 2u);
+        for (const int count : {1, 2, 3, 8}) {
+            remove(whole);
+            remove_parts();
+            render_parts(line, count);
+            const ProgramResult result = run("merge " + parts);
+            ASSERT_EQ(result.exit_code, 0) << result.err;
+            EXPECT_EQ(pictures(first), whole) << count;
+            EXPECT_THAT(result.err, HasSubstr(fmt::format(" of {} parts\n", count)));
+        }
+    }
+
+    std::string refusal(const std::string& parts) const {
+        const ProgramResult result = run("merge " + parts);
+        EXPECT_EQ(result.exit_code, 4) << parts;
+        return result.err;
+    }
+};
+
+TEST_F(CliShardTest, PartsOfOneImageMergeToTheBytesOfASingleRun) {
+    expect_merged(kImage, 'p', "p.*.shard");
+}
+
+TEST_F(CliShardTest, SoDoPartsOfACroppedImageInGlobalLight) {
+    expect_merged(std::string(kImage) + "--crop 3,5,13,27 --light global --channels RGBA,Z", 'p',
+                  "p.*.shard");
+}
+
+TEST_F(CliShardTest, SoDoPartsOfAnAnimation) {
+    expect_merged(kFrames, 'f', "f.*.shard");
+    expect_merged("render moving.json -q --volume v.##.nrrd --volume v.##.raw", 'v', "v.*.shard");
+}
+
+TEST_F(CliShardTest, AMissingPartIsNamed) {
+    render_parts(kImage, 8);
+    std::filesystem::remove(folder / "p.exr.3-of-8.shard");
+    std::filesystem::remove(folder / "p.exr.5-of-8.shard");
+    EXPECT_THAT(refusal("p.*.shard"), HasSubstr("merge: of 8 parts 2 are missing: 3, 5\n"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "p.exr"));
+}
+
+TEST_F(CliShardTest, ADoubledPartIsRefused) {
+    render_parts(kImage, 2);
+    std::filesystem::copy_file(folder / "p.exr.1-of-2.shard", folder / "p.copy.shard");
+    EXPECT_THAT(refusal("p.*.shard"), AllOf(HasSubstr("p.copy.shard and p.exr.1-of-2.shard are "),
+                                            HasSubstr("both part 1 of 2; leave one out\n")));
+    EXPECT_THAT(refusal("p.copy.shard p.copy.shard"), HasSubstr("both part 1 of 2"));
+}
+
+TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
+    render_parts(kImage, 2);
+    const auto mixed = [&](const std::string& options, const std::string& number) {
+        EXPECT_EQ(run(kImage + options + " --shard " + number).exit_code, 0);
+        return refusal("p.exr.1-of-*.shard p.exr.2-of-2.shard");
+    };
+    EXPECT_THAT(mixed("--set world.ambient=0.9,0,0", "2/2"), HasSubstr("the scene, one of its"));
+    EXPECT_THAT(mixed("--light global", "2/2"), HasSubstr("its settings"));
+    EXPECT_THAT(mixed("--crop 0,0,9,9", "2/2"), HasSubstr("differ in size"));
+    EXPECT_THAT(mixed("--float", "2/2"), HasSubstr("options of images"));
+    EXPECT_THAT(mixed("-o other.png", "2/2"), HasSubstr("different outputs"));
+    EXPECT_THAT(mixed("", "1/3"), HasSubstr("one is of 2 parts, the other of 3"));
+    EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
+    EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
+    put_bytes(folder / "x.shard", R"({"voxelume_shard": 1, "part": "x"})");
+    EXPECT_THAT(refusal("x.shard"), HasSubstr("is damaged"));
+}
+
+TEST_F(CliShardTest, AFileThatChangedSinceIsRefused) {
+    render_parts(kFrames, 3);
+    const std::string bytes = bytes_of(folder / "f.02.exr");
+    put_bytes(folder / "f.02.exr", bytes.substr(0, 700));
+    EXPECT_THAT(refusal("f.*.shard"),
+                HasSubstr("f.02.exr: isn't as it was rendered; render part 2 of 3 again"));
+    std::filesystem::remove(folder / "f.02.exr");
+    EXPECT_THAT(refusal("f.*.shard"), HasSubstr("f.02.exr: isn't there"));
+    ASSERT_EQ(run(std::string(kFrames) + "--shard 2/3 --resume").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "f.02.exr"), bytes);
+    EXPECT_EQ(run("merge f.*.shard").exit_code, 0);
+}
+
+TEST_F(CliShardTest, APartGoesOnWhereItEnded) {
+    const std::string line = std::string(kImage) + "--shard 2/3 --resume";
+    ASSERT_EQ(run(line).exit_code, 0);
+    std::filesystem::remove(folder / "p.exr.2-of-3.shard");
+    const auto time = std::filesystem::last_write_time(folder / "p.exr.2-of-3.shard.exr");
+    ASSERT_EQ(run(line).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "p.exr.2-of-3.shard"));
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "p.exr.2-of-3.shard.exr"), time);
+}
+
+TEST_F(CliShardTest, WhatCantBeCutIsAMistake) {
+    for (const char* shard : {"0/2", "3/2", "2", "1/0", "a/b", "1/2/3", "-1/2"})
+        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o a.png --shard={}", shard)),
+                    HasSubstr(fmt::format("--shard {}: give I/N", shard)));
+    EXPECT_THAT(expect_failure(2, "render scene.json --volume a.nrrd --shard 1/2"),
+                HasSubstr("no volumetric image of one frame"));
+    EXPECT_EQ(run_line("sh -c 'voxelume render scene.json -o - --shard 1/2 | cat; exit 2'").out,
+              "");
+}
+
+}  // namespace
+}  // namespace voxelume
