@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 preset=release
-build=build/$preset
+build=${VXL_BUILD:-build/$preset}
 
 usage() {
     cat <<'TEXT'
@@ -94,10 +94,13 @@ docs() {
     echo "The reference is build/docs/html/index.html."
 }
 
+# What `cmake --install` installs.
+installed='voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader voxelume_manual'
+
 # The wheel holds the library as it is installed; tests see the wheel alone. Both come from pip, as
 # does what builds them.
 python_package() {
-    build_targets voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader
+    build_targets $installed
     local folder=$PWD/build/python
     say "Building the wheel"
     rm -rf "$folder/library" "$folder/wheels"
@@ -118,7 +121,7 @@ python_package() {
 # debian_package [--install]. Its files have the date of the last commit.
 debian_package() {
     local folder=$PWD/build/package
-    build_targets voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader
+    build_targets $installed
     SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
     export SOURCE_DATE_EPOCH
     cmake "$build" >/dev/null # the changelog has the date, too

@@ -28,7 +28,8 @@ set(CPACK_PACKAGE_DESCRIPTION
 skylight, as images and as the volumetric images that 3-D displays,
 compositors and voxel tools take, by OpenCL on CPUs and GPUs.
 .
-This package has the program, the library with its headers, and scenes.")
+This package has the program, the library with its headers, the manual
+page, completions of shells, and scenes.")
 set(CPACK_COMPONENTS_ALL Unspecified debian)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

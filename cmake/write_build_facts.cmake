@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Writes a source with the facts of the build; see BuildFacts.cmake.
 cmake_minimum_required(VERSION 3.25)
-execute_process(COMMAND git -C ${source} log -1 --format=%h\ of\ %cs OUTPUT_VARIABLE commit
+execute_process(COMMAND git -C ${source} log -1 --abbrev=12 --format=%h\ of\ %cs OUTPUT_VARIABLE commit
                 OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT commit)
     set(commit "unknown")

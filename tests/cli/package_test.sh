@@ -57,6 +57,9 @@ in_root 'cd /tmp && voxelume render /usr/share/voxelume/scenes/solids.json -o so
     fail "$(cat "$cache/log")"
 in_root 'cd /tmp && c++ consumer.cpp $(pkg-config --cflags --libs voxelume) -o consumer && ./consumer' \
     >"$cache/log" 2>&1 || fail "$(cat "$cache/log")"
+in_root 'zcat /usr/share/man/man1/voxelume.1.gz | grep -q "^.SH COMMANDS" &&
+    source /usr/share/bash-completion/completions/voxelume && complete -p voxelume >/dev/null' ||
+    fail "the manual page or the completion of bash is missing"
 in_root 'test -s /usr/share/doc/voxelume/copyright && test -s /usr/share/doc/voxelume/voxelume.spdx.json' ||
     fail "licence or bill of materials is missing"
 in_root 'dpkg --purge voxelume' >"$cache/log" 2>&1 || fail "$(cat "$cache/log")"
