@@ -30,7 +30,10 @@ void check(const v1::VoxelArray& array) {
         throw Error(ErrorKind::usage, "{}: an array of {} x {} x {} has no voxels",
                     quote(array.name), x, y, z);
     double bricks = 1;
-    for (const int side : array.size) bricks *= (side + 2 * kMargin) / kBrickSize + 1;
+    for (const int side : array.size) {
+        const int along = (std::min(side, kMaxVoxelsPerAxis) + 2 * kMargin) / kBrickSize + 1;
+        bricks *= along;
+    }
     if (std::max({x, y, z}) > kMaxVoxelsPerAxis - 2 * kMargin || bricks > kMaxBricks)
         throw Error(ErrorKind::limit,
                     "{}: an array of {} x {} x {} is too large: at most {} voxels along each axis "
