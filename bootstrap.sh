@@ -95,7 +95,7 @@ docs() {
 }
 
 # What `cmake --install` installs.
-installed='voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader voxelume_manual'
+installed='voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader'
 
 # The wheel holds the library as it is installed; tests see the wheel alone. Both come from pip, as
 # does what builds them.

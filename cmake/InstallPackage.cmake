@@ -18,6 +18,7 @@ install(CODE "
         execute_process(COMMAND \"$<TARGET_FILE:voxelume>\" \${words} OUTPUT_FILE \"\${file}\"
                         COMMAND_ERROR_IS_FATAL ANY)
     endforeach()
+    execute_process(COMMAND gzip -9nf \"\${share}/man/man1/voxelume.1\" COMMAND_ERROR_IS_FATAL ANY)
 ")
 install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
 install(TARGETS voxelume_vdb_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside the module
