@@ -41,7 +41,14 @@ void note_signal(int number) {
 
 void handle(int number) {
     struct sigaction action {};
-    if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+    if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) {
+        // While PoCL compiles, LLVM has a handler of its own, which would remove its files.
+        sigset_t ignored;
+        sigemptyset(&ignored);
+        sigaddset(&ignored, number);
+        pthread_sigmask(SIG_BLOCK, &ignored, nullptr);
+        return;
+    }
     action.sa_handler = note_signal;
     action.sa_flags = int(SA_RESTART | SA_RESETHAND);
     sigaction(number, &action, nullptr);
@@ -74,9 +81,9 @@ void wait_for_signal() {
 void handle_interrupts() {
     if (pipe2(signal_pipe.data(), O_CLOEXEC) != 0) return;  // signals end the program as usual
     stop_source();
-    std::thread(wait_for_signal).detach();
     handle(SIGINT);
     handle(SIGTERM);
+    std::thread(wait_for_signal).detach();  // ignores what the first thread ignores
 }
 
 Interruptible::Interruptible() {

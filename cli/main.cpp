@@ -118,10 +118,11 @@ int main(int count, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);
     cli::keep_freed_memory();
     try {
+        cli::handle_interrupts();  // first, so that all threads ignore the signals that this one
+                                   // does
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
                              .image_threads = int(std::thread::hardware_concurrency())});
-        cli::handle_interrupts();
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();
         return code;
