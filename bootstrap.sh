@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 preset=release
-build=build/$preset
+build=${VXL_BUILD:-build/$preset}
 
 usage() {
     cat <<'TEXT'
@@ -16,6 +16,9 @@ Usage: ./bootstrap.sh COMMAND
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   lint    check the format of the code, the host code and each kernel
+  python  build the Python package, build/python/wheels, and test it in a fresh environment
+  package make build/package/voxelume_*.deb and check it; with --install, also install, use and
+          purge it in a bare Debian, which takes minutes and root
   docs    write the library's reference to build/docs/html/index.html
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
@@ -111,10 +114,53 @@ docs() {
     echo "The reference is build/docs/html/index.html."
 }
 
+# What `cmake --install` installs.
+installed='voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader'
+
+# The wheel holds the library as it is installed; tests see the wheel alone. Both come from pip, as
+# does what builds them.
+python_package() {
+    build_targets $installed
+    local folder=$PWD/build/python
+    say "Building the wheel"
+    rm -rf "$folder/library" "$folder/wheels"
+    cmake --install "$build" --prefix "$folder/library" >/dev/null
+    python3 -m venv "$folder/fresh" --clear
+    "$folder/fresh/bin/pip" wheel -q --no-deps -w "$folder/wheels" ./python \
+        -C build-dir="$folder/module" -C cmake.define.CMAKE_PREFIX_PATH="$folder/library"
+    "$folder/fresh/bin/pip" install -q "$(echo "$folder"/wheels/*.whl)[test]"
+    say "Testing the wheel"
+    # From a folder without sources, so that what is tested is what was installed.
+    cd "$folder"
+    fresh/bin/python -m mypy.stubtest voxelume --allowlist ../../python/tests/stubs_allowed.txt
+    fresh/bin/python -m mypy --strict -p voxelume
+    fresh/bin/python -m pytest -q -p no:cacheprovider ../../python/tests
+    echo "The wheel is $(echo "$folder"/wheels/*.whl)."
+}
+
+# debian_package [--install]. Its files have the date of the last commit.
+debian_package() {
+    local folder=$PWD/build/package
+    build_targets $installed
+    SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
+    export SOURCE_DATE_EPOCH
+    cmake "$build" >/dev/null # the changelog has the date, too
+    say "Packing"
+    rm -rf "$folder"
+    cpack --config "$build/CPackConfig.cmake" -G DEB -B "$folder" >"$build/package.log" 2>&1 ||
+        { cat "$build/package.log"; return 1; }
+    lintian --fail-on error --allow-root "$folder"/*.deb
+    [ "${1:-}" != --install ] ||
+        tests/cli/package_test.sh "$folder"/*.deb . build/package-root
+    echo "The package is $(echo "$folder"/*.deb)."
+}
+
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
+    python) install_packages packages.txt .ci/python_packages.txt ;;
+    package | 'package --install') install_packages packages.txt .ci/package_packages.txt ;;
     help | -h | --help)
         usage
         exit 0
@@ -134,6 +180,8 @@ case "$1" in
     test) run_tests "${2:-}" ;;
     fuzz) run_fuzzers "${2:-60}" ;;
     docs) docs ;;
+    python) python_package ;;
+    package) debian_package "${2:-}" ;;
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json

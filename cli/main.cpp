@@ -14,6 +14,7 @@
 #include <new>
 #include <thread>
 
+#include "cli/build_facts.hpp"
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/complaint.hpp"
@@ -76,7 +77,7 @@ int run(std::vector<std::string> arguments) {
     const std::string first = arguments.front();
     arguments.erase(arguments.begin());
     if (first == "--version") {
-        fmt::print("voxelume {}\n", version());
+        fmt::print("voxelume {}\n{}", version(), build_facts());
         return 0;
     }
     const bool asks_for_help = first == "help" || first == "--help" || first == "-h";

@@ -18,6 +18,7 @@ install(CODE "
         execute_process(COMMAND \"$<TARGET_FILE:voxelume>\" \${words} OUTPUT_FILE \"\${file}\"
                         COMMAND_ERROR_IS_FATAL ANY)
     endforeach()
+    execute_process(COMMAND gzip -9nf \"\${share}/man/man1/voxelume.1\" COMMAND_ERROR_IS_FATAL ANY)
 ")
 install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
 install(TARGETS voxelume_vdb_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside the module
@@ -33,6 +34,10 @@ configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/voxelumeConfig.cmake.in 
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake ${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake
         DESTINATION ${package})
+
+# Scenes to begin with, their schema and their manual, and what they name.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume
+        PATTERN pictures EXCLUDE)
 
 # The prefix of voxelume.pc is found from where the file is, so that an installed tree can be moved.
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})

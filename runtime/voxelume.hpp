@@ -36,6 +36,7 @@
 // | know what can render here          | list_devices, Device::open                | device.hpp  |
 // | have a scene                       | Scene::load, Scene::parse, Scene::build   | scene.hpp   |
 // | show a model file without a scene  | scene_of_file, import_file                | import.hpp  |
+// | show voxels that are in memory      | scene_of_voxels, SceneOptions::voxels     | import.hpp  |
 // | know whether it fits               | plan                                      | plan.hpp    |
 // | have one image or volume in memory | render_image, render_volume               | render.hpp  |
 // | render many frames, or to files    | render_frames                             | render.hpp  |

@@ -26,13 +26,17 @@ namespace {
 struct FileHashes {
     std::function<void(const std::filesystem::path&)> add_file;
     std::function<void(const std::filesystem::path&)> add_mesh;  ///< with all that it leads to
+    std::function<void(const Model&)> add_given;                 ///< voxels in memory
 };
 
 /// Adds the files whose contents a scene shows, at the frame that it is at.
 void add_files(const Scene& scene, const FileHashes& hashes) {
     for (const Model& model : scene.models) {
         if (!model.mesh.empty()) hashes.add_mesh(model.mesh);
-        if (!model.voxels.empty()) hashes.add_file(model.voxels);
+        if (model.given)
+            hashes.add_given(model);
+        else if (!model.voxels.empty())
+            hashes.add_file(model.voxels);
         if (model.morph && !model.morph->mesh.empty()) hashes.add_mesh(model.morph->mesh);
     }
     if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
@@ -47,6 +51,20 @@ std::string read_mesh_hash(const std::filesystem::path& file) {
     } catch (const Error&) {
         return {};
     }
+}
+
+template <class Value>
+std::string_view bytes_of(const std::vector<Value>& values) {
+    return {reinterpret_cast<const char*>(values.data()), sizeof(Value) * values.size()};
+}
+
+/// The hash of voxels in memory.
+std::string hash_of_voxels(const VoxelModel& voxels) {
+    CacheKey key;
+    key.add_all(voxels.frame.size);
+    const std::array<std::string_view, 4> parts = {
+        key.bytes(), bytes_of(voxels.slots), bytes_of(voxels.occupancy), bytes_of(voxels.colors)};
+    return cache_key(parts);
 }
 
 void add_settings(const RenderSettings& render, CacheKey& key) {
@@ -69,7 +87,12 @@ std::string FrameHashes::of(int frame) {
             key.add_text(entry->second);
         };
     };
-    add_files(scene_at(scene, frame), {adder(hash_of_file), adder(read_mesh_hash)});
+    const auto add_given = [&](const Model& model) {
+        const auto [entry, is_new] = files_.try_emplace(model.voxels);
+        if (is_new) entry->second = hash_of_voxels(*model.given);
+        key.add_text(entry->second);
+    };
+    add_files(scene_at(scene, frame), {adder(hash_of_file), adder(read_mesh_hash), add_given});
     const std::array<std::string_view, 1> parts = {key.bytes()};
     return cache_key(parts);
 }

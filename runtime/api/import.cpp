@@ -92,5 +92,16 @@ Scene scene_of_file(const fs::path& file, const ImportOptions& options,
     });
 }
 
+Scene scene_of_voxels(const VoxelArray& voxels, const ImportOptions& options,
+                      const SceneOptions& scene_options) {
+    SceneOptions with_voxels = scene_options;
+    with_voxels.voxels.push_back(voxels);
+    return api::read_handle(with_voxels, [&](const api::SceneFiles& files) {
+        const std::string text = voxelume::scene_of_voxels(
+            files.given.find(voxels.name)->second, voxels.name, options_of(options), files.store());
+        return api::read_with_changes(parse_json(text, voxels.name), voxels.name, files);
+    });
+}
+
 }  // namespace v1
 }  // namespace voxelume

@@ -23,6 +23,7 @@ struct SceneFiles {
     std::vector<SceneChange> changes;
     double orbit = 0;   ///< degrees
     std::string& hash;  ///< to be set to that of the scene's document
+    GivenVoxels given;
 };
 
 using ReadScene = std::function<Scene(const SceneFiles& files)>;

@@ -8,12 +8,27 @@
 #include "runtime/api/process.hpp"
 #include "runtime/api/read_handle.hpp"
 #include "runtime/api/tree.hpp"
+#include "runtime/api/voxel_array.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/document_hash.hpp"
 #include "runtime/scene_file/orbit.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
+
+namespace {
+
+/// Makes the values stand on no line of a text.
+void forget_places(JsonValue& value) {
+    value.at = {0, 0};
+    for (JsonValue& item : value.items) forget_places(item);
+    for (JsonMember& member : value.members) {
+        member.at = {0, 0};
+        forget_places(member.value);
+    }
+}
+
+}  // namespace
 
 std::optional<AssetStore> api::ReadAssets::take(const v1::CacheOptions& cache) {
     const std::lock_guard lock(mutex_);
@@ -54,7 +69,7 @@ v1::Scene api::read_handle(const v1::SceneOptions& options, const ReadScene& rea
             changes.push_back(
                 {change.path, change.value, change.origin.empty() ? change.path : change.origin});
         Scene scene = read({asset_folders(options.assets), boxes, store_now, std::move(changes),
-                            options.orbit, hash});
+                            options.orbit, hash, given_voxels(options.voxels)});
         std::shared_ptr<ReadAssets> assets;
         if (store) assets = std::make_shared<ReadAssets>(std::move(*store), options.cache);
         return handle_of(std::move(scene), std::move(hash), std::move(assets));
@@ -64,12 +79,12 @@ v1::Scene api::read_handle(const v1::SceneOptions& options, const ReadScene& rea
 Scene api::read_with_changes(const JsonValue& document, const std::filesystem::path& file,
                              const SceneFiles& files) {
     return read_changed(document, files.changes, [&](const JsonValue& changed) {
-        Scene scene = read_scene(changed, file, files.assets, files.boxes);
+        Scene scene = read_scene(changed, file, files.assets, files.boxes, files.given);
         files.hash = document_hash(changed);
         if (files.orbit == 0) return scene;
         const JsonValue turned = orbited(changed, scene, files.orbit);
         files.hash = document_hash(turned);
-        return read_scene(turned, file, files.assets, files.boxes);
+        return read_scene(turned, file, files.assets, files.boxes, files.given);
     });
 }
 
@@ -84,7 +99,9 @@ Scene Scene::load(const std::filesystem::path& file, const SceneOptions& options
 Scene Scene::parse(std::string_view text, const std::filesystem::path& file,
                    const SceneOptions& options) {
     return api::read_handle(options, [&](const api::SceneFiles& files) {
-        return api::read_with_changes(parse_json(text, file.string()), file, files);
+        JsonValue document = parse_json(text, file.string());
+        if (!options.has_lines) forget_places(document);
+        return api::read_with_changes(document, file, files);
     });
 }
 

@@ -120,6 +120,7 @@ MeshShape AssetStore::shape_of(const Model& model) {
 }
 
 SurfaceChoice AssetStore::surface_of_voxels(Model model) {
+    if (model.given) return {Surface::cubes, "its voxels are in memory"};
     if (const auto surface = surface_of_voxel_model(model.voxels))
         return {*surface, "its file says so"};
     if (voxel_file_format(model.voxels) != nullptr)
@@ -141,6 +142,18 @@ SurfaceChoice AssetStore::surface_of_voxels(Model model) {
     }
 }
 
+VoxelModel AssetStore::read_voxels(const Model& model) {
+    if (model.given) {
+        if (model.surface == Surface::cubes) return *model.given;
+        throw Error(ErrorKind::scene, "{}: voxels in memory are cubes: leave its surface out",
+                    model.where);
+    }
+    ++meshes_read_;
+    return model.part > 0 && is_vox_file(model.voxels)
+               ? read_vox_model(vox_file(model.voxels), model.surface, model.part)
+               : read_voxel_model(model.voxels, model.surface, model.part, model.values);
+}
+
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
     used_.insert(model.voxels);
     const FileMap& map = model.object_from_file;
@@ -153,10 +166,7 @@ const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
             voxels_.extract({model.voxels, model.surface, key_of({}), model.part, model.values})) {
         file = std::move(plain.mapped());
     } else {
-        file.voxels = model.part > 0 && is_vox_file(model.voxels)
-                          ? read_vox_model(vox_file(model.voxels), model.surface, model.part)
-                          : read_voxel_model(model.voxels, model.surface, model.part, model.values);
-        ++meshes_read_;
+        file.voxels = read_voxels(model);
     }
     if (!map.is_identity()) apply(map, model.voxels, file.voxels);
     if (lists_primitives(model.surface)) file.summary = voxelume::summary_of(file.voxels.mesh);

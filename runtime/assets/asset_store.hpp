@@ -120,6 +120,7 @@ class AssetStore {
                        CacheGetter<Value> cached, const Make& make);
     const MeshSummary& summary_of_file(const MeshName& name, const FileMap& map = {});
     const MeshShape& shape_of_file(const MeshName& name);
+    VoxelModel read_voxels(const Model& model);
     const VoxelFile& voxel_file(const Model& model);
     Morphed& morphed(const Model& model);
     const Mesh& morphed_mesh(const Model& model);

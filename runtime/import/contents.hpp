@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -59,6 +60,9 @@ Contents mesh_contents(const ImportedFile& file);
 /// The contents of a file of voxels of one model: .vxm, OpenVDB, or a format of
 /// voxel_file_table.hpp.
 Contents voxel_contents(const ImportedFile& file);
+
+/// The contents of voxels in memory. The file's path and name are what the scene calls them.
+Contents given_contents(const ImportedFile& file, const std::shared_ptr<const VoxelModel>& given);
 
 /// The contents of a glTF file.
 Contents gltf_contents(const ImportedFile& file);

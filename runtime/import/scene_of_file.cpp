@@ -149,15 +149,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
     return a;
 }
 
-}  // namespace
-
-bool is_model_file(const std::filesystem::path& file) {
-    return reader_of(file) != nullptr && !is_volume_nrrd(file);
-}
-
-std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
-                          const ImportOptions& options, AssetStore& assets) {
-    const Contents contents = reader_of(file)({file, name, options, assets});
+std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const Studio studio = make_studio(contents.box, contents.voxel_size, options);
     std::string text = "{\n  \"voxelume\": 1,\n";
     text +=
@@ -178,6 +170,23 @@ std::string scene_of_file(const std::filesystem::path& file, const std::string& 
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}}}\n}}\n",
                               options.size.x, options.size.y, kSamples,
                               contents.has_glass ? ", \"shadow\": \"filtered\"" : "");
+}
+
+}  // namespace
+
+bool is_model_file(const std::filesystem::path& file) {
+    return reader_of(file) != nullptr && !is_volume_nrrd(file);
+}
+
+std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
+                          const ImportOptions& options, AssetStore& assets) {
+    return scene_of(reader_of(file)({file, name, options, assets}), options);
+}
+
+std::string scene_of_voxels(const std::shared_ptr<const VoxelModel>& voxels,
+                            const std::string& name, const ImportOptions& options,
+                            AssetStore& assets) {
+    return scene_of(given_contents({name, name, options, assets}, voxels), options);
 }
 
 }  // namespace voxelume

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "runtime/assets/asset_store.hpp"
@@ -18,5 +19,10 @@ bool is_model_file(const std::filesystem::path& file);
 /// `assets`. Throws Error::input for a file that can't be read or shows nothing.
 std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
                           const ImportOptions& options, AssetStore& assets);
+
+/// The text of such a scene for voxels in memory, which it calls `name`.
+std::string scene_of_voxels(const std::shared_ptr<const VoxelModel>& voxels,
+                            const std::string& name, const ImportOptions& options,
+                            AssetStore& assets);
 
 }  // namespace voxelume

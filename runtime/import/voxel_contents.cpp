@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// file of the voxels of one model -> contents of a scene
+// file of the voxels of one model, or voxels in memory -> contents of a scene
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/text.hpp"
@@ -64,12 +64,8 @@ const char* turn_up(Contents& contents) {
     return ", \"turn\": [0, -90, 0]";
 }
 
-}  // namespace
-
-Contents voxel_contents(const ImportedFile& file) {
-    Model model;
-    model.voxels = file.path;
-    const std::string chosen = choose_surface(file.path, model);
+/// `chosen` are members of the scene's model.
+Contents contents_of(const Model& model, const std::string& chosen, const ImportedFile& file) {
     const Bounds box = file.assets.box_of_file(model, true);
     const VoxelModel& voxels = file.assets.voxels(model);
     const std::string name = stem_of(file);
@@ -89,6 +85,23 @@ Contents voxel_contents(const ImportedFile& file) {
     contents.objects.push_back(fmt::format(
         "{{\"name\": {0}, \"model\": {0}, \"material\": {0}{1}}}", json_text(name), turn));
     return contents;
+}
+
+}  // namespace
+
+Contents voxel_contents(const ImportedFile& file) {
+    Model model;
+    model.voxels = file.path;
+    const std::string chosen = choose_surface(file.path, model);
+    return contents_of(model, chosen, file);
+}
+
+Contents given_contents(const ImportedFile& file, const std::shared_ptr<const VoxelModel>& given) {
+    Model model;
+    model.voxels = file.path;
+    model.given = given;
+    model.surface = Surface::cubes;
+    return contents_of(model, "", file);
 }
 
 }  // namespace voxelume

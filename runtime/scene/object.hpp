@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,8 @@
 #include "runtime/scene/voxel_values.hpp"
 
 namespace voxelume {
+
+struct VoxelModel;
 
 /// A mesh on its way to another shape.
 struct Morph {
@@ -46,6 +49,8 @@ struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
     std::filesystem::path voxels;  ///< such a file of voxels that are there already; may be empty
+    std::shared_ptr<const VoxelModel>
+        given;     ///< voxels in memory; then `voxels` is their name and there is no such file
     int part = 0;  ///< number of the model in a file of several, from 1 on; 0: all of the file
     VoxelValues values;          ///< of a file of values: which of them are voxels
     double fit = 0;              ///< metres that the file's longest side becomes; 0: as in the file

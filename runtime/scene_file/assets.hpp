@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +12,11 @@
 #include "runtime/base/source_place.hpp"
 
 namespace voxelume {
+
+struct VoxelModel;
+
+/// Voxels in memory by the names that models have for them in place of files.
+using GivenVoxels = std::map<std::string, std::shared_ptr<const VoxelModel>, std::less<>>;
 
 /// Folders to look in after the scene's own, in order.
 using AssetFolders = std::vector<std::filesystem::path>;

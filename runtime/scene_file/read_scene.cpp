@@ -124,7 +124,7 @@ int NameTable::find(const SceneValue& value) const {
 }
 
 Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
-                 const AssetFolders& assets, const FileBoxes& boxes) {
+                 const AssetFolders& assets, const FileBoxes& boxes, const GivenVoxels& given) {
     const std::string file_name = file.string();
     const SceneValue root(document, "", file_name);
     const SceneFields fields(root, "scene");
@@ -134,7 +134,7 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     Scene scene;
     scene.file = file;
     scene.materials.emplace_back().name = "default";
-    const AssetSearch search{file.parent_path(), assets};
+    const AssetSearch search{file.parent_path(), assets, true, &given};
     read_or_leave_world(fields, search, scene);
     if (const auto value = fields.find("materials")) scene.materials = read_materials(*value);
     if (const auto value = fields.find("models")) {

@@ -31,8 +31,9 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 JsonValue read_document(const std::filesystem::path& file);
 
 /// The same for a tree of values, whichever way it was made: all scenes are checked here. Nothing
-/// of the tree is kept.
+/// of the tree is kept. Models whose "voxels" has a name of `given` show those.
 Scene read_scene(const JsonValue& root, const std::filesystem::path& file,
-                 const AssetFolders& assets, const FileBoxes& boxes = {});
+                 const AssetFolders& assets, const FileBoxes& boxes = {},
+                 const GivenVoxels& given = {});
 
 }  // namespace voxelume

@@ -97,9 +97,24 @@ VoxelValues read_values(const SceneFields& fields) {
     return values;
 }
 
+/// The voxels in memory that a model names; null where it names a file.
+std::shared_ptr<const VoxelModel> find_given(const SceneFields& fields, const AssetSearch& search) {
+    if (!search.given) return nullptr;
+    const auto found = search.given->find(fields.get("voxels").text());
+    if (found == search.given->end()) return nullptr;
+    for (const std::string_view key : {"sequence", "part", "iso", "label"})
+        if (const auto value = fields.find(key))
+            value->fail("is of files, and these voxels are in memory; leave it out");
+    return found->second;
+}
+
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
-    model.voxels = first_file(fields, "voxels", context.search);
+    model.given = find_given(fields, context.search);
+    if (model.given)
+        model.voxels = fields.get("voxels").text();
+    else
+        model.voxels = first_file(fields, "voxels", context.search);
     model.part = fields.integer("part", 1, 1'000'000, 0);
     model.values = read_values(fields);
     read_file_size(fields, model);

@@ -38,6 +38,7 @@ struct AssetSearch {
     std::filesystem::path scene_folder;
     const AssetFolders& assets;
     bool all_files = true;  ///< whether all files of a sequence must be there, not the first alone
+    const GivenVoxels* given = nullptr;  ///< voxels that go before files; null: none
 };
 
 /// Where models find their files, and the voxel size that they take from the world, which is 0

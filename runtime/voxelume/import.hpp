@@ -56,4 +56,9 @@ std::string import_file(const std::filesystem::path& file, const std::filesystem
 Scene scene_of_file(const std::filesystem::path& file, const ImportOptions& options = {},
                     const SceneOptions& scene_options = {});
 
+/// Such a scene of voxels in memory, whose array needs a name. `fit` gives them a size; their Y is
+/// up. Throws as `Scene::load` does, and as SceneOptions::voxels says.
+Scene scene_of_voxels(const VoxelArray& voxels, const ImportOptions& options = {},
+                      const SceneOptions& scene_options = {});
+
 }  // namespace voxelume::v1

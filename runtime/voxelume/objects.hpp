@@ -2,6 +2,9 @@
 // The bodies of a scene as plain structs: solids and meshes, and the objects that place them.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -136,6 +139,19 @@ struct VoxelFile {
     std::optional<double> iso{};
     std::optional<int> label{};  ///< instead: voxels have this value
     bool each_label = false;     ///< instead: all values but 0, each in a colour of its own
+};
+
+/// Voxels in memory, which a model shows as cubes: `VoxelFile{"NAME"}`, or "voxels": "NAME" in the
+/// text of a scene. Voxel (i, j, k) fills [(i, j, k), (i, j, k) + 1] metres in object space unless
+/// `fit` or `unit` says otherwise.
+struct VoxelArray {
+    std::string name{};             ///< that models have for it; goes before files of that name
+    std::array<int, 3> size{};      ///< voxels along x, y and z
+    const uint8_t* rgba = nullptr;  ///< of voxel (0, 0, 0): R, G, B and the opacity, a byte each.
+                                    ///< Colours are sRGB; opacity 0: no voxel. Not kept.
+    /// Bytes from a voxel to the next along x, y and z, perhaps negative; without a value x is
+    /// fastest, then y, without gaps.
+    std::optional<std::array<std::ptrdiff_t, 3>> strides{};
 };
 
 /// What a voxel shows of the surface in it.

@@ -60,6 +60,12 @@ struct SceneOptions {
     /// Values to be changed, one after the other. What is wrong with one is Error::usage, whose
     /// sentence begins with the change's origin.
     std::vector<SceneChange> changes{};
+    /// False for a text that a program made: messages then name keys alone, not lines.
+    bool has_lines = true;
+    /// Voxels in memory that models name in place of files; read while the scene is made. Throws
+    /// Error::usage for two of one name, for no or negative sizes, and for arrays without a voxel,
+    /// Error::limit for more voxels than a model may have.
+    std::vector<VoxelArray> voxels{};
     /// Degrees by which the observer goes to his right, around a vertical axis through what he
     /// looks at, or through the middle of the world if he looks at nothing. Throws Error::usage for
     /// an observer that moves.

@@ -49,8 +49,10 @@ TEST_F(CliTest, ACommandsHelpNamesItsOptions) {
         EXPECT_THAT(run(arguments).out, HasSubstr("--fail"));
 }
 
-TEST_F(CliTest, VersionIsOneLine) {
-    EXPECT_THAT(run("--version").out, testing::MatchesRegex("voxelume [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+TEST_F(CliTest, VersionIsFollowedByTheFactsOfTheBuild) {
+    EXPECT_THAT(run("--version").out,
+                testing::MatchesRegex("voxelume [0-9]+\\.[0-9]+\\.[0-9]+\ncommit: [^\n]+\n"
+                                      "built by: [^\n]+\nwith: OpenEXR [^\n]+\n"));
 }
 
 TEST_F(CliTest, AMistypedCommandSuggestsTheNearest) {

@@ -11,6 +11,8 @@
 #include <streambuf>
 #include <vector>
 
+#include "runtime/base/stamp.hpp"
+
 namespace voxelume::vdb {
 
 namespace {
@@ -101,7 +103,7 @@ void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
 }
 
 bool vdb_identifier_holds(const InputFile& file) {
-    std::vector<char> block(1 << 16);
+    std::vector<char> block(1 << 20);  // stamps lie in the first
     std::string uuid;
     ContentHash hash;
     for (uint64_t position = 0; position < file.size(); position += block.size()) {
@@ -109,6 +111,10 @@ bool vdb_identifier_holds(const InputFile& file) {
         file.read(position, block.data(), size);
         if (position == 0 && size >= kUuidStart + kUuidLength)
             uuid.assign(block.data() + kUuidStart, kUuidLength);
+        // The check of a stamp is written after the identifier.
+        if (position == 0)
+            if (const auto check = stamp_check_place({block.data(), size}))
+                std::fill_n(block.data() + *check, kStampCheckDigits, '0');
         hash.update(block.data(), size);
     }
     return uuid == hash.uuid();

@@ -7,13 +7,6 @@
 #include "runtime/grid/grid.hpp"
 
 namespace voxelume {
-namespace {
-
-constexpr int kMaxVoxelsPerAxis = 65536;
-constexpr double kMaxBricks = 1 << 28;
-constexpr size_t kMaxStoredBricks = 1 << 18;  // 4 GiB of colours
-
-}  // namespace
 
 void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
     const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;

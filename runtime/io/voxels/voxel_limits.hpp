@@ -9,6 +9,10 @@ namespace voxelume {
 
 class InputFile;
 
+inline constexpr int kMaxVoxelsPerAxis = 65536;
+inline constexpr double kMaxBricks = 1 << 28;
+inline constexpr size_t kMaxStoredBricks = 1 << 18;  ///< 4 GiB of colours
+
 /// Throws Error::input for more voxels along an axis, or for more bricks, stored or not, than a
 /// model may have.
 void check_voxel_span(const glm::dvec3& size, const InputFile& file);

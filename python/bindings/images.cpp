@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flat images for Python: planes as arrays over the library's memory.
+#include <array>
+
+#include "bindings.hpp"
+
+namespace voxelume_python {
+namespace {
+
+using voxelume::Image;
+
+std::vector<py::ssize_t> shape_of(const Image& image) {
+    return {image.height(), image.width()};
+}
+
+py::array plane(const py::object& self, const std::string& channel) {
+    const auto& image = self.cast<const Image&>();
+    if (channel == "objectId" && !image.object_ids().empty())
+        return view(image.object_ids().data(), shape_of(image), self);
+    if (!image.has(channel)) throw py::key_error(channel);
+    return view(image.plane(channel).data(), shape_of(image), self);
+}
+
+py::array_t<float> rgba(const Image& image) {
+    py::array_t<float> result(std::vector<py::ssize_t>{image.height(), image.width(), 4});
+    float* out = result.mutable_data();
+    size_t place = 0;
+    for (const char* name : {"R", "G", "B", "A"}) {
+        const auto plane = image.has(name) ? image.plane(name) : std::span<const float>();
+        if (plane.empty() && name[0] != 'A') throw py::key_error(name);
+        for (size_t i = 0; i < size_t(image.width()) * size_t(image.height()); ++i)
+            out[4 * i + place] = plane.empty() ? 1.0f : plane[i];
+        ++place;
+    }
+    return result;
+}
+
+py::dict difference(const Image& a, const Image& b) {
+    voxelume::ImageDifference found;
+    {
+        const py::gil_scoped_release release;
+        found = voxelume::compare(a, b);
+    }
+    py::dict channels;
+    for (const voxelume::ChannelDifference& c : found.channels)
+        channels[py::str(c.channel)] =
+            py::dict(py::arg("max") = c.max, py::arg("rmse") = c.rmse, py::arg("mae") = c.mae,
+                     py::arg("mrse") = c.mrse, py::arg("differing") = c.differing,
+                     py::arg("unmatched") = c.unmatched);
+    return py::dict(py::arg("channels") = channels, py::arg("only_in_a") = found.only_in_a,
+                    py::arg("only_in_b") = found.only_in_b, py::arg("flip") = found.flip);
+}
+
+std::vector<std::string> channels_of(const Image& image) {
+    std::vector<std::string> names = image.channels();
+    if (!image.object_ids().empty()) names.emplace_back("objectId");
+    return names;
+}
+
+}  // namespace
+
+void bind_images(py::module_& module) {
+    py::class_<Image>(module, "Image",
+                      "An image: planes of height x width values, row 0 at the top.\n\n"
+                      "`image[\"Z\"]` is a channel as a read-only array over the image's memory; "
+                      "it keeps the image alive.")
+        .def_static("read", &Image::read, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
+                    "Reads an OpenEXR or PNG file.")
+        .def_property_readonly("width", &Image::width, "pixels along a row")
+        .def_property_readonly("height", &Image::height, "rows")
+        .def_property_readonly("holds_codes", &Image::holds_codes,
+                               "whether values are sRGB codes of a PNG file, not light")
+        .def_property_readonly("channels", &channels_of, "names of the channels")
+        .def_property_readonly(
+            "rgba", &rgba,
+            "the colour as a new array (height, width, 4): linear Rec. 709, multiplied by A")
+        .def("__getitem__", &plane, py::arg("channel"))
+        .def(
+            "__contains__",
+            [](const Image& image, const std::string& channel) {
+                return image.has(channel) || (channel == "objectId" && !image.object_ids().empty());
+            },
+            py::arg("channel"))
+        .def(
+            "write",
+            [](const Image& image, const std::filesystem::path& file, double exposure,
+               bool float_color) {
+                image.write(file, {.exposure = exposure, .float_color = float_color});
+            },
+            py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0,
+            py::arg("float_color") = false, py::call_guard<py::gil_scoped_release>(),
+            "Writes an OpenEXR or PNG file, by the ending of its name, whole or not at all.")
+        .def("__repr__", [](const Image& image) {
+            return "<voxelume.Image of " + std::to_string(image.width()) + " x " +
+                   std::to_string(image.height()) + " pixels>";
+        });
+    module.def("compare", &difference, py::arg("a"), py::arg("b"),
+               "How far image `a` is from the reference `b`, by channel, and FLIP.");
+}
+
+}  // namespace voxelume_python

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering for Python: without its lock, with its callbacks, and ended by Ctrl-C.
+#include <algorithm>
+
+#include "bindings.hpp"
+
+namespace voxelume_python {
+namespace {
+
+using voxelume::Device;
+using voxelume::RenderOptions;
+using voxelume::Scene;
+
+/// The devices of a call, which no other call has meanwhile.
+class DevicesInUse {
+  public:
+    /// Waits for them without Python's lock. Throws Error of the kind `cancelled` when asked to.
+    DevicesInUse(std::vector<OpenDevice> devices, const std::stop_token& stop) {
+        for (const OpenDevice& open : devices) devices_.push_back(open.device);
+        // Always in the same order, so that no two calls wait for each other; each lock once.
+        const auto lock_of = [](const OpenDevice& open) { return open.in_use.get(); };
+        std::ranges::sort(devices, {}, lock_of);
+        const auto rest = std::ranges::unique(devices, {}, lock_of);
+        devices.erase(rest.begin(), rest.end());
+        for (const OpenDevice& open : devices) {
+            std::unique_lock lock(*open.in_use, std::defer_lock);
+            while (!lock.try_lock_for(std::chrono::milliseconds(50)))
+                if (stop.stop_requested())
+                    throw voxelume::Error(voxelume::ErrorKind::cancelled, "cancelled");
+            locks_.push_back(std::move(lock));
+        }
+    }
+    const std::vector<Device>& list() const { return devices_; }
+
+  private:
+    std::vector<Device> devices_;
+    std::vector<std::unique_lock<std::timed_mutex>> locks_;
+};
+
+voxelume::Channels channels_of(const std::vector<std::string>& names) {
+    voxelume::Channels channels{false, false, false, false, false};
+    for (const std::string& name : names) {
+        if (name == "color")
+            channels.color = true;
+        else if (name == "depth")
+            channels.depth = true;
+        else if (name == "position")
+            channels.position = true;
+        else if (name == "normal")
+            channels.normal = true;
+        else if (name == "object")
+            channels.object = true;
+        else
+            throw voxelume::Error(voxelume::ErrorKind::usage, "no channel named \"" + name +
+                                                                  "\": there are color, depth, "
+                                                                  "position, normal and object");
+    }
+    return channels;
+}
+
+/// What a call takes besides scene and devices. The callbacks belong to the caller's frame, which
+/// outlives the thread that calls them.
+struct Options {
+    std::vector<std::string> channels;
+    py::object progress, warn;
+    bool strict = false;
+    bool cache = true;
+
+    RenderOptions with(const std::stop_token& stop) const {
+        RenderOptions options{.channels = channels_of(channels), .strict = strict, .stop = stop};
+        options.cache.enabled = cache;
+        if (!progress.is_none())
+            options.progress = [this](double done, int frame) {
+                const py::gil_scoped_acquire acquire;
+                progress(done, frame);
+            };
+        if (!warn.is_none())
+            options.warn = [this](const voxelume::Warning& warning) {
+                const py::gil_scoped_acquire acquire;
+                warn(voxelume::name_of(warning.kind), warning.where, warning.text);
+            };
+        // A program that is being compiled can't be stopped, but the next one isn't begun.
+        options.compiling = [stop](int, int) {
+            if (stop.stop_requested())
+                throw voxelume::Error(voxelume::ErrorKind::cancelled, "cancelled");
+        };
+        return options;
+    }
+};
+
+Options options_of(const std::vector<std::string>& channels, const py::object& progress,
+                   const py::object& warn, bool strict, bool cache) {
+    return {channels, progress, warn, strict, cache};
+}
+
+voxelume::Image render_image(const Scene& scene, const std::vector<OpenDevice>& devices, int frame,
+                             const Options& options) {
+    return interruptibly([&](const std::stop_token& stop) {
+        const DevicesInUse in_use(devices, stop);
+        return voxelume::render_image(scene, in_use.list(), frame, options.with(stop));
+    });
+}
+
+voxelume::Volume render_volume(const Scene& scene, const std::vector<OpenDevice>& devices,
+                               int frame, const Options& options) {
+    return interruptibly([&](const std::stop_token& stop) {
+        const DevicesInUse in_use(devices, stop);
+        return voxelume::render_volume(scene, in_use.list(), frame, options.with(stop));
+    });
+}
+
+/// Frames by their numbers, with the names of files that have # for each digit.
+voxelume::FrameJob job_of(const std::vector<int>& frames, const std::vector<std::string>& images,
+                          const std::vector<std::string>& volumes) {
+    voxelume::FrameJob job;
+    const bool is_one_of_many = frames.size() > 1;
+    for (const int number : frames) {
+        voxelume::FrameFiles files{.frame = number};
+        for (const std::string& image : images)
+            files.images.emplace_back(voxelume::frame_path(image, number, is_one_of_many));
+        for (const std::string& volume : volumes)
+            files.volumes.emplace_back(voxelume::frame_path(volume, number, is_one_of_many));
+        job.frames.push_back(std::move(files));
+    }
+    return job;
+}
+
+std::string render_frames(const Scene& scene, const std::vector<OpenDevice>& devices,
+                          voxelume::FrameJob job, const py::object& deliver,
+                          const Options& options) {
+    if (!deliver.is_none())
+        job.deliver = [&deliver](const voxelume::RenderedFrame& frame) {
+            const py::gil_scoped_acquire acquire;
+            deliver(frame.frame, frame.image, frame.volume);
+        };
+    return interruptibly([&](const std::stop_token& stop) {
+        const DevicesInUse in_use(devices, stop);
+        return voxelume::to_json(
+            voxelume::render_frames(scene, in_use.list(), job, options.with(stop)));
+    });
+}
+
+py::dict plan(const Scene& scene, const OpenDevice& open) {
+    voxelume::Plan planned;
+    {
+        const py::gil_scoped_release release;
+        planned = voxelume::plan(scene, open.device);
+    }
+    py::object refusal = py::none();
+    if (planned.refusal) refusal = py::str(planned.refusal->what());
+    return py::dict(
+        py::arg("verdict") = voxelume::name_of(planned.verdict), py::arg("refusal") = refusal,
+        py::arg("frame") = planned.frame, py::arg("min_bytes") = planned.min_bytes,
+        py::arg("max_bytes") = planned.max_bytes, py::arg("device_bytes") = planned.device_bytes,
+        py::arg("host_bytes") = planned.host_bytes);
+}
+
+}  // namespace
+
+void bind_rendering(py::module_& module) {
+    py::class_<Options>(module, "Options", "What rendering takes besides scene and devices.")
+        .def(py::init(&options_of), py::arg("channels"), py::arg("progress"), py::arg("warn"),
+             py::arg("strict"), py::arg("cache"));
+    module.def("render_image", &render_image, py::arg("scene"), py::arg("devices"),
+               py::arg("frame"), py::arg("options"), "Renders the image of a frame.");
+    module.def("render_volume", &render_volume, py::arg("scene"), py::arg("devices"),
+               py::arg("frame"), py::arg("options"), "Renders the volumetric image of a frame.");
+    module.def(
+        "render_frames",
+        [](const Scene& scene, const std::vector<OpenDevice>& devices,
+           const std::vector<int>& frames, const std::vector<std::string>& images,
+           const std::vector<std::string>& volumes, const py::object& deliver, bool wants_images,
+           bool wants_volumes, const Options& options) {
+            voxelume::FrameJob job = job_of(frames, images, volumes);
+            job.deliver_images = wants_images;
+            job.deliver_volumes = wants_volumes;
+            return render_frames(scene, devices, std::move(job), deliver, options);
+        },
+        py::arg("scene"), py::arg("devices"), py::arg("frames"), py::arg("images"),
+        py::arg("volumes"), py::arg("deliver"), py::arg("wants_images"), py::arg("wants_volumes"),
+        py::arg("options"), "Renders frames; the statistics as JSON.");
+    module.def("plan", &plan, py::arg("scene"), py::arg("device"),
+               "What rendering the scene takes of a device.");
+}
+
+}  // namespace voxelume_python

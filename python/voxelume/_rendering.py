@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rendering: one image, one volume, or many frames."""
+from __future__ import annotations
+
+import json
+import os
+import threading
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Literal, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._colors import voxel_bytes
+from ._errors import Error
+from ._native import Device, Image, Scene, Volume
+from ._scenes import SceneLike, scene as make_scene
+
+#: Devices that render: those of `open_devices`, one of them, or its selector.
+Devices = Union[Sequence[Device], Device, str, None]
+
+#: Hears the share of a call that is done, 0..1, and the frame that got on.
+Progress = Callable[[float, int], object]
+#: Hears of what is probably wrong: its kind, where it is, and what to do.
+Warn = Callable[[str, str, str], object]
+#: Takes a frame's number, and its image and volume where they were asked for.
+Deliver = Callable[[int, Union[Image, None], Union[Volume, None]], object]
+
+Channel = Literal["color", "depth", "position", "normal", "object"]
+ALL_CHANNELS: tuple[Channel, ...] = ("color", "depth", "position", "normal", "object")
+
+_usual_devices: list[Device] = []
+_usual_devices_lock = threading.Lock()
+
+
+def _opened(devices: Devices) -> list[Device]:
+    if isinstance(devices, Device):
+        return [devices]
+    if isinstance(devices, str):
+        return _native.open_devices(devices)
+    if devices is not None:
+        return list(devices)
+    # Kept open: a device has its kernels ready the second time.
+    with _usual_devices_lock:
+        if not _usual_devices:
+            _usual_devices.extend(_native.open_devices())
+        return list(_usual_devices)
+
+
+def _files(names: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[str]:
+    if isinstance(names, (str, os.PathLike)):
+        return [os.fspath(names)]
+    return [os.fspath(name) for name in names]
+
+
+def render(scene: SceneLike, *, frame: int = 1, devices: Devices = None,
+           channels: Sequence[Channel] = ALL_CHANNELS, size: tuple[int, int] | None = None,
+           samples: int | None = None, light: str | None = None,
+           progress: Progress | None = None, warn: Warn | None = None, strict: bool = False,
+           cache: bool = True) -> Image:
+    """Renders the image of a frame.
+
+    `scene` is what `voxelume.scene` takes. Several devices share the image, and its bits are the
+    same. `progress(done, frame)` and `warn(kind, where, text)` are called meanwhile; an exception
+    of theirs ends the call, and so does Ctrl-C, within about a tile. With `strict`, warnings are
+    errors. Without `cache`, nothing but kernels is kept on disk. Other threads of Python run on.
+
+    Raises Error.
+    """
+    made = make_scene(scene, size=size, samples=samples, light=light)
+    options = _native.Options(list(channels), progress, warn, strict, cache)
+    return _native.render_image(made, _opened(devices), frame, options)
+
+
+def render_volume(scene: SceneLike, *, frame: int = 1, devices: Devices = None,
+                  progress: Progress | None = None, warn: Warn | None = None,
+                  strict: bool = False, cache: bool = True) -> Volume:
+    """Renders the volumetric image of what the scene's display shows; otherwise as `render`."""
+    options = _native.Options(list(ALL_CHANNELS), progress, warn, strict, cache)
+    return _native.render_volume(make_scene(scene), _opened(devices), frame, options)
+
+
+def render_frames(scene: SceneLike, frames: Iterable[int] | None = None, *,
+                  images: str | os.PathLike[str] | Iterable[str | os.PathLike[str]] = (),
+                  volumes: str | os.PathLike[str] | Iterable[str | os.PathLike[str]] = (),
+                  deliver: Deliver | None = None, wants: Literal["images", "volumes",
+                                                                 "both"] = "images",
+                  devices: Devices = None, channels: Sequence[Channel] = ALL_CHANNELS,
+                  progress: Progress | None = None, warn: Warn | None = None,
+                  strict: bool = False, cache: bool = True) -> dict[str, Any]:
+    """Renders frames, all of the scene's animation if none are given, and returns statistics.
+
+    `images` and `volumes` are files to write, "walk.####.png", with # for each digit of the frame.
+    `deliver(frame, image, volume)` has each frame in memory, in order; `wants` says which of the
+    two is rendered for it. A frame costs what its changes cost.
+    """
+    made = make_scene(scene)
+    numbers = list(frames) if frames is not None else list(range(1, made.frames + 1))
+    options = _native.Options(list(channels), progress, warn, strict, cache)
+    statistics = _native.render_frames(
+        made, _opened(devices), numbers, _files(images), _files(volumes), deliver,
+        deliver is not None and wants != "volumes", deliver is not None and wants != "images",
+        options)
+    result: dict[str, Any] = json.loads(statistics)
+    return result
+
+
+def plan(scene: SceneLike, device: Device | None = None) -> dict[str, Any]:
+    """What rendering a scene takes of a device, and whether it fits, before memory is taken."""
+    return _native.plan(make_scene(scene), device or _opened(None)[0])
+
+
+def scene_of_voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: float | None = None,
+                    up: Literal["y", "z"] = "z", size: tuple[int, int] = (640, 480),
+                    samples: int = 4, longitude: float = 35, latitude: float = 25,
+                    parallel: bool = False, ground: bool = True,
+                    background: Sequence[float] | None = None) -> Scene:
+    """The scene that `voxels` renders."""
+    if up not in ("y", "z"):
+        raise Error(f"up is \"y\" or \"z\", not {up!r}")
+    codes = voxel_bytes(array, colors, threshold)
+    if up == "z":
+        # (x, y, z) -> (x, z, -y): the array stays where it is, its strides change.
+        codes = codes.transpose(0, 2, 1, 3)[:, :, ::-1]
+    studio: dict[str, Any] = {"size": tuple(size), "longitude": longitude, "latitude": latitude,
+                              "parallel": parallel, "ground": ground}
+    if background is not None:
+        studio["background"] = [float(x) for x in background]
+    return _native.scene_of_voxels(codes, studio).with_samples(samples)
+
+
+def voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: float | None = None,
+           up: Literal["y", "z"] = "z", size: tuple[int, int] = (640, 480), samples: int = 4,
+           longitude: float = 35, latitude: float = 25, parallel: bool = False,
+           ground: bool = True, background: Sequence[float] | None = None,
+           light: str | None = None, devices: Devices = None,
+           progress: Progress | None = None) -> Image:
+    """Draws an array of voxels; notebooks show the image that it returns.
+
+    `array` is one of these:
+
+    - (x, y, z) of bools: the voxels that are there.
+    - (x, y, z) of numbers: those above `threshold`, which is 0 unless given.
+    - (x, y, z, 3): R, G, B of each voxel; black ones are not there.
+    - (x, y, z, 4): R, G, B and the opacity; 0: not there.
+
+    Colours are sRGB: bytes, or floats of 0..1. `colors` gives voxels (x, y, z) theirs: one colour,
+    or (x, y, z, 3 or 4). `up` is the axis that points up, "z" as in most plots, or "y". The
+    observer stands `longitude` degrees to the right of the front, which is -y for "z" and +z for
+    "y", and `latitude` degrees above the horizon; `parallel` gives isometric pictures.
+    """
+    made = scene_of_voxels(array, colors=colors, threshold=threshold, up=up, size=size,
+                           samples=samples, longitude=longitude, latitude=latitude,
+                           parallel=parallel, ground=ground, background=background)
+    return render(made, channels=("color",), light=light, devices=devices, progress=progress)
