@@ -16,6 +16,7 @@
 #include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/voxel_file_table.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/voxelume/render.hpp"
 
@@ -25,8 +26,9 @@ namespace {
 /// Where hashes of files are asked for.
 struct FileHashes {
     std::function<void(const std::filesystem::path&)> add_file;
-    std::function<void(const std::filesystem::path&)> add_mesh;  ///< with all that it leads to
-    std::function<void(const Model&)> add_given;                 ///< voxels in memory
+    std::function<void(const std::filesystem::path&)> add_mesh;    ///< with all that it leads to
+    std::function<void(const std::filesystem::path&)> add_voxels;  ///< likewise
+    std::function<void(const Model&)> add_given;                   ///< voxels in memory
 };
 
 /// Adds the files whose contents a scene shows, at the frame that it is at.
@@ -36,7 +38,7 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
         if (model.given)
             hashes.add_given(model);
         else if (!model.voxels.empty())
-            hashes.add_file(model.voxels);
+            hashes.add_voxels(model.voxels);
         if (model.morph && !model.morph->mesh.empty()) hashes.add_mesh(model.morph->mesh);
     }
     if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
@@ -51,6 +53,20 @@ std::string read_mesh_hash(const std::filesystem::path& file) {
     } catch (const Error&) {
         return {};
     }
+}
+
+/// The hash of a file of voxels, and of the file that has its values.
+std::string read_voxels_hash(const std::filesystem::path& file) {
+    std::string hash = hash_of_file(file);
+    try {
+        const VoxelFileFormat* format = voxel_file_format(file);
+        if (!format || !format->array) return hash;
+        const std::filesystem::path data = format->array(file).data;
+        if (data != file) hash += hash_of_file(data);
+    } catch (const Error&) {
+        return hash;
+    }
+    return hash;
 }
 
 template <class Value>
@@ -92,7 +108,8 @@ std::string FrameHashes::of(int frame) {
         if (is_new) entry->second = hash_of_voxels(*model.given);
         key.add_text(entry->second);
     };
-    add_files(scene_at(scene, frame), {adder(hash_of_file), adder(read_mesh_hash), add_given});
+    add_files(scene_at(scene, frame),
+              {adder(hash_of_file), adder(read_mesh_hash), adder(read_voxels_hash), add_given});
     const std::array<std::string_view, 1> parts = {key.bytes()};
     return cache_key(parts);
 }
@@ -109,7 +126,8 @@ std::string hash_for_image(const std::string& hash, std::string_view ending,
             .add(c.depth)
             .add(c.position)
             .add(c.normal)
-            .add(c.object);
+            .add(c.object)
+            .add(c.distance);
     const std::array<std::string_view, 2> parts = {ending, key.bytes()};
     return cache_key(parts);
 }

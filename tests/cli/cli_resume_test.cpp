@@ -124,6 +124,20 @@ TEST_F(CliResumeTest, AChangedCompanionOfAMeshMakesFramesStale) {
     EXPECT_EQ(count_rendered("--resume"), 0);
 }
 
+TEST_F(CliResumeTest, ChangedValuesBesideAHeaderMakeFramesStale) {
+    put_bytes(folder / "a.nhdr",
+              "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n"
+              "data file: a.raw\n\n");
+    put_bytes(folder / "a.raw", std::string(64, '\1'));
+    write_moving_scene([](Json& scene) {
+        scene["models"]["thing"] = {{"voxels", "a.nhdr"}, {"fit", 0.8}};
+    });
+    ASSERT_EQ(count_rendered(""), 8);
+    EXPECT_EQ(count_rendered("--resume"), 0);
+    put_bytes(folder / "a.raw", std::string(32, '\1') + std::string(32, char(0)));
+    EXPECT_EQ(count_rendered("--resume"), 8);
+}
+
 TEST_F(CliResumeTest, MoreFramesLeaveTheFirstOnesAsTheyAre) {
     ASSERT_EQ(count_rendered(""), 8);
     write_moving_scene([](Json& scene) { scene["animation"]["frames"] = 6; });
