@@ -2,7 +2,6 @@
 // Scenes built from plain structs equal those that files describe.
 #include <gmock/gmock.h>
 
-#include <glm/geometric.hpp>
 
 #include "runtime/api/handles.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -264,51 +263,6 @@ TEST(ApiScene, HasEverySkyAndGlobalLight) {
     lit({v1::SunSky{{1, -2, 3}, 2, {1, 0.5, 0.25}, 3, 4, {5, 6, 7}}},
         R"({"kind": "sun", "direction": [1, -2, 3], "angle": 2, "color": [1, 0.5, 0.25],
             "intensity": 3, "turbidity": 4, "ground": [5, 6, 7]})");
-}
-
-TEST(ApiScene, ChangesItsLightInACopy) {
-    const v1::Scene scene = v1::Scene::build(empty_scene());
-    const v1::Scene global = scene.with_light(v1::LightMode::global);
-    EXPECT_EQ(api::inside(scene).render.light, LightMode::local);
-    EXPECT_EQ(api::inside(global).render.light, LightMode::global);
-    EXPECT_EQ(api::inside(global.with_light(v1::LightMode::local)).render.light, LightMode::local);
-}
-
-TEST(ApiScene, ValuesAreChangedBeforeItIsChecked) {
-    v1::SceneOptions options;
-    options.changes = {{"render.samples", "9"}, {"world.ambient", "0.5,0.25,0"}};
-    const Scene changed = api::inside(v1::Scene::build(empty_scene(), options));
-    EXPECT_EQ(changed.render.samples, 9);
-    EXPECT_EQ(changed.world.ambient, glm::vec3(0.5f, 0.25f, 0));
-    options.changes.push_back({"render.sample", "1", "the third change"});
-    try {
-        v1::Scene::build(empty_scene(), options);
-        FAIL() << "an unknown key was taken";
-    } catch (const v1::Error& error) {
-        EXPECT_EQ(error.kind(), v1::ErrorKind::usage);
-        EXPECT_STREQ(error.what(),
-                     "the third change: render: unknown key \"sample\"; did you mean \"samples\"?");
-        EXPECT_EQ(error.key(), "render");
-    }
-}
-
-TEST(ApiScene, ItsObserverGoesRoundByDegrees) {
-    // He looks along +Z at nothing, so he goes round the middle of the world.
-    const Scene turned = api::inside(v1::Scene::build(empty_scene(), {.orbit = 180}));
-    EXPECT_LT(glm::distance(turned.observer.position, glm::dvec3(1.5, 1, 4)), 1e-12);
-    EXPECT_LT(glm::distance(turned.observer.world_from_observer[2], glm::dvec3(0, 0, -1)), 1e-12);
-}
-
-TEST(ApiScene, ChangesItsSizeAndSamplesInCopies) {
-    const v1::Scene scene = v1::Scene::build(empty_scene());
-    const v1::Scene wide = scene.with_size({300, 100}).with_samples(9);
-    EXPECT_EQ(scene.size(), (v1::Size{640, 480}));
-    EXPECT_EQ(wide.size(), (v1::Size{300, 100}));
-    EXPECT_EQ(api::inside(wide).render.samples, 9);
-    EXPECT_LT(api::inside(wide).observer.display.half_angles.y,
-              api::inside(scene).observer.display.half_angles.y);
-    EXPECT_THROW(scene.with_size({0, 5}), v1::Error);
-    EXPECT_THROW(scene.with_samples(4097), v1::Error);
 }
 
 }  // namespace voxelume
