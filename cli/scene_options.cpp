@@ -6,9 +6,11 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "cli/checks.hpp"
+#include "cli/complaint.hpp"
 
 namespace voxelume::cli {
 
@@ -28,6 +30,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option(
         "--device", options.device,
         "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
+    app.add_option("--device-timeout", options.device_timeout,
+                   "seconds after which a device that doesn't answer ends the run")
+        ->check(in_range(1, 1e6));
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
     app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
@@ -37,6 +42,15 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false);
     add_import_options(app, options.import);
+}
+
+void watch_devices(const SceneOptions& options) {
+    if (options.device_timeout == 0) return;
+    v1::watch_devices(options.device_timeout, [](const std::string& sentence) {
+        const int code = complain(sentence, ErrorKind::render);
+        remove_unfinished_files();
+        std::_Exit(code);
+    });
 }
 
 SceneChange setting_of(const std::string& text, const char* option, const char* command) {

@@ -23,6 +23,7 @@ struct SceneOptions {
     int samples = 0;    ///< 0: the scene's
     std::string light;  ///< empty: the scene's
     std::string device;
+    double device_timeout = 0;  ///< seconds; 0: none
     bool no_cache = false;
     bool strict = false;
     std::vector<std::string> settings;  ///< PATH=VALUE, of --set
@@ -34,6 +35,9 @@ struct SceneOptions {
 
 /// Declares the options, but not the scene itself.
 void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// Ends the program with a sentence when the device doesn't answer within --device-timeout.
+void watch_devices(const SceneOptions& options);
 
 /// Reads "PATH=VALUE". Throws Error::usage; `command` and `option` open messages.
 SceneChange setting_of(const std::string& text, const char* option, const char* command);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/api/process.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <mutex>
+#include <thread>
 
 #include "runtime/api/guarded.hpp"
 #include "runtime/base/disk_cache.hpp"
@@ -9,6 +12,7 @@
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/vdb/vdb.hpp"
+#include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
 
 namespace voxelume {
@@ -48,6 +52,16 @@ void configure(const ProcessOptions& options) {
         const std::lock_guard lock(options_mutex);
         apply(options);
     });
+}
+
+void watch_devices(double seconds, std::function<void(const std::string& sentence)> late) {
+    const std::chrono::duration<double> limit(seconds);
+    std::thread([limit, late = std::move(late)] {
+        for (;;) {
+            std::this_thread::sleep_for(std::min(limit / 4, std::chrono::duration<double>(0.25)));
+            if (const auto sentence = late_call(limit)) return late(*sentence);
+        }
+    }).detach();
 }
 
 std::filesystem::path user_cache_folder() {

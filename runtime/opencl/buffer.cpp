@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/device_call.hpp"
 
 namespace voxelume {
 namespace {
@@ -68,6 +69,7 @@ BufferStorage::BufferStorage(Device device, std::string name, size_t bytes, cons
 
 void BufferStorage::allocate() {
     try {
+        const DeviceCall call(device_.info(), "allocating the ", name_, " buffer");
         if (device_.is_cpu() && bytes_ >= kHugePage) {
             memory_ = allocate_huge_pages(bytes_);
             buffer_ =
@@ -88,6 +90,7 @@ BufferStorage::~BufferStorage() {
 void BufferStorage::write(size_t offset, const void* data, size_t bytes) {
     if (device_.is_counting()) return;
     try {
+        const DeviceCall call(device_.info(), "writing the ", name_, " buffer");
         device_.queue().enqueueWriteBuffer(*buffer_, CL_TRUE, offset, bytes, data);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("writing the {} buffer", name_));
@@ -96,6 +99,7 @@ void BufferStorage::write(size_t offset, const void* data, size_t bytes) {
 
 void BufferStorage::read(size_t offset, void* data, size_t bytes) const {
     try {
+        const DeviceCall call(device_.info(), "reading the ", name_, " buffer");
         device_.queue().enqueueReadBuffer(*buffer_, CL_TRUE, offset, bytes, data);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("reading the {} buffer", name_));
@@ -109,6 +113,7 @@ std::shared_ptr<void> BufferStorage::contents() const {
         return bytes;
     }
     try {
+        const DeviceCall call(device_.info(), "reading the ", name_, " buffer");
         const cl::CommandQueue& queue = device_.queue();
         void* const place = queue.enqueueMapBuffer(*buffer_, CL_TRUE, CL_MAP_READ, 0, bytes_);
         queue.enqueueUnmapMemObject(*buffer_, place);
@@ -120,6 +125,7 @@ std::shared_ptr<void> BufferStorage::contents() const {
 
 void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes) {
     if (device_.is_counting()) return;
+    const DeviceCall call(device_.info(), "filling the ", name_, " buffer");
     const cl_int status = clEnqueueFillBuffer(device_.queue()(), (*buffer_)(), pattern,
                                               pattern_bytes, 0, bytes, 0, nullptr, nullptr);
     if (status != CL_SUCCESS)
@@ -130,6 +136,7 @@ void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes
 void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
     if (device_.is_counting()) return;
     try {
+        const DeviceCall call(device_.info(), "copying to the ", name_, " buffer");
         device_.queue().enqueueCopyBuffer(*from.buffer_, *buffer_, 0, 0, bytes);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("copying to the {} buffer", name_));
@@ -138,6 +145,7 @@ void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
 
 void BufferStorage::write_in_place(size_t bytes, const std::function<void(void*)>& fill) {
     try {
+        const DeviceCall call(device_.info(), "writing the ", name_, " buffer");
         cl::CommandQueue& queue = device_.queue();
         void* const place =
             queue.enqueueMapBuffer(*buffer_, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);

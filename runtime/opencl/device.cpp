@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/selector.hpp"
@@ -220,11 +221,13 @@ std::map<std::string, cl::Program>& Device::programs() const {
 }
 
 void Device::finish() const {
+    static const std::string kWhat = "waiting for its kernels";
     try {
+        const DeviceCall call(info(), "", kWhat);
         queue_->queue.finish();
         queue_->add_times();
     } catch (const cl::Error& error) {
-        throw_device_error(error, info(), "waiting for its kernels");
+        throw_device_error(error, info(), kWhat);
     }
 }
 
@@ -267,6 +270,7 @@ void Device::enqueue(const cl::Kernel& kernel, const std::string& name, const cl
     const bool timing = queue_->opened->timing;
     tell_compiling(name);
     try {
+        const DeviceCall call(info(), "launching ", name);
         cl::Event event;
         queue_->queue.enqueueNDRangeKernel(kernel, cl::NullRange, items, group, nullptr,
                                            timing ? &event : nullptr);

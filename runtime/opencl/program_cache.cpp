@@ -12,6 +12,7 @@
 
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 
@@ -129,6 +130,7 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     const uint64_t from_cache = device.counters().programs_from_cache;
     cl::Program program;
     try {
+        const DeviceCall call(device.info(), "compiling ", label);
         if (device.info().platform == kPoclPlatform)
             program = build_with_pocl(device, text, parts);
         else if (device.info().platform == "Oclgrind")  // it interprets code; a binary would lose

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace voxelume::v1 {
@@ -39,6 +41,12 @@ void configure(const ProcessOptions& options);
 /// and the folder of its kernels. For a program that has to end while calls of the library still
 /// run; those fail, if they go on. Any thread may call it.
 void remove_unfinished_files();
+
+/// Calls `late` once, from a thread of its own, with a sentence that names the device and what it
+/// was doing, when a call of an OpenCL driver has lasted more than `seconds`. A call that hangs
+/// can't be ended: all that a program can do then is to tell, and to end. Some drivers compile
+/// kernels during calls, which takes seconds.
+void watch_devices(double seconds, std::function<void(const std::string& sentence)> late);
 
 /// The user's folder for compiled kernels, models and worlds: the last one of VOXELUME_CACHE_DIR,
 /// or else XDG_CACHE_HOME/voxelume, or else ~/.cache/voxelume. Empty if nothing is kept.

@@ -122,4 +122,27 @@ TEST_F(CliFaultsTest, OnTwoDevicesAreTold) {
     expect_all_handled("--device all/2 -o out/a.exr", 4);
 }
 
+TEST_F(CliFaultsTest, CallsThatNeverReturnEndTheRunInTime) {
+    const std::string command = "voxelume render scene.json -q -o a.exr --device-timeout 2";
+    ASSERT_EQ(run("render scene.json -q -o a.exr").exit_code, 0);  // compiles
+    std::filesystem::remove(folder / "a.exr");
+    const std::vector<std::string> before = names();
+    for (const auto& [function, what] :
+         std::map<std::string, std::string>{{"clFinish", "waiting for its kernels"},
+                                            {"clCreateBuffer", "allocating the [a-z ]+ buffer"},
+                                            {"clEnqueueReadBuffer", "reading the [a-z ]+ buffer"},
+                                            {"clEnqueueNDRangeKernel", "launching [a-z_]+"},
+                                            {"clBuildProgram", "compiling kernels/.+"}}) {
+        const ProgramResult result =
+            run_line(fmt::format("env LD_PRELOAD='{}' VXL_FAULT={}:1:hang timeout 60 {}",
+                                 VXL_FAULTS, function, command));
+        EXPECT_EQ(result.exit_code, 1) << function;
+        EXPECT_THAT(result.err, testing::MatchesRegex(fmt::format(
+                                    "voxelume: \"[^\"]+\" has not answered for [0-9.]+ seconds "
+                                    "while {}: it hangs, or needs more time than it was given\n",
+                                    what)));
+        EXPECT_EQ(names(), before) << function;
+    }
+}
+
 }  // namespace voxelume
