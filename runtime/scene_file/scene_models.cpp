@@ -92,7 +92,7 @@ VoxelValues read_values(const SceneFields& fields) {
         if (values.each_label)
             label->choice(Names{"each"});
         else
-            values.label = label->integer(-2'000'000'000, 2'000'000'000);
+            values.label = label->integer(-1'000'000'000, 1'000'000'000);
     }
     return values;
 }

@@ -186,7 +186,7 @@ TEST_F(CliViewTest, WhatCantBeShownSaysWhy) {
     EXPECT_THAT(failure("a.vdb -o a.png --size 20x900", 2), HasSubstr("at least 64 pixels"));
     EXPECT_THAT(failure("a.vdb -o a.png --above 95", 2), HasSubstr("-90 to 90"));
     EXPECT_THAT(failure("b.vdb -o a.png", 4), HasSubstr("no such file"));
-    EXPECT_THAT(failure("a.kv6 -o a.png", 2), HasSubstr("are read from .vdb"));
+    EXPECT_THAT(failure("a.rgb332 -o a.png", 2), HasSubstr("are read from .vdb"));
     EXPECT_THAT(failure("a.vdb -o nowhere/a.html", 5), HasSubstr("nowhere"));
     failure("a.vdb", 2);
     put_bytes(folder / "a.vdb", bytes_of(folder / "a.vdb") + "x");
