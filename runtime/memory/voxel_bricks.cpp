@@ -93,7 +93,9 @@ BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_o
     const double more = std::max(1.0, size_in(world, voxels.frame, world_from_object));
     const double bricks = 1.4 * double(voxels.coordinates.size()) * more;
     BrickCount found{{0, bricks}, bricks};
-    if (!voxels.occupancy.empty()) {
+    // Leaves that are many bricks large would make a list longer than the world's.
+    constexpr double kMostVoxels = 64;
+    if (!voxels.occupancy.empty() && more <= kMostVoxels) {
         LeafCounter counter(voxels.frame, world_from_object, spread, world);
         found = count_leaves(voxels, counter, taken);
     }

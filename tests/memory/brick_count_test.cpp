@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "runtime/memory/voxel_bricks.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 #include "tests/support/test_device.hpp"
@@ -78,6 +79,34 @@ TEST(BrickCount, TakesAwayWhatADifferenceDoes) {
     const SolidField field(half, glm::dmat4(1));
     EXPECT_NEAR(field.distance({-0.2, 0, 0}), -0.11, 1e-12);
     EXPECT_NEAR(field.distance({0.2, 0, 0}), 0.2, 1e-12);
+}
+
+TEST(BrickCount, OfAFilesCubesIsThatOfTheBricksThatTheyReach) {
+    VoxelModel full;  // one brick, in voxels of 1 m
+    full.frame = {glm::dvec3(0), glm::dvec3(1), glm::ivec3(kBrickSize)};
+    full.slots = full.coordinates = {0};
+    full.occupancy.assign(kLeavesPerBrick, ~uint64_t{0});
+    const GridFrame world{glm::dvec3(0), glm::dvec3(1), glm::ivec3(64)};
+    const auto bricks = [&](const glm::dmat4& map) {
+        TakenBricks taken(world);
+        taken.take({1, 1, 1});
+        const BrickCount count = count_voxels(full, map, 1, world, taken);
+        EXPECT_LE(count.new_bricks, count.extent.bricks);
+        return count.extent.bricks;
+    };
+    // Placing stores what is a voxel away, too.
+    EXPECT_EQ(bricks(glm::translate(glm::dmat4(1), glm::dvec3(16))), 27);
+    EXPECT_EQ(bricks(glm::translate(glm::dmat4(1), glm::dvec3(20))), 8);
+    EXPECT_EQ(bricks(glm::translate(glm::dmat4(1), glm::dvec3(20, 20, -4))), 4);
+    EXPECT_EQ(bricks(glm::scale(glm::dmat4(1), glm::dvec3(2))), 27);
+    TakenBricks taken(world);
+    taken.take({1, 1, 1});
+    const glm::dmat4 map = glm::translate(glm::dmat4(1), glm::dvec3(20));
+    EXPECT_EQ(count_voxels(full, map, 1, world, taken).new_bricks, 7);
+    // Of cubes that are far too large nothing is listed.
+    EXPECT_GT(count_voxels(full, glm::scale(glm::dmat4(1), glm::dvec3(1e4)), 1, world, taken)
+                  .extent.bricks,
+              1e9);
 }
 
 }  // namespace
