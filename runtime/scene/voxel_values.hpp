@@ -2,8 +2,8 @@
 // Which values of a file's array are voxels.
 #pragma once
 
-#include <compare>
 #include <optional>
+#include <tuple>
 
 namespace voxelume {
 
@@ -15,7 +15,9 @@ struct VoxelValues {
     bool each_label = false;      ///< all values but 0, each in a colour of its own
 
     bool is_there() const { return iso || label || each_label; }
-    friend auto operator<=>(const VoxelValues&, const VoxelValues&) = default;
+    friend bool operator<(const VoxelValues& a, const VoxelValues& b) {
+        return std::tie(a.iso, a.label, a.each_label) < std::tie(b.iso, b.label, b.each_label);
+    }
     friend bool operator==(const VoxelValues&, const VoxelValues&) = default;
 };
 

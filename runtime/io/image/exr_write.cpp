@@ -95,14 +95,17 @@ class ExrWriter {
   private:
     /// A part of a picture has its place in that as its data window.
     void set_windows(const Image& image) {
-        const auto window = [](glm::ivec2 first, glm::ivec2 size) -> exr_attr_box2i_t {
-            return {{first.x, first.y}, {first.x + size.x - 1, first.y + size.y - 1}};
+        const auto window = [](glm::ivec2 first, glm::ivec2 size) {
+            exr_attr_box2i_t box{};
+            box.min.x = first.x, box.min.y = first.y;
+            box.max.x = first.x + size.x - 1, box.max.y = first.y + size.y - 1;
+            return box;
         };
         const glm::ivec2 size(image.width, image.height);
         const exr_attr_box2i_t data = window(image.first, size);
         const exr_attr_box2i_t display = image.frame.x > 0 ? window({0, 0}, image.frame) : data;
-        constexpr exr_attr_v2f_t kCenter = {0, 0};
-        check(exr_initialize_required_attr(context_, part_, &display, &data, 1.0f, &kCenter, 1.0f,
+        const exr_attr_v2f_t center{};
+        check(exr_initialize_required_attr(context_, part_, &display, &data, 1.0f, &center, 1.0f,
                                            EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
         first_row_ = image.first.y;
     }
