@@ -2,7 +2,6 @@
 // Scenes built from plain structs equal those that files describe.
 #include <gmock/gmock.h>
 
-
 #include "runtime/api/handles.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "tests/api/api_environment.hpp"
