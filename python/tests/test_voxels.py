@@ -62,6 +62,8 @@ def test_a_view_is_drawn_as_its_copy(device):
     (np.array([[[(0, 0, 0), (0, 9, 0)]]]), None, None, [[0, 0, 0, 0], [0, 9, 0, 255]]),
     (np.array([[[(0.2, 0, 0, 0), (0, 1, 0, 0.4)]]]), None, None,
      [[51, 0, 0, 0], [0, 255, 0, 102]]),
+    (np.array([[[(0, 257, 128, 65535), (65535, 514, 129, 0)]]], np.uint16), None, None,
+     [[0, 1, 0, 255], [255, 2, 1, 0]]),
     (np.array([[[np.nan, 2.0]]]), (1, 1, 1), None, [[1, 1, 1, 0], [1, 1, 1, 255]]),
 ])
 def test_every_form_becomes_bytes(array, colors, threshold, expected):
@@ -80,6 +82,8 @@ def test_bytes_are_used_where_they_lie():
     (np.ones((2, 2, 2, 4)), {"colors": (1, 1, 1)}, "colours of their own"),
     (np.ones((2, 2, 2, 4)), {"threshold": 1}, "threshold"),
     (np.ones((2, 2, 2), complex), {"colors": (1j, 0, 0)}, "not complex128"),
+    (np.full((2, 2, 2, 4), 256), {}, "go from 0 to 255, and these from 256 to 256"),
+    (np.ones((2, 2, 2)), {"colors": (-1, 0, 0)}, "save them as uint8, uint16 or floats"),
     (np.array([[["a"]]]), {}, "numbers or bools"),
     (np.ones((0, 2, 2)), {}, "has no voxels"),
     (np.ones((2, 2, 2)), {"up": "x"}, "up is"),

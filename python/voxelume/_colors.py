@@ -14,7 +14,7 @@ PLAIN = (219, 217, 214)
 
 
 def _codes(values: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
-    """Values 0..255 of integers, 0..1 of floats and bools, as bytes."""
+    """Values 0..255 of integers, 0..65535 of uint16, 0..1 of floats and bools, as bytes."""
     if values.dtype == np.uint8:
         return values
     if values.dtype == bool:
@@ -22,8 +22,13 @@ def _codes(values: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
     if np.issubdtype(values.dtype, np.floating):
         clean = np.nan_to_num(values, nan=0.0)
         return np.asarray(np.rint(np.clip(clean, 0, 1) * 255), np.uint8)
+    if values.dtype == np.uint16:
+        return np.asarray(np.rint(values / 257), np.uint8)
     if np.issubdtype(values.dtype, np.integer):
-        return np.asarray(np.clip(values, 0, 255), np.uint8)
+        if values.size > 0 and (values.min() < 0 or values.max() > 255):
+            raise Error(f"colours of {values.dtype} go from 0 to 255, and these from "
+                        f"{values.min()} to {values.max()}; save them as uint8, uint16 or floats")
+        return np.asarray(values, np.uint8)
     raise Error(f"voxels are numbers or bools, not {values.dtype}")
 
 

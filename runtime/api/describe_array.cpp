@@ -14,6 +14,19 @@ Report coordinates_of(const Vector& v) {
     return {v.x, v.y, v.z};
 }
 
+/// How many colours the voxels have. Cells without a voxel have none that is seen.
+size_t colors_in(const VoxelModel& model) {
+    std::set<uint32_t> colors;
+    for (size_t i = 0; i < model.colors.size(); ++i) {
+        const size_t x = i & 15, y = i >> 4 & 15, z = i >> 8 & 15;
+        const size_t leaf = x >> 2 | y >> 2 << 2 | z >> 2 << 4;
+        const size_t bit = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
+        const uint64_t bits = model.occupancy[i / kVoxelsPerBrick * kLeavesPerBrick + leaf];
+        if (bits >> bit & 1) colors.insert(model.colors[i]);
+    }
+    return colors.size();
+}
+
 }  // namespace
 
 Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& format) {
@@ -47,10 +60,9 @@ Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& 
 
 Report describe_art(const std::filesystem::path& path, const VoxelFileFormat& format) {
     const VoxelArt art = format.art(path);
-    const std::set<uint32_t> colors(art.model.colors.begin(), art.model.colors.end());
     Report report = {
         {"kind", format.name}, {"size", coordinates_of(art.size)}, {"voxels", art.model.voxels()}};
-    if (!colors.empty()) report["colors"] = colors.size();
+    if (!art.model.colors.empty()) report["colors"] = colors_in(art.model);
     if (!art.notes.empty()) report["notes"] = art.notes;
     return report;
 }

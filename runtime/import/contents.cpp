@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/import/contents.hpp"
 
+#include <charconv>
 #include <cmath>
 
 namespace voxelume {
@@ -23,7 +24,10 @@ std::string json_size(const glm::dvec3& v) {
 }
 
 double rounded(double x, int digits) {
-    return std::stod(fmt::format("{:.{}g}", x, digits)) + 0.0;  // -0 becomes 0
+    const std::string text = fmt::format("{:.{}g}", x, digits);
+    double value = x;  // stays where the decimal is beyond numbers of 64 bits
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value + 0.0;  // -0 becomes 0
 }
 
 glm::dvec3 rounded(const glm::dvec3& v, int digits) {

@@ -33,11 +33,21 @@ std::string choose_values(const CellArray& array, Model& model) {
     model.surface = Surface::cubes;
     if (array.is_color()) return {};
     const ArraySummary summary = summary_of_array(array);
+    const auto refuse = [&](const char* why) {
+        InputFile(array.data).refuse(fmt::format("has no voxels to show: {}", why));
+    };
     if (summary.labels.size() > 1) {
         model.values.each_label = true;
         return ", \"label\": \"each\"";
     }
-    if (summary.labels.size() == 1) return {};
+    if (summary.labels.size() == 1) {
+        const int label = summary.labels.begin()->first;
+        if (label > 0) return {};
+        model.values.label = label;
+        return fmt::format(", \"label\": {}", label);
+    }
+    if (!(summary.min <= summary.max)) refuse("no value is finite");
+    if (summary.min == 0 && summary.max == 0) refuse("all values are 0");
     model.values.iso = rounded(summary.threshold, 4);
     model.surface = Surface::smooth;
     return fmt::format(", \"iso\": {}", *model.values.iso);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -22,7 +23,10 @@ constexpr glm::dvec3 kToLight{0.5, 0.65, -0.75};  // in the observer's coordinat
 
 /// The number without the digits that binary fractions add: it is written with ten at most.
 double decimal(double x) {
-    return std::stod(fmt::format("{:.10g}", x));
+    const std::string text = fmt::format("{:.10g}", x);
+    double value = x;  // stays where the decimal is beyond numbers of 64 bits
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
 }
 
 /// The power of ten whose multiples have this many digits at the size of `x`, which isn't 0.

@@ -210,6 +210,20 @@ TEST_F(ArrayCubesTest, NiftiSlopesCountBeforeValuesAreChosen) {
     EXPECT_EQ(cells_of(cubes(file)).size(), 2u);
 }
 
+TEST_F(ArrayCubesTest, WholeNumbersOfFloatsAreLabels) {
+    const std::vector<float> values = {0, 1, 2.5f, NAN, -3, INFINITY, 1, 0.5f};
+    const VoxelModel model = cubes(
+        put("a.npy", npy_bytes("<f4", "8, 1, 1", bytes_of_values(values))), {.each_label = true});
+    const VoxelCells found = cells_of(model);
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(found.at({0 + 1, 0, 0}).color, found.at({6, 0, 0}).color);
+    EXPECT_NE(found.at({1, 0, 0}).color, found.at({4, 0, 0}).color);
+    EXPECT_THAT(refusal(put("b.npy",
+                            npy_bytes("<f4", "1, 1, 1", bytes_of_values(std::vector<float>{0.5f}))),
+                        {.each_label = true}),
+                HasSubstr("no value is a whole number but 0"));
+}
+
 TEST_F(ArrayCubesTest, WhatIsntReadIsSaid) {
     const std::string data(64, '\1');
     const auto npy = [&](const std::string& descr, const std::string& shape) {
@@ -220,6 +234,7 @@ TEST_F(ArrayCubesTest, WhatIsntReadIsSaid) {
     EXPECT_THAT(npy("|u1", "2, 2, 2, 2"), HasSubstr("(x, y, z, 4) with colours"));
     EXPECT_THAT(npy("|u1", "4, 4, 5"), HasSubstr("takes 80 bytes, and the file has 64"));
     EXPECT_THAT(npy("|u1", "99999999, 1, 1"), HasSubstr("at most 65536 along each axis"));
+    EXPECT_THAT(npy("|u1", "2147483648, 1, 1"), HasSubstr("larger than a model may be"));
     EXPECT_THAT(npy("|u1", "0, 4, 4"), HasSubstr("has no cells"));
     EXPECT_THAT(refusal(put("x.npy", npy_bytes("|u1", "4, 4, 4", std::string(64, '\0')))),
                 HasSubstr("all of its values are 0"));

@@ -84,6 +84,9 @@ TEST_F(CubeWritersTest, BinvoxKeepsPlacesAndLosesColours) {
     EXPECT_EQ(edge, glm::dvec3(0.25));
     EXPECT_EQ(origin, cubes.origin);
     EXPECT_THAT(write(cubes, "b.binvox"), IsEmpty());
+    cubes.size.z = 1291;  // 1291^3 is more than 2^31
+    EXPECT_THAT(error_of([&] { write(cubes, "c.binvox"); }).what(),
+                HasSubstr("1291 x 1291 x 1291"));
 }
 
 TEST_F(CubeWritersTest, Kv6KeepsTheVoxelsOfTheSurface) {

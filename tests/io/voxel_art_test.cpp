@@ -101,6 +101,8 @@ TEST_F(VoxelArtTest, BinvoxHasYFastestAndAPlace) {
     EXPECT_EQ(cells_of(unit),
               (VoxelCells{{{0, 1, 0}, {}}, {{0, 2, 0}, {}}, {{0, 3, 0}, {}}, {{1, 0, 1}, {}}}));
     expect_truncations_refused("a.binvox", bytes, bytes.size());
+    EXPECT_THAT(refusal("e.binvox", "#binvox 1\ndim 1 1 1\nscale 1e-200\ndata\n\1\1"),
+                HasSubstr("at least 1e-09 m"));
     EXPECT_THAT(refusal("b.binvox", head + "\1\xff"), HasSubstr("more cells than its size"));
     EXPECT_THAT(refusal("c.binvox", "#binvox 1\ndim 99999 9 9\nscale 1\ndata\n"),
                 HasSubstr("at most 65536"));
@@ -158,12 +160,15 @@ TEST_F(VoxelArtTest, SpongeSchematicsHaveAPaletteOfNames) {
                                  {{0, 0, 1}, {block_color("oak_log").color, ""}},
                                  {{1, 0, 2}, {block_color("zzyx").color, ""}}};
     EXPECT_EQ(cells("a.schem", gzipped(second)), expected);
-    EXPECT_THAT(read_schematic(folder / "a.schem").notes, Contains(HasSubstr("mod:zzyx")));
+    EXPECT_THAT(read_schematic(folder / "a.schem").notes,
+                Contains(HasSubstr("1 kind of block has a colour made of its name: mod:zzyx")));
     const std::string third = W::compound(
         "",
         W::compound("Schematic", size + W::compound("Blocks", palette + W::bytes("Data", data))));
     EXPECT_EQ(cells("b.schem", gzipped(third)), expected);
     EXPECT_EQ(cells("plain.schem", third), expected);
+    // Zeros that fill a block of a tape up are no data.
+    EXPECT_EQ(cells("padded.schem", gzipped(third) + std::string(512, '\0')), expected);
     expect_truncations_refused("plain.schem", third, third.size());
     const std::string wrong = W::compound(
         "Schematic", size + palette + W::bytes("BlockData", std::string("\xAD\2\0\0\0\0\0", 7)));

@@ -13,6 +13,7 @@
 namespace voxelume {
 namespace {
 
+constexpr uint32_t kClear = 255u << VXL_TRANSPARENCY_SHIFT;  // the colour of no voxel
 constexpr int kMargin = 4;  // voxels around a model, as around other models
 
 /// A cell's place along one axis of the model, by its number along the file's axis.
@@ -60,6 +61,8 @@ void choose(const Value* row, size_t count, const CellArray& array, const VoxelV
     if (values.label) {
         const double label = *values.label;
         for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept == label;
+    } else if (values.each_label && (std::is_floating_point_v<Value> || !is_plain)) {
+        for (size_t i = 0; i < count; ++i) chosen[i] = is_label(slope * double(row[i]) + intercept);
     } else if (values.iso || (std::is_floating_point_v<Value> && !values.each_label)) {
         const double iso = values.iso.value_or(0.5);
         for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept >= iso;
@@ -75,10 +78,6 @@ uint32_t code_of(double value, bool is_fraction) {
     return uint32_t(std::lround(std::clamp(std::isnan(v) ? 0.0 : v, 0.0, 255.0)));
 }
 
-int label_of(double value) {
-    return int(std::clamp(value, -2147483648.0, 2147483647.0));
-}
-
 class ArrayCubes {
   public:
     ArrayCubes(const CellArray& array, const VoxelValues& values)
@@ -90,8 +89,6 @@ class ArrayCubes {
           rows_x_(size_t(layout_.maps[0].bricks)) {
         if (array.is_color() && values.is_there())
             file_.refuse("it holds colours, which have no \"iso\" and no \"label\"");
-        if (values.each_label && is_float(array.type))
-            file_.refuse("its values are no whole numbers, so they are no labels: give an \"iso\"");
         const std::array<int, 3> stride = {1, bricks_.x, bricks_.x * bricks_.y};
         for (size_t i = 0; i < 3; ++i) {
             const AxisMap& map = layout_.maps[i];
@@ -135,6 +132,7 @@ class ArrayCubes {
         if (array_.is_color()) return "has no voxel: all of its colours are black or clear";
         if (values_.label) return fmt::format("no cell has the value {}", *values_.label);
         if (values_.iso) return fmt::format("no cell has the value {} or more", *values_.iso);
+        if (values_.each_label) return "has no voxel: no value is a whole number but 0";
         return is_float(array_.type) ? "no cell has the value 0.5 or more: give an \"iso\""
                                      : "has no voxel: all of its values are 0";
     }
@@ -249,7 +247,7 @@ class ArrayCubes {
                                                place_[0][size_t(x - low.x)];
                         const uint32_t color = color_of(slabs, values, cell);
                         // Where there is no voxel, no colour is to be seen.
-                        if (color >> VXL_TRANSPARENCY_SHIFT == 255) continue;
+                        if (color >= kClear) continue;
                         colors[place] = color;
                         model.transparent |= color >> VXL_TRANSPARENCY_SHIFT != 0;
                     }
@@ -258,8 +256,10 @@ class ArrayCubes {
 
     template <class Value>
     uint32_t color_of(const ArraySlabs& slabs, const Value* values, size_t cell) const {
-        if (!array_.is_color())
-            return label_color(label_of(array_.slope * double(values[cell]) + array_.intercept));
+        if (!array_.is_color()) {
+            const double value = array_.slope * double(values[cell]) + array_.intercept;
+            return is_label(value) ? label_color(label_of(value)) : kClear;
+        }
         constexpr bool kFraction = std::is_floating_point_v<Value>;
         const double full = array_.type == CellType::u16 ? 255.0 / 65535 : 1;
         uint32_t color = 0;

@@ -40,7 +40,9 @@ bool ByteStream::inflate_block() {
         stream_.avail_in = uInt(size);
     }
     if (has_ended_) {
-        // Another member may follow.
+        // Another member may follow, which begins with no zero, or zeros that fill a block up.
+        for (; stream_.avail_in > 0 && *stream_.next_in == 0; --stream_.avail_in) ++stream_.next_in;
+        if (stream_.avail_in == 0) return true;
         if (inflateReset(&stream_) != Z_OK) file_.refuse("its compressed data are damaged");
         has_ended_ = false;
     }

@@ -13,7 +13,15 @@ namespace {
 constexpr int kPad = 4;       // nodes around the array, as around other models
 constexpr size_t kReach = 4;  // nodes from a crossing that gradients and resampling read
 constexpr uint64_t kMaxCells = uint64_t{1} << 30;
+constexpr uint64_t kMaxGzipCells = uint64_t{1} << 28;  // few bytes tell many of them
 constexpr float kMaxUnits = 32767;
+constexpr double kMaxStep = 1e37;  // of which floats hold sums
+
+/// How far a value is below another one. Infinity stays what it is.
+float step_between(double high, double low) {
+    const double step = high - low;
+    return float(std::isfinite(step) ? std::clamp(step, -kMaxStep, kMaxStep) : step);
+}
 
 class ArraySurface {
   public:
@@ -26,6 +34,11 @@ class ArraySurface {
         if (array.cells() > kMaxCells)
             file_.refuse(fmt::format("it has {} cells; a smooth surface runs through {} at most",
                                      array.cells(), kMaxCells));
+        if (array.is_gzip && array.cells() > kMaxGzipCells)
+            file_.refuse(
+                fmt::format("it has {} cells in gzip; a smooth surface runs through {} at "
+                            "most: save it raw",
+                            array.cells(), kMaxGzipCells));
         frame_.size = array.size() + 2 * kPad;
         check_voxel_span(glm::dvec3(frame_.size), file_);
         frame_.voxel_edge = array.voxel_edge;
@@ -34,6 +47,8 @@ class ArraySurface {
     }
 
     VoxelModel read() {
+        measure();
+        if (!may_have_surface()) file_.refuse(fault());
         load();
         find_crossings();
         if (!(steepest_ > 0)) file_.refuse(fault());
@@ -68,27 +83,48 @@ class ArraySurface {
                            max_);
     }
 
+    /// Whether what is looked for is one value, or all but 0.
+    bool is_set() const { return values_.label || (!values_.iso && !is_float(array_.type)); }
+
+    /// Calls `use` with the number of each cell and its value.
+    template <class Use>
+    void for_each_value(const Use& use) const {
+        ArraySlabs slabs(array_, file_, 1);
+        const size_t layer = size_t(array_.counts.x) * size_t(array_.counts.y);
+        while (slabs.next() > 0) {
+            const size_t first = size_t(slabs.first()) * layer;
+            with_type(array_.type, slabs.values(), [&](const auto* values) {
+                for (size_t i = 0; i < layer; ++i)
+                    use(first + i, array_.slope * double(values[i]) + array_.intercept);
+            });
+        }
+    }
+
+    /// Finds the range of the values, before memory is taken for all of them.
+    void measure() {
+        min_ = INFINITY;
+        max_ = -INFINITY;
+        for_each_value([&](size_t, double v) {
+            min_ = std::min(min_, v);
+            max_ = std::max(max_, v);
+        });
+    }
+
+    /// False where no value in the range lies inside.
+    bool may_have_surface() const {
+        if (values_.label) return min_ <= *values_.label && *values_.label <= max_;
+        return is_set() ? min_ != 0 || max_ != 0 : max_ > values_.iso.value_or(0.5);
+    }
+
     /// Reads the values as how far they are below what is looked for.
     void load() {
         field_.resize(array_.cells());
-        ArraySlabs slabs(array_, file_, 1);
-        const size_t layer = size_t(array_.counts.x) * size_t(array_.counts.y);
-        const bool is_set = values_.label || (!values_.iso && !is_float(array_.type));
+        const bool is_one = is_set();
         const double iso = values_.iso.value_or(0.5), label = values_.label.value_or(0);
-        min_ = INFINITY;
-        max_ = -INFINITY;
-        while (slabs.next() > 0) {
-            float* out = field_.data() + size_t(slabs.first()) * layer;
-            with_type(array_.type, slabs.values(), [&](const auto* values) {
-                for (size_t i = 0; i < layer; ++i) {
-                    const double v = array_.slope * double(values[i]) + array_.intercept;
-                    min_ = std::min(min_, v);
-                    max_ = std::max(max_, v);
-                    out[i] = is_set ? ((v == label) == values_.label.has_value() ? -0.5f : 0.5f)
-                                    : float(iso - v);
-                }
-            });
-        }
+        for_each_value([&](size_t cell, double v) {
+            field_[cell] = is_one ? ((v == label) == values_.label.has_value() ? -0.5f : 0.5f)
+                                  : step_between(iso, v);
+        });
     }
 
     size_t index(int x, int y, int z) const {
@@ -158,7 +194,7 @@ class ArraySurface {
             }
         spread();
         // A body that fills the array has no surface but its ends.
-        if (steepest_ == 0 && has_cut_) steepest_ = float(std::max(max_ - min_, 1e-30));
+        if (steepest_ == 0 && has_cut_) steepest_ = std::max(step_between(max_, min_), 1e-30f);
     }
 
     void mark(const glm::ivec3& node) {

@@ -93,6 +93,11 @@ ArraySummary summary_of_array(const CellArray& array) {
     }
     std::array<uint64_t, kBins> bins{};
     const double width = (summary.max - summary.min) / kBins;
+    // Values of the largest and the smallest magnitudes have no bins.
+    if (!std::isnormal(width)) {
+        summary.threshold = std::isinf(width) ? summary.min / 2 + summary.max / 2 : summary.max;
+        return summary;
+    }
     for_each_value(array, [&](double v) {
         if (std::isfinite(v)) ++bins[std::min(size_t((v - summary.min) / width), kBins - 1)];
     });

@@ -2,6 +2,8 @@
 // Arrays of values or colours -> models: cubes, or the surface on which the values are equal.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "runtime/geometry/voxel_model.hpp"
@@ -18,7 +20,8 @@ VoxelModel cubes_of_array(const CellArray& array, const VoxelValues& values);
 /// The surface between the cells that have such values and the others. The field is linear in the
 /// array's values: half-Taylor interpolation between the middles of cells is of third order.
 /// Beyond the array's end its values are mirrored, so that the surface is closed there. Throws
-/// Error::input likewise, and for colours and arrays of more than 2^30 cells.
+/// Error::input likewise, and for colours and arrays of more than 2^30 cells,
+/// or 2^28 in gzip.
 VoxelModel surface_of_array(const CellArray& array, const VoxelValues& values);
 
 /// What the values of an array come to.
@@ -35,6 +38,16 @@ struct ArraySummary {
 /// Reads all values once. Throws Error::input for a file that is truncated or damaged, and for
 /// arrays of colours.
 ArraySummary summary_of_array(const CellArray& array);
+
+/// Whether a value is a label: a whole number but 0. Fractions, NaN and infinity are none.
+inline bool is_label(double value) {
+    return std::isfinite(value) && value != 0 && value == std::floor(value);
+}
+
+/// The number of a label; those beyond 32 bits are one.
+inline int label_of(double value) {
+    return int(std::clamp(value, -2147483648.0, 2147483647.0));
+}
 
 /// The colour of a label, 0xBBGGRR, the same in all files.
 uint32_t label_color(int label);

@@ -93,6 +93,7 @@ void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellAr
     const glm::dvec3& corner = array.first_corner;
     if (!(std::max({std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)}) <= kMaxLength))
         file.refuse("its origin is farther away than scenes reach");
+    check_voxel_edge(array.voxel_edge, array.first_corner, file);
     if (angle > 0.1)
         array.notes.push_back(
             fmt::format("its axes are turned by {:.1f} degrees, and are set straight", angle));

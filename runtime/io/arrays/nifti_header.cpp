@@ -197,7 +197,8 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
     if (volumes > 1) array.notes.push_back(fmt::format("the first of {} volumes", volumes));
     const double offset = places.is_wide ? double(header.at<int64_t>(places.vox_offset))
                                          : header.real(places.vox_offset);
-    if (!(offset >= 0 && offset <= 1e15)) file.refuse("its data begin nowhere; it is damaged");
+    if (!(offset >= 0 && offset <= 1e15))
+        file.refuse("its header gives no place where its data begin; it is damaged");
     (array.is_gzip ? array.skip : array.start) =
         std::max(uint64_t(offset), uint64_t(places.header));
     const double slope = header.real(places.slope);

@@ -69,7 +69,7 @@ std::vector<uint64_t> shape_of(std::string_view text, const InputFile& file) {
         if (c >= '0' && c <= '9') {
             number = number * 10 + uint64_t(c - '0');
             is_number = true;
-            if (number > uint64_t{1} << 31 || shape.size() > 8)
+            if (number >= uint64_t{1} << 31 || shape.size() > 8)
                 file.refuse("its shape is larger than a model may be");
         } else if (c == ',' || c == ')') {
             if (is_number) shape.push_back(number);

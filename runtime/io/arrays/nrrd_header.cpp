@@ -42,7 +42,8 @@ size_t set_sizes(const NrrdFields& fields, const InputFile& file, CellArray& arr
     const std::vector<double> sizes = fields.numbers("sizes"),
                               dimension = fields.numbers("dimension");
     if (dimension.size() != 1 || double(sizes.size()) != dimension[0])
-        file.refuse("its sizes aren't those of its dimension");
+        file.refuse(fmt::format("its header has {} sizes, and as its dimension \"{}\"",
+                                sizes.size(), fields.text("dimension")));
     for (const double size : sizes)
         if (!(size >= 1 && size <= 1 << 20 && size == std::floor(size)))
             file.refuse(fmt::format("its sizes are {}; whole numbers to {} are possible",

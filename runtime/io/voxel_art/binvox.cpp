@@ -38,6 +38,37 @@ BinvoxHeader take_header(ByteReader& reader) {
     reader.refuse("its header has no end");
 }
 
+/// Refuses runs that don't add up to all cells, before memory is taken for those.
+void check_runs(ByteReader reader, uint64_t count) {
+    for (uint64_t at = 0; at < count;) {
+        const auto repeats = uint64_t(uint8_t(reader.take_bytes(2)[1]));
+        if (repeats > count - at) reader.refuse("has more cells than its size");
+        at += repeats;
+    }
+}
+
+/// The next cell: Y runs fastest, then Z.
+void step(glm::ivec3& cell, const glm::ivec3& size) {
+    if (++cell.y < size.y) return;
+    cell.y = 0;
+    if (++cell.z < size.z) return;
+    cell.z = 0;
+    ++cell.x;
+}
+
+void set_runs(ByteReader reader, uint64_t count, const glm::ivec3& size, CellBricks& bricks) {
+    glm::ivec3 cell(0);
+    for (uint64_t at = 0; at < count;) {
+        const std::string_view pair = reader.take_bytes(2);
+        const int repeats = uint8_t(pair[1]);
+        for (int i = 0; i < repeats; ++i) {
+            if (pair[0] != 0) bricks.set(cell, 0xFFFFFF);
+            step(cell, size);
+        }
+        at += uint64_t(repeats);
+    }
+}
+
 }  // namespace
 
 VoxelArt read_binvox(const std::filesystem::path& path) {
@@ -50,23 +81,16 @@ VoxelArt read_binvox(const std::filesystem::path& path) {
     const uint64_t count = uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
     if (count / kMaxRun > reader.left() / 2)
         reader.refuse("the file ends too early; it is truncated");
+    check_runs(reader, count);
     CellBricks bricks({0, 0, 0}, size, file);
-    for (uint64_t at = 0; at < count;) {
-        const std::string_view pair = reader.take_bytes(2);
-        const auto repeats = uint64_t(uint8_t(pair[1]));
-        if (repeats > count - at) reader.refuse("has more cells than its size");
-        for (uint64_t i = at; pair[0] != 0 && i < at + repeats; ++i)
-            bricks.set({int(i / uint64_t(size.y) / uint64_t(size.z)), int(i % uint64_t(size.y)),
-                        int(i / uint64_t(size.y) % uint64_t(size.z))},
-                       0xFFFFFF);
-        at += repeats;
-    }
+    bricks.fill([&] { set_runs(reader, count, size, bricks); });
     VoxelArt art{bricks.model(), size, {}};
     const double edge = header.scale / std::max({size.x, size.y, size.z});
     const glm::dvec3 t = header.translation;
     if (!(edge > 0 && header.scale <= kMaxBinvoxLength &&
           std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kMaxBinvoxLength))
         reader.refuse("its scale or place is no length");
+    check_voxel_edge(glm::dvec3(edge), t, file);
     art.model.frame.voxel_edge = glm::dvec3(edge);
     art.model.frame.origin = t + edge * art.model.frame.origin;
     return art;

@@ -28,8 +28,12 @@ CellBricks::CellBricks(const glm::ivec3& low, const glm::ivec3& high, const Inpu
 
 uint32_t CellBricks::add_brick() {
     check_stored_bricks(count_ + 1, file_);
-    cells_.resize(cells_.size() + kVoxelsPerBrick, kNoVoxel);
+    if (!is_counting_) add_cells(1);
     return count_++;
+}
+
+void CellBricks::add_cells(size_t bricks) {
+    cells_.resize(cells_.size() + bricks * kVoxelsPerBrick, kNoVoxel);
 }
 
 void CellBricks::fill_occupancy(const uint32_t* cells, uint64_t* leaves) const {

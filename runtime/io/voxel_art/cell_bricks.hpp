@@ -17,6 +17,17 @@ class CellBricks {
     /// Y is up. Throws Error::input where a model may not have as many.
     CellBricks(const glm::ivec3& low, const glm::ivec3& high, const InputFile& file);
 
+    /// Lets a function set its voxels twice: first the bricks are counted and held against the
+    /// limit, and then memory is taken for all of them at once.
+    template <class SetAll>
+    void fill(const SetAll& set_all) {
+        is_counting_ = true;
+        set_all();
+        is_counting_ = false;
+        add_cells(count_);
+        set_all();
+    }
+
     /// Makes the cell, which must lie in the box, a voxel of the colour 0xTTBBGGRR, with its
     /// transparency on top: 0 is opaque, and 254 at most.
     void set(const glm::ivec3& cell, uint32_t color) {
@@ -24,6 +35,7 @@ class CellBricks {
         uint32_t& number =
             numbers_[size_t(b.x) + size_t(bricks_.x) * size_t(b.y + bricks_.y * b.z)];
         if (number == kNone) number = add_brick();
+        if (is_counting_) return;
         cells_[size_t(number) * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8)] = color;
     }
 
@@ -34,6 +46,7 @@ class CellBricks {
   private:
     static constexpr uint32_t kNone = 0xFFFFFFFF;
     uint32_t add_brick();
+    void add_cells(size_t bricks);
     void fill_occupancy(const uint32_t* cells, uint64_t* leaves) const;
 
     const InputFile& file_;
@@ -42,6 +55,7 @@ class CellBricks {
     std::vector<uint32_t> numbers_;  ///< by brick, into cells_
     std::vector<uint32_t> cells_;    ///< colours; 0xFFFFFFFF is no voxel
     uint32_t count_ = 0;
+    bool is_counting_ = false;
 };
 
 }  // namespace voxelume

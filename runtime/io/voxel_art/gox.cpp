@@ -2,7 +2,10 @@
 // Goxel's .gox: "GOX ", a version, then chunks: four letters, a length, the content and a checksum.
 // BL16 is a block of 16 x 16 x 16 voxels as a PNG picture of 64 x 64 pixels, x fastest, then y.
 // LAYR is a layer: blocks by their numbers and places, then entries of a key and a value. Z is up.
+#include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/voxel_art/byte_reader.hpp"
@@ -14,6 +17,9 @@ namespace {
 
 constexpr size_t kBlockPixels = 64 * 64;
 constexpr int kFarthestBlock = 1'000'000;  // voxels
+constexpr size_t kMaxBlocks = 1 << 17;
+
+using Pixels = std::vector<std::array<uint8_t, 4>>;
 
 struct GoxBlock {
     size_t picture;  ///< number of the chunk BL16
@@ -35,7 +41,10 @@ class GoxReader {
         if (blocks_.empty()) file_.refuse("has no voxels to show");
         // Z up becomes Y up.
         CellBricks bricks({low.x, low.z, -high.y}, {high.x, high.z, -low.y}, file_);
-        for (const GoxBlock& block : blocks_) set_block(block, bricks);
+        decoded_.resize(pictures_.size());
+        bricks.fill([&] {
+            for (const GoxBlock& block : blocks_) set_block(block, bricks);
+        });
         VoxelArt art{bricks.model(), high - low, {}};
         if (hidden_ > 0) art.notes.push_back(fmt::format("{} hidden layers, not shown", hidden_));
         if (layers_ > 1) art.notes.push_back(fmt::format("{} layers, shown as one", layers_));
@@ -64,6 +73,7 @@ class GoxReader {
     void read_layer(ByteReader reader) {
         const auto count = reader.take<uint32_t>();
         const size_t before = blocks_.size();
+        std::set<std::array<int32_t, 3>> places;
         for (uint32_t i = 0; i < count; ++i) {
             const auto numbers = reader.take<std::array<int32_t, 5>>();
             if (numbers[0] < 0 || size_t(numbers[0]) >= pictures_.size())
@@ -72,6 +82,10 @@ class GoxReader {
             for (int axis = 0; axis < 3; ++axis)
                 if (first[axis] < -kFarthestBlock || first[axis] > kFarthestBlock)
                     file_.refuse("a block is too far away");
+            if (!places.insert({numbers[1], numbers[2], numbers[3]}).second)
+                file_.refuse("a layer has two blocks at one place");
+            if (blocks_.size() == kMaxBlocks)
+                file_.refuse(fmt::format("has more than {} blocks", kMaxBlocks));
             blocks_.push_back({size_t(numbers[0]), first});
         }
         ++layers_;
@@ -90,14 +104,23 @@ class GoxReader {
         return true;
     }
 
-    void set_block(const GoxBlock& block, CellBricks& bricks) {
-        const std::string_view png = pictures_[block.picture];
-        const Picture picture = parse_png(
-            {reinterpret_cast<const uint8_t*>(png.data()), png.size()}, path_, kBlockPixels);
+    /// The voxels of a picture, which is decoded once. An empty one is left out.
+    const Pixels& pixels_of(size_t number) {
+        if (decoded_[number]) return *decoded_[number];
+        const std::string_view png = pictures_[number];
+        Picture picture = parse_png({reinterpret_cast<const uint8_t*>(png.data()), png.size()},
+                                    path_, kBlockPixels);
         if (picture.pixels.size() != kBlockPixels)
             file_.refuse("a block isn't a picture of 64 x 64 pixels");
-        for (size_t i = 0; i < kBlockPixels; ++i) {
-            const auto& [red, green, blue, alpha] = picture.pixels[i];
+        if (std::ranges::all_of(picture.pixels, [](const auto& pixel) { return pixel[3] == 0; }))
+            picture.pixels = {};
+        return decoded_[number].emplace(std::move(picture.pixels));
+    }
+
+    void set_block(const GoxBlock& block, CellBricks& bricks) {
+        const Pixels& pixels = pixels_of(block.picture);
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const auto& [red, green, blue, alpha] = pixels[i];
             if (alpha == 0) continue;
             const glm::ivec3 v =
                 block.first + glm::ivec3(int(i & 15), int(i >> 4 & 15), int(i >> 8));
@@ -110,6 +133,7 @@ class GoxReader {
     const InputFile file_;
     std::string bytes_;
     std::vector<std::string_view> pictures_;
+    std::vector<std::optional<Pixels>> decoded_;  ///< by picture
     std::vector<GoxBlock> blocks_;
     std::map<std::string, int> others_;
     int layers_ = 0, hidden_ = 0;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr uint32_t kRepeat = 2, kNextSlice = 6;
 constexpr uint32_t kMaxMatrices = 100'000;
+constexpr uint64_t kMaxColored = uint64_t{1} << 28;
 constexpr int kFarthest = 1'000'000;  // voxels
 
 struct QbHeader {
@@ -33,7 +34,7 @@ class QbReader {
         if (low_.x >= high_.x) file_.refuse("has no voxels to show");
         CellBricks bricks(low_, high_, file_);
         bricks_ = &bricks;
-        read_matrices(false);
+        bricks.fill([&] { read_matrices(false); });
         VoxelArt art{bricks.model(), high_ - low_, {}};
         if (header_.matrices > 1)
             art.notes.push_back(fmt::format("{} matrices, shown as one", header_.matrices));
@@ -68,6 +69,7 @@ class QbReader {
             high_ = glm::max(high_, cell(glm::ivec3(0)) + 1);
             high_ = glm::max(high_, cell(size_ - 1) + 1);
         }
+        if ((size_.x == 0 || size_.y == 0) && !header_.is_compressed) return;
         for (int z = 0; z < size_.z; ++z)
             header_.is_compressed ? read_compressed_slice(reader, z, measures)
                                   : read_slice(reader, z, measures);
@@ -102,6 +104,9 @@ class QbReader {
                 word = reader.take<uint32_t>();
             }
             if (repeats > count - at) file_.refuse("a slice has more cells than its matrix");
+            if (measures && word >> 24 != 0) colored_ += repeats;
+            if (colored_ > kMaxColored)
+                file_.refuse(fmt::format("has more than {} cells with a colour", kMaxColored));
             for (uint32_t i = 0; i < repeats && !measures && word >> 24 != 0; ++i)
                 set(at + i, z, word);
             at += repeats;
@@ -122,6 +127,7 @@ class QbReader {
     QbHeader header_{};
     glm::ivec3 size_{0}, first_{0};  ///< of the matrix at hand
     glm::ivec3 low_{1 << 30}, high_{-(1 << 30)};
+    uint64_t colored_ = 0;  ///< cells of compressed matrices, which few bytes tell
     CellBricks* bricks_ = nullptr;
 };
 

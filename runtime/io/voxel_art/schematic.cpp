@@ -22,8 +22,9 @@ namespace {
 
 using Kind = NbtValue::Kind;
 
-constexpr size_t kMaxTags = size_t{1} << 29;  // bytes
-constexpr uint64_t kMaxRegionCells = uint64_t{1} << 31;
+constexpr size_t kMaxTags = size_t{1} << 27;             // bytes
+constexpr uint64_t kMaxRegionCells = uint64_t{1} << 28;  // in all
+constexpr size_t kMaxBlockName = 256;                    // bytes
 constexpr int64_t kMaxSide = 65536, kFarthestRegion = 1'000'000;
 constexpr uint32_t kNoBlock = 0xFFFFFFFF;
 
@@ -32,6 +33,9 @@ struct Region {
     glm::ivec3 first{0}, size{0};
     std::vector<uint32_t> colors;  ///< by the number; kNoBlock for air
     const NbtValue* data = nullptr;
+    bool is_air() const {
+        return std::ranges::all_of(colors, [](uint32_t color) { return color == kNoBlock; });
+    }
     uint64_t cells() const { return uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z); }
 };
 
@@ -65,13 +69,17 @@ class SchematicReader {
             low = glm::min(low, region.first);
             high = glm::max(high, region.first + region.size);
         }
-        if (low.x >= high.x) file_.refuse("has no voxels to show");
+        if (low.x >= high.x ||
+            std::ranges::all_of(regions_, [](const Region& region) { return region.is_air(); }))
+            file_.refuse("has no voxels to show");
         size_ = high - low;
         CellBricks bricks({0, 0, 0}, size_, file_);
-        for (const Region& region : regions_) {
-            origin_ = region.first - low;
-            set_all(region, bricks);
-        }
+        bricks.fill([&] {
+            for (const Region& region : regions_) {
+                origin_ = region.first - low;
+                if (!region.is_air()) set_all(region, bricks);
+            }
+        });
         model_ = bricks.model();
     }
 
@@ -87,10 +95,11 @@ class SchematicReader {
         return size;
     }
 
-    void check(const Region& region) const {
-        if (region.cells() > kMaxRegionCells)
-            file_.refuse(fmt::format("has {} cells, {} at most are possible", region.cells(),
-                                     kMaxRegionCells));
+    void check(const Region& region) {
+        cells_ += region.cells();
+        if (cells_ > kMaxRegionCells)
+            file_.refuse(
+                fmt::format("has {} cells, {} at most are possible", cells_, kMaxRegionCells));
     }
 
     void set(const Region& region, uint64_t cell, uint64_t number, CellBricks& bricks) const {
@@ -104,6 +113,8 @@ class SchematicReader {
     }
 
     uint32_t color_of(std::string_view name) {
+        if (name.size() > kMaxBlockName)
+            file_.refuse(fmt::format("a block's name has more than {} bytes", kMaxBlockName));
         const BlockColor block = block_color(name);
         if (block.is_air) return kNoBlock;
         if (!block.is_known) unknown_.insert(std::string(name.substr(0, name.find('['))));
@@ -191,19 +202,26 @@ class SchematicReader {
                 region.size[axis] = int(std::abs(n));
             }
             check(region);
-            for (const NbtValue& entry : value.get("BlockStatePalette", Kind::list, file_).items)
-                region.colors.push_back(color_of(entry.get("Name", Kind::text, file_).content));
-            if (region.colors.empty()) file_.refuse("a region has no palette");
+            const std::vector<NbtValue>& palette =
+                value.get("BlockStatePalette", Kind::list, file_).items;
+            if (palette.empty()) file_.refuse("a region has no palette");
             region.data = &value.get("BlockStates", Kind::longs, file_);
+            if (region.data->longs() < (region.cells() * bits_for(palette.size()) + 63) / 64)
+                file_.refuse("a region has fewer blocks than its size; it is damaged");
+            for (const NbtValue& entry : palette)
+                region.colors.push_back(color_of(entry.get("Name", Kind::text, file_).content));
             regions_.push_back(std::move(region));
         }
         set_regions([&](const Region& of, CellBricks& bricks) { set_packed(of, bricks); });
     }
 
+    /// Bits of a number into a palette.
+    static uint64_t bits_for(size_t names) {
+        return uint64_t(std::max(2, int(std::bit_width(names - 1))));
+    }
+
     void set_packed(const Region& region, CellBricks& bricks) const {
-        const auto bits = uint64_t(std::max(2, int(std::bit_width(region.colors.size() - 1))));
-        if (region.data->longs() < (region.cells() * bits + 63) / 64)
-            file_.refuse("a region has fewer blocks than its size; it is damaged");
+        const uint64_t bits = bits_for(region.colors.size());
         for (uint64_t i = 0; i < region.cells(); ++i) {
             const uint64_t bit = i * bits, at = bit / 64, shift = bit % 64;
             uint64_t number = region.data->long_at(size_t(at)) >> shift;
@@ -220,11 +238,12 @@ class SchematicReader {
         std::vector<std::string> names(unknown_.begin(), unknown_.end());
         if (names.size() > kMaxNamed) names.resize(kMaxNamed);
         if (!names.empty())
-            art.notes.push_back(
-                fmt::format("{} kinds of blocks have a colour made of their name: "
-                            "{}{}",
-                            unknown_.size(), fmt::join(names, ", "),
-                            unknown_.size() > kMaxNamed ? ", ..." : ""));
+            art.notes.push_back(fmt::format(
+                "{} a colour made of {} name: {}{}",
+                unknown_.size() == 1 ? "1 kind of block has"
+                                     : fmt::format("{} kinds of blocks have", unknown_.size()),
+                unknown_.size() == 1 ? "its" : "their", fmt::join(names, ", "),
+                unknown_.size() > kMaxNamed ? ", ..." : ""));
         return art;
     }
 
@@ -234,6 +253,7 @@ class SchematicReader {
     std::vector<Region> regions_;
     glm::ivec3 origin_{0}, size_{0};
     std::set<std::string> unknown_;
+    uint64_t cells_ = 0;  ///< of all regions
     VoxelModel model_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
@@ -12,6 +13,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint64_t kMaxDenseBytes = uint64_t{1} << 33;
+constexpr uint64_t kMaxBinvoxCells = uint64_t{1} << 31;
 
 /// Numbers of the cells in a file, and how many values each has.
 struct DenseOrder {
@@ -56,6 +58,7 @@ void write_gzip(AtomicFile& file, const std::vector<uint8_t>& bytes) {
     constexpr int kGzip = 15 + 16, kMemoryLevel = 8, kLevel = 1;
     if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
         file.fail("zlib doesn't start");
+    const std::unique_ptr<z_stream, decltype(&deflateEnd)> end(&stream, &deflateEnd);
     std::vector<Bytef> block(1 << 16);
     constexpr size_t kMaxInput = size_t{1} << 30;  // zlib counts in 32 bits
     int code = Z_OK;
@@ -71,7 +74,6 @@ void write_gzip(AtomicFile& file, const std::vector<uint8_t>& bytes) {
         code = deflate(&stream, done == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
         file.write(block.data(), block.size() - stream.avail_out);
     }
-    deflateEnd(&stream);
 }
 
 }  // namespace
@@ -120,6 +122,11 @@ WriterNotes write_binvox(const std::filesystem::path& path, const CubeList& cube
     // Other programs expect a cube; Y is fastest, then Z.
     const int side = std::max({cubes.size.x, cubes.size.y, cubes.size.z});
     const size_t n = size_t(side);
+    if (cells_in(glm::ivec3(side)) > kMaxBinvoxCells)
+        throw Error(ErrorKind::limit,
+                    "a .binvox is a cube, and one of {0} x {0} x {0} cells is larger than {1} "
+                    "cells; use larger voxels",
+                    side, kMaxBinvoxCells);
     const DenseOrder order{{n * n, 1, n}, cells_in(glm::ivec3(side)), 1};
     const std::vector<uint8_t> dense = dense_bytes(cubes, order);
     std::string runs;

@@ -2,6 +2,7 @@
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/base/input_file.hpp"
 #include "runtime/grid/grid.hpp"
@@ -16,6 +17,18 @@ void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
             fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
                         "bricks of 16 in all are possible",
                         size.x, size.y, size.z, kMaxVoxelsPerAxis, kMaxBricks));
+}
+
+void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
+                      const InputFile& file) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double least = std::max(1e-9, 1e-12 * std::abs(origin[axis]));
+        if (!(voxel_edge[axis] >= least))
+            file.refuse(
+                fmt::format("its voxels are {:.3g} m long, and at least {:.3g} m are possible "
+                            "at its place",
+                            voxel_edge[axis], least));
+    }
 }
 
 void check_stored_bricks(size_t stored, const InputFile& file) {

@@ -17,6 +17,11 @@ inline constexpr size_t kMaxStoredBricks = 1 << 18;  ///< 4 GiB of colours
 /// model may have.
 void check_voxel_span(const glm::dvec3& size, const InputFile& file);
 
+/// Throws Error::input for voxels that are shorter than 1e-9 m, or too short to tell neighbours
+/// apart at the place of a model.
+void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
+                      const InputFile& file);
+
 /// Throws Error::input for more stored bricks than a model may have.
 void check_stored_bricks(size_t stored, const InputFile& file);
 
