@@ -32,7 +32,7 @@ _voxelume() {{
         COMPREPLY=($(compgen -W "$words" -- "$word"))
     else
         compopt -o filenames 2>/dev/null
-        COMPREPLY=($(compgen -f -- "$word"))
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
 }}
 complete -F _voxelume voxelume
@@ -50,6 +50,9 @@ std::string bash_script(const std::vector<CommandFacts>& commands) {
     for (const CommandFacts& command : commands) {
         std::string names;
         for (const OptionFacts& option : command.options) {
+            if (option.names.empty() && !option.words.empty())  // what follows the command
+                values += fmt::format("        {0}:{0}) words=\"{1}\" ;;\n", command.name,
+                                      fmt::join(option.words, " "));
             for (const std::string& name : option.names) {
                 names += (names.empty() ? "" : " ") + name;
                 if (!option.words.empty())
@@ -145,6 +148,7 @@ Action add_completion(CLI::App& app) {
     app.add_option("SHELL", *shell,
                    "bash, zsh or fish; for bash, add to ~/.bashrc: eval \"$(voxelume completion "
                    "bash)\"")
+        ->type_name("bash|zsh|fish")
         ->required();
     return [shell] {
         fmt::print("{}", choose(*shell, kShells, "completion")(command_facts()));

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <thread>
 
+#include "cli/build_facts.hpp"
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/report.hpp"
@@ -32,11 +34,16 @@ Report system_report() {
     utsname system{};
     uname(&system);
     const double pages = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    return {{"version", version()},
-            {"built with", __VERSION__},
-            {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
-            {"processors", std::thread::hardware_concurrency()},
-            {"main memory", bytes_text(pages)}};
+    Report report = {{"version", version()}};
+    std::istringstream facts(build_facts());
+    for (std::string line; std::getline(facts, line);)
+        if (const size_t colon = line.find(": "); colon != std::string::npos)
+            report[line.substr(0, colon)] = line.substr(colon + 2);
+    report.update(
+        {{"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
+         {"processors", std::thread::hardware_concurrency()},
+         {"main memory", bytes_text(pages)}});
+    return report;
 }
 
 /// The variables that change what Voxelume or its OpenCL does.

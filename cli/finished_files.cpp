@@ -17,6 +17,10 @@ Overwrite overwrite_of(const RenderCommand& command) {
     if (command.resume && overwrite != Overwrite::changed)
         fail_usage("render: --resume and --overwrite {} ask for different things; leave one out",
                    command.overwrite);
+    if (overwrite == Overwrite::never && !command.shard.empty())
+        fail_usage(
+            "render: --overwrite never keeps files of other runs, of which --shard can't tell "
+            "`merge`; give --resume, which keeps those that are right");
     return overwrite;
 }
 

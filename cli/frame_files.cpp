@@ -177,6 +177,8 @@ void check_options(const RenderCommand& options) {
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))
             check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
+    if (options.stats == "-")
+        fail_usage("render: --stats-json -: statistics go to a file, not to standard output");
     if (!options.stats.empty()) check_output(options.stats, {}, "render");
 }
 

@@ -88,6 +88,19 @@ int run(std::vector<std::string> arguments) {
     return run_command(find_command(first), std::move(arguments));
 }
 
+/// Loads the settings. A fault in their file ends commands that render, but none that helps to find
+/// it: for these it is only told. Returns what `config` ends with.
+int load_settings_for(const std::string& command) try {
+    load_settings();
+    return 0;
+} catch (const Error& error) {
+    constexpr std::array kHelpers = {"--version", "help", "--help",     "-h",
+                                     "doctor",    "man",  "completion", "config"};
+    if (std::ranges::find(kHelpers, command) == kHelpers.end()) throw;
+    const int code = complain(error.what(), error.kind());
+    return command == "config" ? code : 0;
+}
+
 /// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
 void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
@@ -119,14 +132,14 @@ int main(int count, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);
     cli::keep_freed_memory();
     try {
-        cli::load_settings();
+        const int fault = cli::load_settings_for(count > 1 ? arguments[1] : "");
         cli::handle_interrupts();  // before there are threads: all are to ignore what this one does
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
                              .image_threads = int(std::thread::hardware_concurrency())});
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();
-        return code;
+        return code == 0 ? fault : code;
     } catch (const voxelume::Error& error) {
         if (error.kind() == ErrorKind::cancelled) {
             if (cli::may_tell_interruption()) cli::complain(error.what(), error.kind());

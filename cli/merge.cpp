@@ -49,8 +49,7 @@ std::string difference(const ShardManifest& a, const ShardManifest& b) {
                           o.channels.distance, o.channels.position, o.channels.normal,
                           o.channels.object);
     };
-    if (a.rows && options(a.rows->options) != options(b.rows->options))
-        return "their options of images differ";
+    if (options(a.options) != options(b.options)) return "their options of images differ";
     if (a.scene != b.scene || (a.rows && a.rows->hash != b.rows->hash))
         return "the scene, one of its files, its settings or the version differ";
     return {};
@@ -127,7 +126,7 @@ std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
     if (height != rows.height) refuse("the parts have {} of {} rows", height, rows.height);
     for (const std::string& output : rows.outputs)
         outputs.push_back(parts.front().file.parent_path() / output);
-    merge_image_files(files, outputs, rows.hash, rows.options);
+    merge_image_files(files, outputs, rows.hash, parts.front().manifest.options);
     return outputs;
 }
 

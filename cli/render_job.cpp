@@ -34,12 +34,16 @@ ProgressStyle style_of(const RenderCommand& command) {
 /// Leaves the frames that have to be rendered, and says how many have not. Returns whether any are
 /// left.
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
-    if (OutputStream(command.outputs).is_wanted()) return true;
     const size_t count = job.frames.size();
     if (count == 0 && !command.quiet)
         fmt::print(stderr,
                    "this part has nothing to render: there are more parts than frames or rows\n");
+    const std::vector<int> numbers = numbers_of(job.frames);
     const size_t skipped = skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
+    if (job.frames.empty() && OutputStream(command.outputs).is_wanted()) {
+        job.frames.push_back({numbers.front(), {}, {}});  // its image goes to the stream anyway
+        return true;
+    }
     if (skipped > 0 && !command.quiet)
         fmt::print(stderr, "{} of {} frames are there already\n", skipped, count);
     return !job.frames.empty();
@@ -47,7 +51,7 @@ bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob&
 
 /// Renders the files of a job, and tells of them while it does.
 Statistics render_files(const Scene& scene, const std::vector<Device>& devices, FrameJob job,
-                        const RenderCommand& command, const std::string& label) {
+                        const RenderCommand& command, const std::string& label, bool is_part) {
     RenderProgress progress(label, job.frames.size(), style_of(command));
     const Interruptible interruptible;
     RenderOptions render;
@@ -58,6 +62,7 @@ Statistics render_files(const Scene& scene, const std::vector<Device>& devices, 
     render.progress = [&](double done, int frame) { progress.advance(done, frame); };
     render.compiling = [&](int kernel, int known) { progress.compiling(kernel, known); };
     render.strict = command.scene.strict;
+    render.is_part = is_part;
     if (!command.quiet) render.warn = warning_printer(render.strict, [&] { progress.clear(); });
     const OutputStream stream(command.outputs);
     if (stream.is_wanted()) {
@@ -89,11 +94,17 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     Scene scene = read_with(command.scene, "render");
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
+    if (!command.crop.empty() && command.outputs.empty() && !command.volumes.empty())
+        fail_usage("render: --crop is of images, and no -o names one; --volume is whole anyway");
     if (!command.crop.empty()) scene = cropped(scene, command.crop);
     std::optional<ShardPart> part;
     if (!command.shard.empty()) part.emplace(command, scene, job);
+    const size_t frames = job.frames.size();
     if (!command.plan_only && !remove_finished(scene, command, job)) {
         if (part) part->write();
+        Statistics statistics;
+        statistics.total_seconds = seconds();
+        if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
         return;
     }
     const std::vector<Device>& devices = lazy_devices.open();
@@ -109,7 +120,8 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
                                              "observer's upper left; \"lights\": [] is dark",
                                              scene.file().string())));
     const double open_seconds = seconds();
-    Statistics statistics = render_files(scene, devices, std::move(job), command, label);
+    const bool is_part = part.has_value() || job.frames.size() < frames;
+    Statistics statistics = render_files(scene, devices, std::move(job), command, label, is_part);
     statistics.open_seconds += open_seconds;
     if (part) part->write();
     statistics.total_seconds = seconds();

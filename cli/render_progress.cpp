@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "cli/checks.hpp"
+#include "cli/settings.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
@@ -35,7 +37,12 @@ void print_line(const Json& object) {
 }  // namespace
 
 ProgressStyle progress_style(const std::string& text) {
-    return choose(text, kStyles, "render: --progress");
+    std::string origin = "render: --progress";
+    for (const SettingValue& value : loaded_settings())
+        if (value.setting->name == std::string_view("progress") && !value.value.empty() &&
+            value.value == text)
+            origin = fmt::format("{}: progress", value.origin);
+    return choose(text, kStyles, origin.c_str());
 }
 
 RenderProgress::RenderProgress(std::string label, size_t frames, ProgressStyle style)

@@ -16,7 +16,7 @@ namespace voxelume::cli {
 /// bar; lines of text; a JSON object a line; or not at all.
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
-/// The style that an option's text names. Throws Error::usage.
+/// The style that an option's text names, or a setting's. Throws Error::usage with its origin.
 ProgressStyle progress_style(const std::string& text);
 
 /// Tells how one job gets on. Any thread may call it.

@@ -62,7 +62,7 @@ void print_object(const Report& object) {
         else if (item.value().is_object())
             print_object(item.value());
         else
-            fmt::print("  {:<16}{}\n", text_of(item.key()), text_of(item.value()));
+            fmt::print("  {:<15} {}\n", text_of(item.key()), text_of(item.value()));
     }
 }
 

@@ -26,6 +26,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
            "--light", options.light,
            "light of flat images: local, or global with all that surfaces reflect; replaces "
            "the scene's")
+        ->type_name("local|global")
         ->check(one_of({"local", "global"}));
     app.add_option(
         "--device", options.device,

@@ -49,6 +49,20 @@ std::string value_of(const std::string& text) {
     return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
+/// A value with the home folder in place of each "~" before a slash that begins it, or what follows
+/// a colon.
+std::string with_home(const std::string& value) {
+    const char* home = std::getenv("HOME");
+    if (home == nullptr) return value;
+    std::string text;
+    for (size_t i = 0; i < value.size(); ++i)
+        if (value.compare(i, 2, "~/") == 0 && (i == 0 || value[i - 1] == ':'))
+            text += home;
+        else
+            text += value[i];
+    return text;
+}
+
 /// Lines "name = value"; # begins a line of remarks.
 std::map<std::string, FileValue> read_file(const fs::path& file) {
     std::ifstream stream(file);
@@ -70,7 +84,8 @@ std::map<std::string, FileValue> read_file(const fs::path& file) {
         if (std::ranges::find(names, name) == names.end())
             fail_usage("{}:{}: no setting named {}{}", file.string(), number, quote(name),
                        suggest(name, names));
-        const FileValue value{value_of(trimmed(line.substr(sign + 1))), number};
+        FileValue value{value_of(trimmed(line.substr(sign + 1))), number};
+        if (name == "assets" || name == "cache_dir") value.value = with_home(value.value);
         const auto [known, is_new] = values.emplace(name, value);
         if (!is_new)
             fail_usage("{}:{}: {} is set already in line {}", file.string(), number, name,
@@ -105,14 +120,10 @@ fs::path settings_file() {
                                             : fs::path();
 }
 
-void load_settings() {
-    const fs::path file = settings_file();
-    std::error_code error;
-    std::map<std::string, FileValue> values;
-    if (!file.empty() && fs::is_regular_file(file, error))
-        values = read_file(file);
-    else if (!file.empty() && environment("VOXELUME_CONFIG") != nullptr)
-        fail_usage("VOXELUME_CONFIG is {}: there is no such file", quote(file.string()));
+namespace {
+
+/// Notes every setting's value, and puts those of the file into the environment.
+void take(const fs::path& file, const std::map<std::string, FileValue>& values) {
     loaded().clear();
     for (const Setting& setting : kSettings) {
         const auto in_file = values.find(setting.name);
@@ -127,6 +138,18 @@ void load_settings() {
             loaded().push_back({&setting, {}, "default"});
         }
     }
+}
+
+}  // namespace
+
+void load_settings() {
+    const fs::path file = settings_file();
+    std::error_code error;
+    take(file, {});  // what holds if the file is wrong
+    if (!file.empty() && fs::is_regular_file(file, error))
+        take(file, read_file(file));
+    else if (!file.empty() && environment("VOXELUME_CONFIG") != nullptr)
+        fail_usage("VOXELUME_CONFIG is {}: there is no such file", quote(file.string()));
 }
 
 const std::vector<SettingValue>& loaded_settings() {

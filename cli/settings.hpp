@@ -34,7 +34,7 @@ std::filesystem::path settings_file();
 /// Reads the file, if there is one, and puts its values into the environment where that has none,
 /// for the library and for commands. To be called once, before there are threads. Throws
 /// Error::usage for a file that can't be read, lines that are no settings, and a file that
-/// VOXELUME_CONFIG names and that isn't there.
+/// VOXELUME_CONFIG names and that isn't there; no value of the file holds then.
 void load_settings();
 
 /// What load_settings found, in the order of the table.

@@ -26,15 +26,8 @@ ShardFile file_of(const Json& json) {
 }
 
 Json json_of(const ShardRows& rows) {
-    Json json = {{"first", rows.first},
-                 {"end", rows.end},
-                 {"height", rows.height},
-                 {"file", nullptr},
-                 {"hash", rows.hash},
-                 {"outputs", rows.outputs},
-                 {"exposure", rows.options.exposure},
-                 {"float", rows.options.float_color},
-                 {"channels", channel_names(rows.options.channels)}};
+    Json json = {{"first", rows.first}, {"end", rows.end},   {"height", rows.height},
+                 {"file", nullptr},     {"hash", rows.hash}, {"outputs", rows.outputs}};
     if (rows.file) json["file"] = json_of(*rows.file);
     return json;
 }
@@ -47,9 +40,6 @@ ShardRows rows_of(const Json& json) {
     if (!json.at("file").is_null()) rows.file = file_of(json.at("file"));
     rows.hash = json.at("hash").get<std::string>();
     rows.outputs = json.at("outputs").get<std::vector<std::string>>();
-    rows.options.exposure = json.at("exposure").get<double>();
-    rows.options.float_color = json.at("float").get<bool>();
-    rows.options.channels = parse_channels(json.at("channels").get<std::string>(), "channels");
     return rows;
 }
 
@@ -59,6 +49,9 @@ ShardManifest manifest_of(const Json& json) {
     manifest.scene = json.at("scene").get<std::string>();
     manifest.frames = json.at("frames").get<std::vector<int>>();
     manifest.outputs = json.at("outputs").get<std::vector<std::string>>();
+    manifest.options.exposure = json.at("exposure").get<double>();
+    manifest.options.float_color = json.at("float").get<bool>();
+    manifest.options.channels = parse_channels(json.at("channels").get<std::string>(), "channels");
     for (const Json& frame : json.at("own")) {
         ShardManifest::Frame& own = manifest.own.emplace_back();
         own.frame = frame.at("frame").get<int>();
@@ -75,11 +68,17 @@ ShardManifest manifest_of(const Json& json) {
 }  // namespace
 
 void write_manifest(const std::filesystem::path& file, const ShardManifest& manifest) {
-    Json json = {
-        {kFormatKey, kFormat},           {"software", fmt::format("voxelume {}", version())},
-        {"part", manifest.shard.number}, {"of", manifest.shard.count},
-        {"scene", manifest.scene},       {"frames", manifest.frames},
-        {"outputs", manifest.outputs},   {"own", Json::array()}};
+    Json json = {{kFormatKey, kFormat},
+                 {"software", fmt::format("voxelume {}", version())},
+                 {"part", manifest.shard.number},
+                 {"of", manifest.shard.count},
+                 {"scene", manifest.scene},
+                 {"frames", manifest.frames},
+                 {"outputs", manifest.outputs},
+                 {"exposure", manifest.options.exposure},
+                 {"float", manifest.options.float_color},
+                 {"channels", channel_names(manifest.options.channels)},
+                 {"own", Json::array()}};
     for (const ShardManifest::Frame& frame : manifest.own) {
         Json files = Json::array();
         for (const ShardFile& own : frame.files) files.push_back(json_of(own));

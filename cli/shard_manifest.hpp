@@ -23,15 +23,15 @@ struct ShardRows {
     std::optional<ShardFile> file;       ///< OpenEXR; none where there is no row
     std::string hash;                    ///< of the whole frame
     std::vector<std::string> outputs;    ///< the image's files, from the manifest's folder
-    ImageFileOptions options;            ///< how they are written
 };
 
 /// All that is told of a part.
 struct ShardManifest {
     Shard shard;
-    std::string scene;                 ///< hash of the run's first frame
+    std::string scene;                 ///< hash of all frames of the run
     std::vector<int> frames;           ///< of the whole run
     std::vector<std::string> outputs;  ///< of the run, as its options have them
+    ImageFileOptions options;          ///< how images are written
     struct Frame {
         int frame = 0;
         std::vector<ShardFile> files;

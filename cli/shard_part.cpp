@@ -2,6 +2,7 @@
 #include "cli/shard_part.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <utility>
@@ -45,6 +46,14 @@ std::vector<fs::path> files_of_volume(const fs::path& volume) {
     return files;
 }
 
+/// One hash of all frames of a run; that of its only frame is that frame's own.
+std::string joint_hash(const std::vector<std::string>& hashes) {
+    if (hashes.size() == 1) return hashes.front();
+    const std::string text = fmt::format("{}", fmt::join(hashes, " "));
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 /// The manifest's name is that of the first output as the options have it.
 fs::path manifest_path(const RenderCommand& command, const Shard& shard) {
     const std::vector<std::string>& outputs =
@@ -61,7 +70,8 @@ ShardPart::ShardPart(const RenderCommand& command, Scene& scene, FrameJob& job) 
         fail_usage("render: --shard writes files beside each other, and standard output has none");
     file_ = manifest_path(command, manifest_.shard);
     manifest_.frames = numbers_of(job.frames);
-    manifest_.scene = frame_hashes(scene, {manifest_.frames.front()}).front();
+    manifest_.options = job.image_files;
+    manifest_.scene = joint_hash(frame_hashes(scene, manifest_.frames));
     manifest_.outputs = command.outputs;
     manifest_.outputs.insert(manifest_.outputs.end(), command.volumes.begin(),
                              command.volumes.end());
@@ -79,7 +89,7 @@ void ShardPart::cut_image(const RenderCommand& command, Scene& scene, FrameJob& 
             "of one frame: leave --volume out");
     const ImagePart whole = part_of(command.crop, scene);
     const auto [first, end] = rows_of(manifest_.shard, whole.size[1]);
-    ShardRows rows{first, end, whole.size[1], {}, manifest_.scene, {}, job.image_files};
+    ShardRows rows{first, end, whole.size[1], {}, manifest_.scene, {}};
     for (const fs::path& file : frame.images) rows.outputs.push_back(described(file).name);
     rows_ = file_.string() + ".exr";
     job.image_files = {.float_color = true, .channels = needed_channels(job)};

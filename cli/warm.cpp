@@ -39,6 +39,7 @@ void warm_up(const WarmCommand& command, const std::string& input) {
     RenderOptions render;
     render.cache = cache_options(options);
     render.stop = interruptible.stop();
+    render.strict = options.strict;
     int compiled = 0;
     render.compiling = [&](int, int) { ++compiled; };
     if (!command.quiet) render.warn = warning_printer(false, [] {});

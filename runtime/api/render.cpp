@@ -136,6 +136,7 @@ class Run {
         batch.overlap = options_.overlap;
         batch.meshes = std::move(assets_);
         batch.progress = api::callback(options_.progress);
+        batch.is_part = options_.is_part;
         batch.warn = [this](std::span<const Warning> warnings) { tell(warnings); };
         batch.stop = options_.stop;
         return batch;

@@ -59,7 +59,8 @@ class Batch {
         BatchOutcome outcome = shares_image ? run_image_parts() : run_whole_frames();
         for (const Device& device : devices_) device.finish();
         outcome.is_cancelled = outcome.frames_done < options_.frames.size();
-        if (options_.warn && !outcome.is_cancelled) warnings_->end(scene_, options_.frames);
+        if (options_.warn && !outcome.is_cancelled)
+            warnings_->end(scene_, options_.frames, options_.is_part);
         outcome.check_seconds = checked.count();
         return outcome;
     }

@@ -128,11 +128,12 @@ void RunWarnings::add_light_warning(const Scene& scene) {
              warnings_);
 }
 
-void RunWarnings::end(const Scene& scene, std::span<const int> frames) {
+void RunWarnings::end(const Scene& scene, std::span<const int> frames, bool is_part) {
     const Scene first = scene_at(scene, frames.front());
-    if (!content_.objects)
+    const bool is_all = !is_part && scene.render.crop.is_whole();
+    if (is_all && !content_.objects)
         add_view_warning(first);
-    else if (!content_.light)
+    else if (is_all && !content_.light)
         add_light_warning(first);
     const std::span<const Warning> fresh = std::span(warnings_).subspan(told_);
     if (!fresh.empty()) warn_(fresh);

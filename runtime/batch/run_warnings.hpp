@@ -20,8 +20,9 @@ class RunWarnings {
     /// Takes note of a rendered frame.
     void add(const FrameResult& result);
 
-    /// Tells of what the frames had, and of what none of them shows.
-    void end(const Scene& scene, std::span<const int> frames);
+    /// Tells of what the frames had, and of what none of them shows; of the latter not where the
+    /// frames are a part of a run, or the images parts of their frames.
+    void end(const Scene& scene, std::span<const int> frames, bool is_part);
 
   private:
     bool has(WarningKind kind) const;

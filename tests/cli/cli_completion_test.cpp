@@ -65,8 +65,12 @@ TEST_F(CliCompletionTest, BashCompletesCommandsOptionsAndTheirWords) {
     EXPECT_EQ(completed("voxelume rend"), "render\n");
     EXPECT_EQ(completed("voxelume render a.json --prog"), "--progress\n");
     EXPECT_EQ(completed("voxelume render a.json --progress j"), "json\n");
+    EXPECT_EQ(completed("voxelume render a.json --light g"), "global\n");
+    EXPECT_EQ(completed("voxelume completion z"), "zsh\n");
     EXPECT_EQ(completed("voxelume help doc"), "doctor\n");
     EXPECT_EQ(completed("voxelume render tr"), "try.sh\n");
+    put_bytes(folder / "two words.json", "");
+    EXPECT_EQ(completed("voxelume render tw"), "two words.json\n");
 }
 
 TEST_F(CliCompletionTest, ThePageIsReadWithoutWarnings) {
@@ -86,9 +90,12 @@ TEST_F(CliCompletionTest, TheDoctorReportsWhatAFaultsReportNeeds) {
     const ProgramResult result = run("doctor --json --no-test");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const Json report = Json::parse(result.out);
-    for (const char* key : {"version", "system", "processors", "cache", "environment", "devices"})
+    for (const char* key : {"version", "commit", "built by", "with", "system", "processors",
+                            "cache", "environment", "devices"})
         EXPECT_TRUE(report.contains(key)) << key;
     EXPECT_FALSE(report.contains("tests"));
+    EXPECT_THAT(run_line("env VOXELUME_SIXTEEN=x voxelume doctor --no-test").out,
+                HasSubstr("  VOXELUME_SIXTEEN x\n"));
     EXPECT_EQ(run("doctor --no-test").exit_code, 0);
     EXPECT_EQ(run("doctor --device nothing").exit_code, 6);
 }

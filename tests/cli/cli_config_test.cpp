@@ -58,6 +58,41 @@ TEST_F(CliConfigTest, CommandsTakeValuesOfTheFileUnlessTheEnvironmentOrAnOptionS
     EXPECT_EQ(run_with(none, "VOXELUME_CONFIG=", render).exit_code, 0);
 }
 
+TEST_F(CliConfigTest, ATildeBeforeASlashIsTheHomeFolderWhereAPathBegins) {
+    const std::string file = "cache_dir = ~/base:/a~/b:~/top\ndevice = ~/cpu\n";
+    const std::string text =
+        run_with(file, "env -u VOXELUME_CACHE_DIR HOME=/home/me", "config").out;
+    EXPECT_THAT(text, HasSubstr("\"/home/me/base:/a~/b:/home/me/top\""));
+    EXPECT_THAT(text, HasSubstr("\"~/cpu\""));
+}
+
+TEST_F(CliConfigTest, AWrongKindOfProgressIsNamedByWhereItWasSet) {
+    const std::string render = "render scene.json -o a.png";
+    const auto fault = [&](const std::string& file, const std::string& variables,
+                           const std::string& options) {
+        const ProgramResult result = run_with(file, variables, render + options);
+        EXPECT_EQ(result.exit_code, 2);
+        return result.err;
+    };
+    EXPECT_THAT(fault("", "VOXELUME_PROGRESS=wild", ""),
+                HasSubstr("VOXELUME_PROGRESS: progress: there is no \"wild\""));
+    EXPECT_THAT(fault("\nprogress = wild\n", "", ""), HasSubstr("config:2: progress: there is no"));
+    EXPECT_THAT(fault("", "", " --progress wild"), HasSubstr("render: --progress: there is no"));
+}
+
+TEST_F(CliConfigTest, AWrongLineStopsNoCommandThatHelpsToFindIt) {
+    for (const char* command :
+         {"--version", "help", "-h", "help render", "doctor --no-test", "man", "completion bash"}) {
+        const ProgramResult result = run_with("devise = cpu\n", "", command);
+        EXPECT_EQ(result.exit_code, 0) << command;
+        EXPECT_THAT(result.err, HasSubstr("no setting named \"devise\"")) << command;
+        EXPECT_NE(result.out, "") << command;
+    }
+    EXPECT_THAT(run_with("devise = cpu\n", "VOXELUME_CACHE_MB=5", "config").out,
+                HasSubstr("VOXELUME_CACHE_MB"));
+    EXPECT_EQ(run_with("devise = cpu\n", "", "render scene.json -o a.png").exit_code, 2);
+}
+
 TEST_F(CliConfigTest, WrongLinesAreNamedByFileAndLine) {
     const auto fault = [&](const std::string& file) {
         const ProgramResult result = run_with(file, "", "config");

@@ -153,6 +153,26 @@ TEST_F(CliResumeTest, NeverKeepsWhateverIsThere) {
     EXPECT_THAT(result.err, HasSubstr("4 of 4 frames are there already"));
 }
 
+TEST_F(CliResumeTest, NeverKeepsAFileBesideAStream) {
+    put_bytes(folder / "keep.png", "mine");
+    const std::string line =
+        "sh -c 'voxelume render scene.json -q -o - -o {} "
+        "--overwrite never >piped.png'";
+    ASSERT_EQ(run_line(fmt::format(fmt::runtime(line), "keep.png")).exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "keep.png"), "mine");
+    ASSERT_EQ(run_line(fmt::format(fmt::runtime(line), "new.png")).exit_code, 0);
+    EXPECT_EQ(read_png(folder / "piped.png").width, 20);
+    EXPECT_TRUE(std::filesystem::exists(folder / "new.png"));
+}
+
+TEST_F(CliResumeTest, StatisticsAreWrittenWhereNothingIsLeftToRender) {
+    ASSERT_EQ(count_rendered(""), 8);
+    ASSERT_EQ(count_rendered("--resume --stats-json s.json"), 0);
+    EXPECT_EQ(Json::parse(bytes_of(folder / "s.json")).at("frames").size(), 0u);
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a.png --stats-json -"),
+                HasSubstr("--stats-json -: "));
+}
+
 TEST_F(CliResumeTest, VolumesWithHeadersCarryTheHashToo) {
     const std::string line =
         "render scene.json --volume v.#.nrrd --volume v.#.vdb --volume v.#.ply --volume v.#.raw";

@@ -124,6 +124,28 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_THAT(refusal("x.shard"), HasSubstr("is damaged"));
 }
 
+TEST_F(CliShardTest, FramesOfPartsWithOtherOptionsOrOfAnotherSceneAreRefused) {
+    const auto mixed = [&](const std::string& options) {
+        render_parts(kFrames, 2);
+        EXPECT_EQ(run(kFrames + options + " --shard 2/2").exit_code, 0);
+        return refusal("f.*.shard");
+    };
+    EXPECT_THAT(mixed("--exposure 3"), HasSubstr("options of images"));
+    EXPECT_THAT(mixed("--float"), HasSubstr("options of images"));
+    EXPECT_THAT(mixed("--channels RGBA,Z"), HasSubstr("options of images"));
+    // The first frame is the same in both.
+    EXPECT_THAT(mixed("--set 'animation.tracks[0].keys[1].value=9,9,8'"),
+                HasSubstr("the scene, one of its"));
+}
+
+TEST_F(CliShardTest, APartThatShowsNothingIsNotTakenForAnEmptyPicture) {
+    write_scene([](Json& scene) { scene["observer"]["look_at"] = {1.5, 0.2, 0.5}; });
+    const std::string line = "render scene.json --strict -q -o s.png ";
+    ASSERT_EQ(run(line).exit_code, 0);
+    EXPECT_EQ(run(line + "--shard 3/3").exit_code, 0);
+    EXPECT_EQ(run(line + "--crop 0,11,20,1").exit_code, 0);
+}
+
 TEST_F(CliShardTest, AFileThatChangedSinceIsRefused) {
     render_parts(kFrames, 3);
     const std::string bytes = bytes_of(folder / "f.02.exr");
@@ -151,6 +173,8 @@ TEST_F(CliShardTest, WhatCantBeCutIsAMistake) {
     for (const char* shard : {"0/2", "3/2", "2", "1/0", "a/b", "1/2/3", "-1/2"})
         EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o a.png --shard={}", shard)),
                     HasSubstr(fmt::format("--shard {}: give I/N", shard)));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a.png --shard 1/2 --overwrite never"),
+                HasSubstr("give --resume"));
     EXPECT_THAT(expect_failure(2, "render scene.json --volume a.nrrd --shard 1/2"),
                 HasSubstr("no volumetric image of one frame"));
     EXPECT_EQ(run_line("sh -c 'voxelume render scene.json -o - --shard 1/2 | cat; exit 2'").out,
