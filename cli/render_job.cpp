@@ -49,10 +49,18 @@ bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob&
     return !job.frames.empty();
 }
 
-/// Renders the files of a job, and tells of them while it does.
-Statistics render_files(const Scene& scene, const std::vector<Device>& devices, FrameJob job,
-                        const RenderCommand& command, const std::string& label, bool is_part) {
-    RenderProgress progress(label, job.frames.size(), style_of(command));
+/// The files of a run, or of a part of it.
+struct RunFiles {
+    FrameJob job;
+    std::string label;  ///< of the progress
+    bool is_part = false;
+};
+
+/// Renders the files of a run, and tells of them while it does.
+Statistics render_files(const Scene& scene, const std::vector<Device>& devices, RunFiles run,
+                        const RenderCommand& command) {
+    FrameJob& job = run.job;
+    RenderProgress progress(run.label, job.frames.size(), style_of(command));
     const Interruptible interruptible;
     RenderOptions render;
     render.stop = interruptible.stop();
@@ -62,7 +70,7 @@ Statistics render_files(const Scene& scene, const std::vector<Device>& devices, 
     render.progress = [&](double done, int frame) { progress.advance(done, frame); };
     render.compiling = [&](int kernel, int known) { progress.compiling(kernel, known); };
     render.strict = command.scene.strict;
-    render.is_part = is_part;
+    render.is_part = run.is_part;
     if (!command.quiet) render.warn = warning_printer(render.strict, [&] { progress.clear(); });
     const OutputStream stream(command.outputs);
     if (stream.is_wanted()) {
@@ -121,7 +129,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
                                              scene.file().string())));
     const double open_seconds = seconds();
     const bool is_part = part.has_value() || job.frames.size() < frames;
-    Statistics statistics = render_files(scene, devices, std::move(job), command, label, is_part);
+    Statistics statistics = render_files(scene, devices, {std::move(job), label, is_part}, command);
     statistics.open_seconds += open_seconds;
     if (part) part->write();
     statistics.total_seconds = seconds();

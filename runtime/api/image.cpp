@@ -79,9 +79,12 @@ const Plane<float>& plane_of(const Image& image, std::string_view channel) {
 
 /// The names of the planes that an OpenEXR file leaves out.
 std::vector<const char*> left_out(const v1::Channels& channels) {
+    constexpr size_t kPlanes = 13;
     std::vector<const char*> names;
+    names.reserve(kPlanes);
     const auto leave_out = [&names](bool is_shown, std::initializer_list<const char*> planes) {
-        if (!is_shown) names.insert(names.end(), planes);
+        if (is_shown) return;
+        for (const char* const plane : planes) names.push_back(plane);
     };
     leave_out(channels.color, {"R", "G", "B", "A"});
     leave_out(channels.depth, {"Z"});
