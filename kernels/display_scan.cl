@@ -195,7 +195,7 @@ static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, c
     if (VXL_SMOOTH && lanes_any(kinds.smooth))
         scan_smooth(s, w, voxel, kinds.smooth, kinds.lists, r);
     if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(p, s, w, voxel, kinds.exact, r);
-    return kinds.cubes;
+    return kinds.cubes | kinds.behind;
 }
 
 /// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
