@@ -18,8 +18,6 @@ std::string refusal(const Scene& scene, const Object& object) {
                "voxels only";
     const Model& model = scene.models[size_t(object.model)];
     if (model.solid && is_infinite(*model.solid)) return "its solid has no end";
-    if (scene.observer.display.layout == VolumeLayout::lattice)
-        return "the display's layout is \"lattice\", which shows the world's voxels";
     return "";
 }
 

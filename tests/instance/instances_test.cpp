@@ -217,8 +217,6 @@ TEST(Instance, WhatNeedsTheWorldsVoxelsIsRefusedWhenItIsForcedAndElseStaysThere)
     EXPECT_TRUE(is_instanced(scene, scene.objects[1]));
     scene.objects[1].moves = false;
     EXPECT_FALSE(is_instanced(scene, scene.objects[1]));
-    scene.observer.display.layout = VolumeLayout::lattice;
-    EXPECT_THAT(refusal(scene), testing::HasSubstr("lattice"));
 }
 
 }  // namespace

@@ -58,8 +58,9 @@ PlacementDifference difference_of(const std::string& name) {
     return difference;
 }
 
-// The light samples of a lamp are others in its model's voxels. voxels.json is left out: cubes of
-// its models are turned, and those of the world aren't.
+// The light samples of a lamp are others in its model's voxels. voxels.json is left out: an instance
+// keeps its model's cubes, turned with it, while the world shows those of its own lattice that they
+// become, and outlines of both are up to two voxels of that lattice apart.
 TEST(ShippedPlacements, LookAlikeInTheWorldAndAsInstances) {
     for (const char* name : {"bunny", "solids", "lamp", "pendulum", "drill"}) {
         const PlacementDifference found = difference_of(name);
