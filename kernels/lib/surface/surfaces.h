@@ -28,6 +28,8 @@ typedef struct {
     lane_int asks_side;  // mask: within_source isn't known yet, an instance's space will tell
     lane_int on_cube;    // mask: cubes in the cell where it begins are behind it; of scenes with
                          // instances, elsewhere on_surface tells
+    lane_int guesses;    // mask: fields' signs tell on which side it is, even where it begins on
+                         // them; of scenes with instances
 } RayState;
 
 /// What a packet has found so far.
