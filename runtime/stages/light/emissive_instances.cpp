@@ -4,6 +4,9 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <map>
+#include <optional>
+#include <span>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/stages/light/emissive_pieces.hpp"
@@ -24,32 +27,62 @@ EmissivePiece placed(EmissivePiece piece, const glm::dmat4& world_from_object,
     return piece;
 }
 
-}  // namespace
-
-std::vector<EmissivePiece> instance_pieces(const Device& device, const Features& features,
-                                           const Scene& scene, const Pyramid& world,
-                                           const Instance& instance) {
+/// The pieces of an instance's model, in the model's own space. `materials` are those of its
+/// groups.
+std::vector<EmissivePiece> model_pieces(const Device& device, const Features& features,
+                                        const Scene& scene, const Pyramid& world,
+                                        const Instance& instance,
+                                        std::span<const uint32_t> materials) {
     const InstanceModel& model = world.instances.models[instance.model];
-    const Object& object = scene.objects[instance.object];
     EmissiveSource source{.pyramid = world,
                           .first_sector = model.first_sector,
                           .first_triangle = model.first_triangle,
                           .triangle_count = model.triangle_count,
                           .is_emissive = {1},
-                          .light_samples = {object.light_samples}};
+                          .light_samples = {scene.objects[instance.object].light_samples}};
     source.pyramid.frame = model.frame;
     // Packed attributes of models hold numbers of groups; the last material is that of all further
     // ones.
-    const std::vector<uint32_t> materials =
-        world.instances.materials.read(instance.first_material, instance.material_count);
     for (size_t group = 0; group <= VXL_MATERIAL_MASK; ++group)
         source.emission.push_back(
             scene.materials[materials[std::min(group, materials.size() - 1)]].emission);
-    PiecesOfObjects found = pieces_of_source(device, features, source);
-    std::vector<EmissivePiece> pieces = std::move(found[0]);
-    for (EmissivePiece& piece : pieces)
-        piece = placed(piece, object.world_from_object, model.frame.origin, world.frame.origin);
-    return pieces;
+    return std::move(pieces_of_source(device, features, source)[0]);
+}
+
+/// What the pieces of a model depend on, besides the model's voxels.
+struct ModelUse {
+    uint32_t model = 0;
+    std::optional<int> light_samples;
+    std::vector<uint32_t> materials;
+
+    friend auto operator<=>(const ModelUse&, const ModelUse&) = default;
+};
+
+}  // namespace
+
+void add_instance_pieces(const Device& device, const Features& features, const Scene& scene,
+                         const Pyramid& world, const std::vector<uint32_t>& is_emissive,
+                         PiecesOfObjects& pieces) {
+    const InstanceSet& instances = world.instances;
+    if (instances.empty()) return;
+    const std::vector<uint32_t> materials = instances.materials.read();
+    std::map<ModelUse, std::vector<EmissivePiece>> known;
+    for (const Instance& instance : instances.list) {
+        if (is_emissive[instance.object] == 0) continue;
+        const Object& object = scene.objects[instance.object];
+        const InstanceModel& model = instances.models[instance.model];
+        const std::span<const uint32_t> own =
+            std::span(materials).subspan(instance.first_material, instance.material_count);
+        const ModelUse use{instance.model, object.light_samples, {own.begin(), own.end()}};
+        auto found = known.find(use);
+        if (found == known.end())
+            found = known.emplace(use, model_pieces(device, features, scene, world, instance, own))
+                        .first;
+        std::vector<EmissivePiece>& added = pieces[instance.object];
+        for (const EmissivePiece& piece : found->second)
+            added.push_back(
+                placed(piece, object.world_from_object, model.frame.origin, world.frame.origin));
+    }
 }
 
 }  // namespace voxelume

@@ -197,9 +197,7 @@ PiecesOfObjects emissive_pieces(const Device& device, const Features& features, 
                                 ? uint32_t(world.triangles.size() / kFloatsPerTriangle)
                                 : instances.models.front().first_triangle;
     if (has_placed) found = pieces_of_source(device, features, source);
-    for (const Instance& instance : instances.list)
-        if (is_emissive[instance.object] != 0)
-            found[instance.object] = instance_pieces(device, features, scene, world, instance);
+    add_instance_pieces(device, features, scene, world, is_emissive, found);
     return found;
 }
 

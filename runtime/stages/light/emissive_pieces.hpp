@@ -45,10 +45,11 @@ PiecesOfObjects emissive_pieces(const Device& device, const Features& features, 
 PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
                                  const EmissiveSource& source);
 
-/// The pieces of one instance, in the world.
-std::vector<EmissivePiece> instance_pieces(const Device& device, const Features& features,
-                                           const Scene& scene, const Pyramid& world,
-                                           const Instance& instance);
+/// Adds the pieces of emissive instances, in the world. Those of a model are found once for all
+/// instances that show it in the same materials.
+void add_instance_pieces(const Device& device, const Features& features, const Scene& scene,
+                         const Pyramid& world, const std::vector<uint32_t>& is_emissive,
+                         PiecesOfObjects& pieces);
 
 /// Adds only the triangles of the emissive objects.
 void add_emissive_triangles(const EmissiveSource& source, PiecesOfObjects& pieces);
