@@ -27,38 +27,29 @@ EmissivePiece placed(EmissivePiece piece, const glm::dmat4& world_from_object,
     return piece;
 }
 
-/// The pieces of an instance's model, in the model's own space. `materials` are those of its
-/// groups.
-std::vector<EmissivePiece> model_pieces(const Device& device, const Features& features,
-                                        const Scene& scene, const Pyramid& world,
-                                        const Instance& instance,
-                                        std::span<const uint32_t> materials) {
-    const InstanceModel& model = world.instances.models[instance.model];
+}  // namespace
+
+ModelUse model_use(const Scene& scene, const Instance& instance,
+                   std::span<const uint32_t> materials) {
+    const auto own = materials.subspan(instance.first_material, instance.material_count);
+    return {instance.model, scene.objects[instance.object].light_samples, {own.begin(), own.end()}};
+}
+
+EmissiveSource model_source(const Scene& scene, const Pyramid& world, const ModelUse& use) {
+    const InstanceModel& model = world.instances.models[use.model];
     EmissiveSource source{.pyramid = world,
                           .first_sector = model.first_sector,
                           .first_triangle = model.first_triangle,
                           .triangle_count = model.triangle_count,
                           .is_emissive = {1},
-                          .light_samples = {scene.objects[instance.object].light_samples}};
+                          .light_samples = {use.light_samples}};
     source.pyramid.frame = model.frame;
-    // Packed attributes of models hold numbers of groups; the last material is that of all further
-    // ones.
+    // Packed attributes of models hold numbers of groups.
     for (size_t group = 0; group <= VXL_MATERIAL_MASK; ++group)
         source.emission.push_back(
-            scene.materials[materials[std::min(group, materials.size() - 1)]].emission);
-    return std::move(pieces_of_source(device, features, source)[0]);
+            scene.materials[use.materials[std::min(group, use.materials.size() - 1)]].emission);
+    return source;
 }
-
-/// What the pieces of a model depend on, besides the model's voxels.
-struct ModelUse {
-    uint32_t model = 0;
-    std::optional<int> light_samples;
-    std::vector<uint32_t> materials;
-
-    friend auto operator<=>(const ModelUse&, const ModelUse&) = default;
-};
-
-}  // namespace
 
 void add_instance_pieces(const Device& device, const Features& features, const Scene& scene,
                          const Pyramid& world, const std::vector<uint32_t>& is_emissive,
@@ -71,13 +62,12 @@ void add_instance_pieces(const Device& device, const Features& features, const S
         if (is_emissive[instance.object] == 0) continue;
         const Object& object = scene.objects[instance.object];
         const InstanceModel& model = instances.models[instance.model];
-        const std::span<const uint32_t> own =
-            std::span(materials).subspan(instance.first_material, instance.material_count);
-        const ModelUse use{instance.model, object.light_samples, {own.begin(), own.end()}};
+        const ModelUse use = model_use(scene, instance, materials);
         auto found = known.find(use);
-        if (found == known.end())
-            found = known.emplace(use, model_pieces(device, features, scene, world, instance, own))
-                        .first;
+        if (found == known.end()) {
+            const EmissiveSource source = model_source(scene, world, use);
+            found = known.emplace(use, pieces_of_source(device, features, source)[0]).first;
+        }
         std::vector<EmissivePiece>& added = pieces[instance.object];
         for (const EmissivePiece& piece : found->second)
             added.push_back(

@@ -2,8 +2,11 @@
 // a world's emissive objects -> the pieces of surface that emit their light.
 #pragma once
 
+#include <array>
+#include <compare>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
@@ -28,6 +31,33 @@ struct EmissiveSource {
     std::vector<std::optional<int>> light_samples{};
     std::vector<glm::vec3> emission{};  ///< by materials' numbers in packed attributes
 };
+
+/// A piece as kernels list it, see shared/light_samples.h.
+using ListedPiece = std::array<uint32_t, 4>;
+
+/// The world's own voxels. `is_emissive` has a value per object; those of instances become 0.
+EmissiveSource world_source(const Scene& scene, const Pyramid& world,
+                            const std::vector<uint32_t>& is_emissive);
+
+/// A model as instances show it that differ in their places alone.
+struct ModelUse {
+    uint32_t model = 0;
+    std::optional<int> light_samples;
+    std::vector<uint32_t> materials;  ///< of its groups; the last is that of all further ones
+
+    friend auto operator<=>(const ModelUse&, const ModelUse&) = default;
+};
+
+/// `materials` are all of InstanceSet::materials.
+ModelUse model_use(const Scene& scene, const Instance& instance,
+                   std::span<const uint32_t> materials);
+
+EmissiveSource model_source(const Scene& scene, const Pyramid& world, const ModelUse& use);
+
+/// The voxels with emissive surfaces of any kind, sorted by z, y and x: in the place of the form
+/// the sides through which these are met.
+std::vector<ListedPiece> emissive_voxels(const Device& device, const Features& features,
+                                         const EmissiveSource& source);
 
 /// By objects' numbers.
 using PiecesOfObjects = std::map<uint32_t, std::vector<EmissivePiece>>;
