@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat images for callers: their planes, files and differences.
+// Flat images for callers: their planes and files.
 #include "runtime/image/image.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "runtime/api/frame_hash.hpp"
@@ -12,19 +11,14 @@
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/image/flip.hpp"
-#include "runtime/image/image_difference.hpp"
 #include "runtime/image/join_images.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 #include "runtime/voxelume/render.hpp"
 
 namespace voxelume {
 namespace {
-
-constexpr const char* kColors[] = {"R", "G", "B"};
 
 bool is_png(const std::filesystem::path& file) {
     const InputFile input(file);
@@ -45,27 +39,6 @@ Image image_from(const Picture& picture) {
         image.planes[kNames[channel]] = std::move(values);
     }
     return image;
-}
-
-/// Codes as the light that they stand for.
-void make_linear(Image& image) {
-    for (const char* name : kColors)
-        for (float& value : image.planes.at(name)) value = linear_from_srgb(double(value));
-}
-
-bool has_colors(const Image& image) {
-    const auto is_nan = [](float value) { return std::isnan(value); };
-    return std::ranges::all_of(kColors, [&](const char* name) {
-        const auto plane = image.planes.find(name);
-        return plane != image.planes.end() && std::ranges::none_of(plane->second, is_nan);
-    });
-}
-
-/// Nothing without colours, and for colours that aren't numbers.
-std::optional<double> flip_of(Image a, Image b, bool are_codes) {
-    if (!has_colors(a) || !has_colors(b)) return {};
-    if (are_codes) make_linear(a), make_linear(b);
-    return mean_flip(a, b);
 }
 
 const Plane<float>& plane_of(const Image& image, std::string_view channel) {
@@ -157,16 +130,6 @@ std::string encoded(std::string_view extension, const v1::Image::Implementation&
     });
 }
 
-v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
-    v1::ImageDifference result;
-    for (const ChannelDifference& c : difference.channels)
-        result.channels.push_back(
-            {c.channel, c.largest, c.rmse, c.mae, c.mrse, c.differing, c.unmatched});
-    result.only_in_a = difference.only_in_a;
-    result.only_in_b = difference.only_in_b;
-    return result;
-}
-
 }  // namespace
 
 v1::Image api::handle_of(std::shared_ptr<const Image> image, Attributes attributes,
@@ -252,23 +215,6 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
         const Image image = api::handle_of(
             std::make_shared<const voxelume::Image>(std::move(whole)), std::move(attributes));
         for (const std::filesystem::path& file : files) image.write(file, options);
-    });
-}
-
-ImageDifference compare(const Image& a, const Image& b) {
-    return api::guarded([&] {
-        const voxelume::Image& first = api::inside(a);
-        const voxelume::Image& second = api::inside(b);
-        if (a.holds_codes() != b.holds_codes())
-            throw voxelume::Error(voxelume::ErrorKind::usage,
-                                  "one image holds the codes of a PNG, the other light");
-        if (first.width != second.width || first.height != second.height)
-            throw voxelume::Error(voxelume::ErrorKind::render,
-                                  "one image has {} x {} pixels and the other {} x {}", first.width,
-                                  first.height, second.width, second.height);
-        ImageDifference result = difference_for_callers(compare_images(first, second));
-        result.flip = flip_of(first, second, a.holds_codes());
-        return result;
     });
 }
 

@@ -98,6 +98,8 @@ struct ChannelDifference {
     double mrse = 0;         ///< mean of ((a - b) / (|b| + 0.01))^2
     uint64_t differing = 0;  ///< pixels whose values are unequal
     uint64_t unmatched = 0;  ///< of these, pixels with a value that isn't finite: in no mean
+    uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; numbers of
+                             ///< objects: unequal ones
 };
 
 /// How far two images are apart.
@@ -106,11 +108,28 @@ struct ImageDifference {
     std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
     std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
     std::optional<double>
-        flip;  ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
+        flip;             ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
+    uint64_t pixels = 0;  ///< of each image
+    uint64_t above = 0;   ///< pixels above the threshold in some channel that both have
+};
+
+/// Which differences count.
+struct CompareOptions {
+    std::vector<std::string> channels{};  ///< these alone, and FLIP with R, G and B; empty: all
+    double threshold = 0;                 ///< |a - b| up to this isn't above it
 };
 
 /// Compares `a` with the reference `b`. Throws Error::render for images of different sizes,
-/// Error::usage where one holds codes and the other light.
-ImageDifference compare(const Image& a, const Image& b);
+/// Error::usage where one holds codes and the other light, and for channels that neither has.
+ImageDifference compare(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// A picture of |a - b|, channel by channel; 65504 where a value isn't finite. Of images that hold
+/// codes it is one whose codes in a PNG file are the differences of theirs. Throws as `compare`.
+Image difference_image(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// A picture of FLIP: a channel FLIP, 0..1, and as R, G, B a scale of heat from black, for what
+/// looks equal, over red and yellow to white. Throws as `compare`, and Error::usage for images
+/// without colours.
+Image flip_image(const Image& a, const Image& b);
 
 }  // namespace voxelume::v1
