@@ -159,17 +159,16 @@ class Run {
         const v1::FrameFiles& files = job_.frames[reports_.size()];
         reports_.push_back(result.report);
         api::Attributes attributes = attributes_of(scene_, files.frame);
-        const std::string hash = hashes_.of(files.frame);
         v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
         if (result.image) {
             api::Attributes all = attributes;
-            all[api::kFrameHash] = hash;
+            all[api::kFrameHash] = hashes_.of(files.frame);
             rendered.image = api::handle_of(result.image, std::move(all));
         }
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
             for (const auto& [name, text] : attributes) all[name] = text;
-            all[api::kStamp] = stamp_of(hash);
+            all[api::kStamp] = stamp_of(hashes_.of_volume(files.frame));
             rendered.volume = api::handle_of(result.volume, std::move(all));
         }
         write(rendered, files);
