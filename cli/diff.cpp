@@ -34,8 +34,8 @@ ImageDifference compare_files(const DiffFiles& files, const CompareOptions& opti
                     fmt::format("{} has {} x {} pixels and {} has {} x {}", files.a, a.width(),
                                 a.height(), files.b, b.width(), b.height()));
     ImageDifference difference = compare(a, b, options);
-    constexpr Channels kAll{true, true, true, true, true, true};
-    const ImageFileOptions whole{.float_color = true, .channels = kAll};
+    ImageFileOptions whole{.float_color = true};
+    for (const ChannelRow& row : channel_table()) whole.channels.*row.member = true;
     if (!files.output.empty()) difference_image(a, b, options).write(files.output, whole);
     if (!files.flip.empty()) flip_image(a, b).write(files.flip, whole);
     return difference;

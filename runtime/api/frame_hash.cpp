@@ -127,14 +127,11 @@ std::string hash_for_image(const std::string& hash, std::string_view ending,
     key.add_text(hash);
     const v1::Channels& c = options.channels;
     if (ending == ".png") key.add(options.exposure);
-    if (ending == ".exr")
-        key.add(options.float_color)
-            .add(c.color)
-            .add(c.depth)
-            .add(c.position)
-            .add(c.normal)
-            .add(c.object)
-            .add(c.distance);
+    if (ending == ".exr") {
+        key.add(options.float_color);
+        for (const v1::ChannelRow& row : v1::channel_table())
+            if (c.*row.member) key.add_text(row.name);
+    }
     const std::array<std::string_view, 2> parts = {ending, key.bytes()};
     return cache_key(parts);
 }

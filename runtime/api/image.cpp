@@ -50,21 +50,19 @@ const Plane<float>& plane_of(const Image& image, std::string_view channel) {
                 suggest(channel, names));
 }
 
+/// Nothing where the image has no such numbers.
+std::span<const uint32_t> ids_of(const Image& image, const char* plane) {
+    const auto found = image.id_planes.find(plane);
+    if (found == image.id_planes.end()) return {};
+    return {found->second.data(), found->second.size()};
+}
+
 /// The names of the planes that an OpenEXR file leaves out.
 std::vector<const char*> left_out(const v1::Channels& channels) {
-    constexpr size_t kPlanes = 13;
     std::vector<const char*> names;
-    names.reserve(kPlanes);
-    const auto leave_out = [&names](bool is_shown, std::initializer_list<const char*> planes) {
-        if (is_shown) return;
-        for (const char* const plane : planes) names.push_back(plane);
-    };
-    leave_out(channels.color, {"R", "G", "B", "A"});
-    leave_out(channels.depth, {"Z"});
-    leave_out(channels.position, {"P.X", "P.Y", "P.Z"});
-    leave_out(channels.normal, {"N.X", "N.Y", "N.Z"});
-    leave_out(channels.object, {"objectId"});
-    leave_out(channels.distance, {"distance"});
+    for (const v1::ChannelRow& row : v1::channel_table())
+        if (!(channels.*row.member))
+            names.insert(names.end(), row.planes.begin(), row.planes.end());
     return names;
 }
 
@@ -179,10 +177,11 @@ std::span<const float> Image::plane(std::string_view channel) const {
 }
 
 std::span<const uint32_t> Image::object_ids() const {
-    const auto& planes = api::inside(*this).id_planes;
-    const auto found = planes.find("objectId");
-    if (found == planes.end()) return {};
-    return {found->second.data(), found->second.size()};
+    return ids_of(api::inside(*this), "objectId");
+}
+
+std::span<const uint32_t> Image::material_ids() const {
+    return ids_of(api::inside(*this), "materialId");
 }
 
 void Image::copy(std::string_view channel, std::span<float> to) const {

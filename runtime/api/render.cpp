@@ -46,18 +46,12 @@ struct Wanted {
 };
 
 void add(const v1::Channels& more, v1::Channels& channels) {
-    channels.color |= more.color;
-    channels.depth |= more.depth;
-    channels.position |= more.position;
-    channels.normal |= more.normal;
-    channels.object |= more.object;
-    channels.distance |= more.distance;
+    for (const v1::ChannelRow& row : v1::channel_table()) channels.*row.member |= more.*row.member;
 }
 
 /// PNG files and volumetric images show colour, OpenEXR files and memory what their options say.
 Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
-    constexpr v1::Channels kNone{false, false, false, false, false};
-    Wanted wanted{job.deliver_images, job.deliver_volumes, kNone};
+    Wanted wanted{job.deliver_images, job.deliver_volumes, v1::kNoChannels};
     if (job.deliver_images) add(options.channels, wanted.channels);
     for (const v1::FrameFiles& frame : job.frames) {
         wanted.images |= !frame.images.empty();

@@ -18,13 +18,31 @@ namespace voxelume::v1 {
 
 /// What an image shows of a pixel. What isn't asked for isn't computed.
 struct Channels {
-    bool color = true;      ///< R G B A
-    bool depth = true;      ///< Z
-    bool position = true;   ///< P.X P.Y P.Z
-    bool normal = true;     ///< N.X N.Y N.Z
-    bool object = true;     ///< objectId
-    bool distance = false;  ///< distance
+    bool color = true;            ///< R G B A
+    bool depth = true;            ///< Z
+    bool position = true;         ///< P.X P.Y P.Z
+    bool normal = true;           ///< N.X N.Y N.Z
+    bool object = true;           ///< objectId
+    bool distance = false;        ///< distance
+    bool material = false;        ///< materialId
+    bool object_matte = false;    ///< Cryptomatte of the objects: CryptoObject00 to CryptoObject02
+    bool material_matte = false;  ///< ... of the materials: CryptoMaterial00 to CryptoMaterial02
+
+    friend bool operator==(const Channels&, const Channels&) = default;
 };
+
+/// A group of channels that is asked for together.
+struct ChannelRow {
+    std::string_view name;                ///< of the group: "RGBA", "CryptoObject"
+    bool Channels::*member;               ///< that asks for it
+    std::span<const char* const> planes;  ///< their names in files
+};
+
+/// All groups of channels, in the order in which people read them.
+std::span<const ChannelRow> channel_table();
+
+/// No channels at all.
+inline constexpr Channels kNoChannels{false, false, false, false, false};
 
 /// Colour alone: what a picture shows.
 inline constexpr Channels kColorAlone{true, false, false, false, false};
@@ -42,7 +60,8 @@ struct ImageFileOptions {
 /// Colour is linear Rec. 709 and multiplied by A. Z is the depth along the observer's axis in
 /// metres, and for displays that look backwards, too, the distance. `distance` counts along the
 /// sight ray, P is the point and N the normal in the world. Pixels that show no object have Z =
-/// distance = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene.
+/// distance = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene,
+/// and so do materials, after `default`, which is 1.
 class Image {
   public:
     /// Reads an OpenEXR file with all of its channels, or a PNG file, whose R G B A become codes
@@ -65,6 +84,8 @@ class Image {
     std::span<const float> plane(std::string_view channel) const;
     /// The numbers of the objects; empty where they weren't asked for.
     std::span<const uint32_t> object_ids() const;
+    /// Likewise those of the materials.
+    std::span<const uint32_t> material_ids() const;
 
     /// Copies a plane to the caller's memory of as many values. Throws Error::usage for another
     /// number of them.
