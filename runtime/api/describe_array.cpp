@@ -4,6 +4,7 @@
 
 #include "runtime/api/describe.hpp"
 
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 
 namespace voxelume::api {
@@ -18,11 +19,9 @@ Report coordinates_of(const Vector& v) {
 size_t colors_in(const VoxelModel& model) {
     std::set<uint32_t> colors;
     for (size_t i = 0; i < model.colors.size(); ++i) {
-        const size_t x = i & 15, y = i >> 4 & 15, z = i >> 8 & 15;
-        const size_t leaf = x >> 2 | y >> 2 << 2 | z >> 2 << 4;
-        const size_t bit = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
-        const uint64_t bits = model.occupancy[i / kVoxelsPerBrick * kLeavesPerBrick + leaf];
-        if (bits >> bit & 1) colors.insert(model.colors[i]);
+        const glm::ivec3 cell = cell_in_brick(i % kVoxelsPerBrick);
+        const size_t leaf = i / kVoxelsPerBrick * kLeavesPerBrick + leaf_in_brick(cell);
+        if ((model.occupancy[leaf] & bit_in_leaf(cell)) != 0) colors.insert(model.colors[i]);
     }
     return colors.size();
 }

@@ -9,12 +9,12 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/geometry/voxel_model.hpp"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kMargin = 4;               // voxels around an array, as around other models
 constexpr uint32_t kNoColor = 0xFFFFFF;  // of cells without a voxel
 
 std::array<std::ptrdiff_t, 3> strides_of(const v1::VoxelArray& array) {
@@ -31,14 +31,14 @@ void check(const v1::VoxelArray& array) {
                     quote(array.name), x, y, z);
     double bricks = 1;
     for (const int side : array.size) {
-        const int along = (std::min(side, kMaxVoxelsPerAxis) + 2 * kMargin) / kBrickSize + 1;
+        const int along = (std::min(side, kMaxVoxelsPerAxis) + 2 * kModelMargin) / kBrickSize + 1;
         bricks *= along;
     }
-    if (std::max({x, y, z}) > kMaxVoxelsPerAxis - 2 * kMargin || bricks > kMaxBricks)
+    if (std::max({x, y, z}) > kMaxVoxelsPerAxis - 2 * kModelMargin || bricks > kMaxBricks)
         throw Error(ErrorKind::limit,
                     "{}: an array of {} x {} x {} is too large: at most {} voxels along each axis "
                     "and {} bricks of 16 in all are possible",
-                    quote(array.name), x, y, z, kMaxVoxelsPerAxis - 2 * kMargin, kMaxBricks);
+                    quote(array.name), x, y, z, kMaxVoxelsPerAxis - 2 * kModelMargin, kMaxBricks);
 }
 
 /// Calls `act` with the cell of each voxel, counted with the margin, and its bytes.
@@ -49,14 +49,8 @@ void for_voxels(const v1::VoxelArray& array, const Act& act) {
         for (int y = 0; y < array.size[1]; ++y) {
             const uint8_t* voxel = array.rgba + y * strides[1] + z * strides[2];
             for (int x = 0; x < array.size[0]; ++x, voxel += strides[0])
-                if (voxel[3] != 0) act(glm::ivec3(x, y, z) + kMargin, voxel);
+                if (voxel[3] != 0) act(glm::ivec3(x, y, z) + kModelMargin, voxel);
         }
-}
-
-/// The place of a cell's brick in the table of slots.
-size_t brick_of(const glm::ivec3& cell, const glm::ivec3& bricks) {
-    const glm::ivec3 b = cell / kBrickSize;
-    return size_t(b.x) + size_t(bricks.x) * (size_t(b.y) + size_t(bricks.y) * size_t(b.z));
 }
 
 void number_bricks(const v1::VoxelArray& array, VoxelModel& model) {
@@ -83,19 +77,18 @@ VoxelModel model_of(const v1::VoxelArray& array) {
     check(array);
     VoxelModel model;
     model.surface = Surface::cubes;
-    model.frame.size = glm::ivec3(array.size[0], array.size[1], array.size[2]) + 2 * kMargin;
-    model.frame.origin = glm::dvec3(-kMargin);
+    model.frame.size = glm::ivec3(array.size[0], array.size[1], array.size[2]) + 2 * kModelMargin;
+    model.frame.origin = glm::dvec3(-kModelMargin);
     number_bricks(array, model);
     model.occupancy.assign(model.coordinates.size() * kLeavesPerBrick, 0);
     model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, kNoColor);
     const glm::ivec3 bricks = model.frame.bricks();
     for_voxels(array, [&](const glm::ivec3& cell, const uint8_t* rgba) {
         const size_t slot = model.slots[brick_of(cell, bricks)];
-        const glm::ivec3 in = cell % kBrickSize, leaf = in / kLeafSize, bit = in % kLeafSize;
-        model.occupancy[slot * kLeavesPerBrick + size_t(leaf.x | leaf.y << 2 | leaf.z << 4)] |=
-            uint64_t{1} << (bit.x | bit.y << 2 | bit.z << 4);
+        const glm::ivec3 in = cell % kBrickSize;
+        model.occupancy[slot * kLeavesPerBrick + leaf_in_brick(in)] |= bit_in_leaf(in);
         model.transparent |= rgba[3] < 255;
-        model.colors[slot * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8)] =
+        model.colors[slot * kVoxelsPerBrick + voxel_in_brick(in)] =
             uint32_t(rgba[0]) | uint32_t(rgba[1]) << 8 | uint32_t(rgba[2]) << 16 |
             uint32_t(255 - rgba[3]) << VXL_TRANSPARENCY_SHIFT;
     });

@@ -8,9 +8,6 @@
 
 namespace voxelume {
 
-/// The margin of empty voxels around a model. The differences of a smooth surface lie inside it.
-inline constexpr int kModelMargin = 4;
-
 /// The lattice of a model in its own space, with kModelMargin. `mesh` is null for a solid.
 ///
 /// Throws Error::input for a model without extent whose voxels `resolution` decides, and

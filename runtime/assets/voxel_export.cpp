@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "runtime/base/version.hpp"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/voxels/model_file.hpp"
@@ -21,11 +22,6 @@ std::string vector_text(const Vector& v) {
 
 const char* set_name(VoxelSet set) {
     return set == VoxelSet::solid ? "solid" : set == VoxelSet::thin ? "thin" : "supercover";
-}
-
-/// The voxel `number` of a brick; numbers count x fastest.
-glm::ivec3 in_brick(uint32_t number) {
-    return {int(number & 15), int(number >> 4 & 15), int(number >> 8)};
 }
 
 glm::vec3 linear_color(uint32_t code) {
@@ -95,27 +91,19 @@ void VoxelExport::write_model(const std::filesystem::path& path) const {
     write_model_file(path, file);
 }
 
-glm::ivec3 VoxelExport::brick_corner(uint32_t brick) const {
-    const glm::ivec3 bricks = frame_.bricks();
-    const int index = int(brick);
-    return kBrickSize *
-           glm::ivec3(index % bricks.x, index / bricks.x % bricks.y, index / bricks.x / bricks.y);
-}
-
 void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
-    const glm::ivec3 corner = brick_corner(coordinates_[slot]);
+    const glm::ivec3 corner = brick_corner(frame_, coordinates_[slot]);
     const double unit = shortest_edge(frame_) / kDistanceUnitsPerVoxel;
     for (uint32_t number = 0; number < kVoxelsPerBrick; ++number) {
         const size_t place = size_t(slot) * kVoxelsPerBrick + number;
-        const glm::ivec3 p = in_brick(number), leaf = p / kLeafSize, voxel = p % kLeafSize;
+        const glm::ivec3 p = cell_in_brick(number);
         if (stores_distances(surface_)) {
             const double distance = distance_[place];
             if (std::abs(distance) >= kExportBand * kDistanceUnitsPerVoxel) continue;
             cells.values.push_back(float(distance * unit));
         } else {
-            const size_t mask =
-                size_t(slot) * kLeavesPerBrick + size_t(leaf.x | leaf.y << 2 | leaf.z << 4);
-            if ((occupancy_[mask] >> (voxel.x | voxel.y << 2 | voxel.z << 4) & 1) == 0) continue;
+            const size_t leaf = size_t(slot) * kLeavesPerBrick + leaf_in_brick(p);
+            if ((occupancy_[leaf] & bit_in_leaf(p)) == 0) continue;
             cells.values.push_back(1);
         }
         cells.cells.push_back(corner + p);
@@ -127,9 +115,9 @@ void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
 void VoxelExport::add_full_bricks(Cells& cells) const {
     for (size_t brick = 0; brick < slots_.size(); ++brick) {
         if (slots_[brick] != kBrickInside) continue;
-        const glm::ivec3 corner = brick_corner(uint32_t(brick));
+        const glm::ivec3 corner = brick_corner(frame_, brick);
         for (uint32_t number = 0; number < kVoxelsPerBrick; ++number)
-            cells.cells.push_back(corner + in_brick(number));
+            cells.cells.push_back(corner + cell_in_brick(number));
     }
     cells.values.resize(cells.cells.size(), 1);
     if (!colors_.empty()) cells.colors.resize(cells.cells.size(), glm::vec3(1));

@@ -41,7 +41,6 @@ class VoxelExport {
         std::vector<glm::vec3> colors;
     };
 
-    glm::ivec3 brick_corner(uint32_t brick) const;
     void add_brick(uint32_t slot, Cells& cells) const;
     void add_full_bricks(Cells& cells) const;
 

@@ -8,6 +8,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "runtime/io/voxels/model_file.hpp"
@@ -19,7 +20,6 @@ namespace voxelume {
 namespace {
 
 constexpr double kFarthestCell = 1 << 30;
-constexpr int kMargin = 4;  // voxels around a volume, as around other models
 
 uint32_t srgb_byte(float linear) {
     const double v = std::clamp(double(linear), 0.0, 1.0);
@@ -34,8 +34,7 @@ void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first
     model.slots.assign(bricks_of(model.frame), kBrickOutside);
     const glm::ivec3 bricks = model.frame.bricks();
     for (size_t i = 0; i < cells.size(); ++i) {
-        const glm::ivec3 b = (cells[i] - first) / kBrickSize;
-        if (is_kept(i)) model.slots[b.x + size_t(bricks.x) * (b.y + size_t(bricks.y) * b.z)] = 0;
+        if (is_kept(i)) model.slots[brick_of(cells[i] - first, bricks)] = 0;
     }
     for (size_t brick = 0; brick < model.slots.size(); ++brick) {
         if (model.slots[brick] != 0) continue;
@@ -47,9 +46,8 @@ void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first
 
 /// The index of cell `v` of the model among the voxels of its stored bricks.
 size_t place_of(const VoxelModel& model, const glm::ivec3& v) {
-    const glm::ivec3 bricks = model.frame.bricks(), b = v / kBrickSize, in = v % kBrickSize;
-    const uint32_t slot = model.slots[b.x + size_t(bricks.x) * (b.y + size_t(bricks.y) * b.z)];
-    return size_t(slot) * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8);
+    const uint32_t slot = model.slots[brick_of(v, model.frame.bricks())];
+    return size_t(slot) * kVoxelsPerBrick + voxel_in_brick(v % kBrickSize);
 }
 
 void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFile& file,
@@ -64,12 +62,11 @@ void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFil
         model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFF);
     for (size_t i = 0; i < voxels.cells.size(); ++i) {
         if (!(voxels.values[i] > 0)) continue;
-        const glm::ivec3 v = voxels.cells[i] - first, leaf = v % kBrickSize / kLeafSize,
-                         in = v % kLeafSize;
+        const glm::ivec3 v = voxels.cells[i] - first;
         const size_t place = place_of(model, v);
-        model.occupancy[place / kVoxelsPerBrick * kLeavesPerBrick +
-                        size_t(leaf.x | leaf.y << 2 | leaf.z << 4)] |=
-            uint64_t{1} << (in.x | in.y << 2 | in.z << 4);
+        model
+            .occupancy[place / kVoxelsPerBrick * kLeavesPerBrick + leaf_in_brick(v % kBrickSize)] |=
+            bit_in_leaf(v);
         if (model.colors.empty()) continue;
         uint32_t word = 0xFFFFFF;
         if (!voxels.colors.empty()) {
@@ -85,24 +82,17 @@ void fill_distances(const VdbVoxels& voxels, const glm::ivec3& first, const Inpu
                     VoxelModel& model) {
     number_bricks(
         voxels.cells, first, [](size_t) { return true; }, file, model);
-    const glm::ivec3 bricks = model.frame.bricks();
     for (size_t brick = 0; brick < model.slots.size(); ++brick) {
         if (model.slots[brick] != kBrickOutside) continue;
-        const int index = int(brick);
-        const glm::ivec3 b(index % bricks.x, index / bricks.x % bricks.y,
-                           index / bricks.x / bricks.y);
-        if (voxels.value_at(first + b * kBrickSize) < 0) model.slots[brick] = kBrickInside;
+        if (voxels.value_at(first + brick_corner(model.frame, brick)) < 0)
+            model.slots[brick] = kBrickInside;
     }
     model.distance.resize(model.coordinates.size() * kVoxelsPerBrick);
     for (size_t slot = 0; slot < model.coordinates.size(); ++slot) {
-        const int index = int(model.coordinates[slot]);
-        const glm::ivec3 corner =
-            first + kBrickSize * glm::ivec3(index % bricks.x, index / bricks.x % bricks.y,
-                                            index / bricks.x / bricks.y);
-        for (int i = 0; i < int(kVoxelsPerBrick); ++i)
-            model.distance[slot * kVoxelsPerBrick + size_t(i)] =
-                voxels.value_at(corner + glm::ivec3(i & 15, i >> 4 & 15, i >> 8)) < 0 ? -32767
-                                                                                      : 32767;
+        const glm::ivec3 corner = first + brick_corner(model.frame, model.coordinates[slot]);
+        for (size_t i = 0; i < kVoxelsPerBrick; ++i)
+            model.distance[slot * kVoxelsPerBrick + i] =
+                voxels.value_at(corner + cell_in_brick(i)) < 0 ? -32767 : 32767;
     }
     const glm::dvec3& e = model.frame.voxel_edge;
     const double units = kDistanceUnitsPerVoxel / std::min({e.x, e.y, e.z});
@@ -118,12 +108,12 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
         low = glm::min(low, glm::dvec3(cell));
         high = glm::max(high, glm::dvec3(cell));
     }
-    const glm::dvec3 size = high - low + 1.0 + 2.0 * kMargin;
+    const glm::dvec3 size = high - low + 1.0 + 2.0 * kModelMargin;
     check_voxel_span(size, file);
     if (std::max(-std::min({low.x, low.y, low.z}), std::max({high.x, high.y, high.z})) >
         kFarthestCell)
         file.refuse("its voxels lie farther from its origin than can be counted");
-    const glm::ivec3 first = glm::ivec3(low) - kMargin;
+    const glm::ivec3 first = glm::ivec3(low) - kModelMargin;
     VoxelModel model;
     model.surface = surface;
     model.frame.size = glm::ivec3(size);

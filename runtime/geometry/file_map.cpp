@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "runtime/base/error.hpp"
+#include "runtime/grid/brick_cells.hpp"
 
 namespace voxelume {
 namespace {
@@ -22,19 +23,11 @@ SurfaceArea scaled(const SurfaceArea& area, double factor) {
     return {area.shadows * factor, area.total * factor};
 }
 
-/// The cell of a brick's voxel, whose coordinates are `x | y << 4 | z << 8`.
-glm::ivec3 cell_in_brick(size_t voxel) {
-    const int i = int(voxel);
-    return {i & 15, i >> 4 & 15, i >> 8};
-}
-
 /// Whether voxel `i` of the stored bricks has a part of the surface.
 bool is_shown(const VoxelModel& voxels, size_t slot, const glm::ivec3& cell, size_t i) {
     if (!voxels.distance.empty()) return std::abs(voxels.distance[i]) < kDistanceUnitsPerVoxel;
-    const glm::ivec3 leaf = cell / kLeafSize, in = cell % kLeafSize;
-    const uint64_t mask =
-        voxels.occupancy[slot * kLeavesPerBrick + size_t(leaf.x | leaf.y << 2 | leaf.z << 4)];
-    return (mask >> (in.x | in.y << 2 | in.z << 4) & 1) != 0;
+    const uint64_t mask = voxels.occupancy[slot * kLeavesPerBrick + leaf_in_brick(cell)];
+    return (mask & bit_in_leaf(cell)) != 0;
 }
 
 }  // namespace
@@ -68,13 +61,9 @@ MeshSummary mapped(const FileMap& map, const MeshSummary& summary) {
 
 Bounds occupied_bounds(const VoxelModel& voxels) {
     if (!voxels.mesh.triangles.empty()) return mesh_bounds(voxels.mesh);
-    const glm::ivec3 bricks = voxels.frame.bricks();
     glm::ivec3 first = voxels.frame.size, last(-1);
     for (size_t slot = 0; slot < voxels.coordinates.size(); ++slot) {
-        const int brick = int(voxels.coordinates[slot]);
-        const glm::ivec3 start =
-            kBrickSize *
-            glm::ivec3(brick % bricks.x, brick / bricks.x % bricks.y, brick / bricks.x / bricks.y);
+        const glm::ivec3 start = brick_corner(voxels.frame, voxels.coordinates[slot]);
         for (size_t i = 0; i < kVoxelsPerBrick; ++i) {
             const glm::ivec3 cell = cell_in_brick(i);
             if (!is_shown(voxels, slot, cell, slot * kVoxelsPerBrick + i)) continue;

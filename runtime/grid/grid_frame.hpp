@@ -15,6 +15,10 @@ inline constexpr int kSectorSize = 64;  ///< voxels along a sector's edge
 inline constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
 inline constexpr size_t kFloatsPerTriangle = 9;
 
+/// The margin of empty voxels around a model, whether it is voxelized or comes from a file. The
+/// differences of a smooth surface lie inside it.
+inline constexpr int kModelMargin = 4;
+
 /// The place of a grid's voxels: voxel (i,j,k) fills origin + edge * [(i,j,k), (i,j,k)+1].
 struct GridFrame {
     glm::dvec3 origin{0};      ///< minimum corner of voxel (0,0,0), metres in the grid's space

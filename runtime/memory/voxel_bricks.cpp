@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/grid/brick_cells.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -71,17 +73,11 @@ double size_in(const GridFrame& world, const GridFrame& file, const glm::dmat4& 
 }
 
 BrickCount count_leaves(const VoxelModel& cubes, LeafCounter& counter, TakenBricks& taken) {
-    const glm::ivec3 table = cubes.frame.bricks();
     for (size_t slot = 0; slot < cubes.coordinates.size(); ++slot) {
-        const int brick = int(cubes.coordinates[slot]);
-        const glm::ivec3 corner =
-            kBrickSize *
-            glm::ivec3(brick % table.x, brick / table.x % table.y, brick / table.x / table.y);
-        for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf) {
-            const glm::ivec3 place(leaf & 3, leaf >> 2 & 3, leaf >> 4);
+        const glm::ivec3 corner = brick_corner(cubes.frame, cubes.coordinates[slot]);
+        for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf)
             if (cubes.occupancy[slot * kLeavesPerBrick + leaf] != 0)
-                counter.add_leaf(corner + kLeafSize * place);
-        }
+                counter.add_leaf(corner + leaf_corner(leaf));
     }
     return counter.count(taken);
 }

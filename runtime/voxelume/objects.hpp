@@ -135,10 +135,10 @@ struct VoxelFile {
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<double> fit{};         ///< as of a mesh
     std::optional<Unit> unit{};          ///< likewise
-    /// Of an array of values: voxels have this value or more, and a smooth surface runs there.
+    /// Cells of an array with this value or more are voxels; a smooth surface runs at the value.
     std::optional<double> iso{};
-    std::optional<int> label{};  ///< instead: voxels have this value
-    bool each_label = false;     ///< instead: all values but 0, each in a colour of its own
+    std::optional<int> label{};  ///< instead: cells with this value are voxels
+    bool each_label = false;     ///< instead: cells with any value but 0 are, a colour for each
 };
 
 /// Voxels in memory, which a model shows as cubes: `VoxelFile{"NAME"}`, or "voxels": "NAME" in the

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence. It is
 // built once per format.
-#include "runtime/base/error.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "tests/fuzz/refusals.hpp"
 #include "tests/support/mesh_invariants.hpp"
-
-#include <cstdio>
-#include <cstdlib>
 
 namespace {
 
@@ -22,18 +19,9 @@ voxelume::Mesh mesh_of(const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace voxelume;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
-    try {
+    check_refusal(VXL_FUZZ_NAME, [&] {
         const std::string broken = broken_invariant(mesh_of(bytes));
-        if (!broken.empty()) {
-            std::fprintf(stderr, "invalid mesh: %s\n", broken.c_str());
-            std::abort();
-        }
-    } catch (const Error& error) {
-        const std::string sentence = error.what();
-        if (!sentence.starts_with(VXL_FUZZ_NAME)) {
-            std::fprintf(stderr, "no file in front of: %s\n", sentence.c_str());
-            std::abort();
-        }
-    }
+        if (!broken.empty()) fail_fuzzing("invalid mesh", broken);
+    });
     return 0;
 }

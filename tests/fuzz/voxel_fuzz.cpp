@@ -3,14 +3,12 @@
 // is built once per format.
 #include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 
 #include "runtime/assets/voxel_model_file.hpp"
-#include "runtime/base/error.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
+#include "tests/fuzz/refusals.hpp"
 #include "tests/support/voxel_invariants.hpp"
 
 namespace {
@@ -25,26 +23,10 @@ std::filesystem::path input_file() {
     return folder / (std::to_string(getpid()) + "." VXL_FUZZ_NAME);
 }
 
-[[noreturn]] void fail(const char* what, const std::string& text) {
-    std::fprintf(stderr, "%s: %s\n", what, text.c_str());
-    std::abort();
-}
-
-/// Does it, and holds what comes of it against what must be.
-template <class Action>
-void check(const std::filesystem::path& file, const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        const std::string sentence = error.what();
-        if (!sentence.starts_with(file.string())) fail("no file in front of", sentence);
-    }
-}
-
 void check_model(const std::filesystem::path& file, Surface surface, const VoxelValues& values) {
-    check(file, [&] {
+    check_refusal(file.string(), [&] {
         const std::string broken = broken_invariant(read_voxel_model(file, surface, 0, values));
-        if (!broken.empty()) fail("invalid model", broken);
+        if (!broken.empty()) fail_fuzzing("invalid model", broken);
     });
 }
 
@@ -62,6 +44,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (!format || !format->array) return 0;
     check_model(file, Surface::cubes, labels);
     check_model(file, Surface::smooth, above);
-    check(file, [&] { summary_of_array(format->array(file)); });
+    check_refusal(file.string(), [&] { summary_of_array(format->array(file)); });
     return 0;
 }

@@ -3,45 +3,27 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
-
-#include "runtime/io/gltf/gltf_accessor.hpp"
-#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
-#include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/parsed_gltf.hpp"
 
 namespace voxelume {
 namespace {
 
-using glm::uvec3;
-using glm::vec2;
 using glm::vec3;
-using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using Json = nlohmann::json;
-
-GltfFile parsed_file(const GltfWriter& writer) {
-    return {writer.gltf(), "a.gltf"};
-}
-
-std::string refusal_of_file(const GltfWriter& writer) {
-    return error_of([&] { gltf_mesh(parsed_file(writer), 0); }).what();
-}
 
 }  // namespace
 
 TEST(GltfFile, OfRequiredExtensionsThatAreNotReadIsRefusedAndOthersAreNoted) {
     GltfWriter writer = triangle_gltf();
     writer.json["extensionsUsed"] = {"KHR_draco_mesh_compression", "KHR_texture_transform"};
-    EXPECT_THAT(gltf_mesh(parsed_file(writer), 0).notes,
+    EXPECT_THAT(gltf_mesh(parsed_gltf(writer), 0).notes,
                 ElementsAre("its extension \"KHR_draco_mesh_compression\" isn't shown"));
     writer.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     EXPECT_EQ(
-        refusal_of_file(writer),
+        refusal_of_gltf(writer),
         "a.gltf: needs the extension \"KHR_draco_mesh_compression\", which isn't read; export it "
         "without");
 }
@@ -51,7 +33,7 @@ TEST(GltfFile, OfWrongPartsIsRefusedWithTheirPlaces) {
     const auto changed = [&](const std::string& pointer, const Json& value) {
         GltfWriter other = writer;
         other.json[Json::json_pointer(pointer)] = value;
-        return refusal_of_file(other);
+        return refusal_of_gltf(other);
     };
     EXPECT_THAT(changed("/asset/version", "1.0"), HasSubstr("version \"1.0\" of glTF"));
     EXPECT_THAT(changed("/accessors/0/count", 4), HasSubstr("accessors[0]: 4 elements"));

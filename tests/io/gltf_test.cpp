@@ -3,14 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
-
 #include "runtime/io/gltf/gltf_accessor.hpp"
-#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
-#include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/parsed_gltf.hpp"
 
 namespace voxelume {
 namespace {
@@ -18,26 +13,16 @@ namespace {
 using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
-using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using Json = nlohmann::json;
-
-GltfFile parsed(const GltfWriter& writer) {
-    return {writer.gltf(), "a.gltf"};
-}
-
-std::string refusal(const GltfWriter& writer) {
-    return error_of([&] { gltf_mesh(parsed(writer), 0); }).what();
-}
 
 template <class T>
 std::vector<float> read(const std::vector<T>& values, bool is_normalized) {
     GltfWriter writer;
     writer.accessor(values, "SCALAR", 1, is_normalized);
     writer.json["thing"]["of"] = 0;
-    const GltfFile file = parsed(writer);
+    const GltfFile file = parsed_gltf(writer);
     return gltf_values(file, file.root().at("thing"), "of", {1}).values;
 }
 
@@ -75,7 +60,7 @@ TEST(GltfNumbers, MayLieApartOrBeginLater) {
                                  {"count", 2},
                                  {"type", "VEC3"}}};
     writer.json["thing"]["of"] = 0;
-    const GltfFile file = parsed(writer);
+    const GltfFile file = parsed_gltf(writer);
     EXPECT_THAT(gltf_values(file, file.root().at("thing"), "of", {3}).values,
                 ElementsAre(1, 2, 3, 4, 5, 6));
 }
@@ -92,13 +77,13 @@ TEST(GltfNumbers, MayBeSparseWithOrWithoutAnArrayBelow) {
     writer.json["accessors"].push_back(
         {{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}, {"sparse", sparse}});
     writer.json["thing"] = {{"of", 0}, {"bare", 1}};
-    const GltfFile file = parsed(writer);
+    const GltfFile file = parsed_gltf(writer);
     const GltfValue thing = file.root().at("thing");
     EXPECT_THAT(gltf_values(file, thing, "of", {1}).values, ElementsAre(1, 20, 3, 40));
     EXPECT_THAT(gltf_values(file, thing, "bare", {1}).values, ElementsAre(0, 20, 0, 40));
     writer.json["accessors"][0]["count"] = 3;
     EXPECT_THAT(error_of([&] {
-                    const GltfFile damaged = parsed(writer);
+                    const GltfFile damaged = parsed_gltf(writer);
                     gltf_values(damaged, damaged.root().at("thing"), "of", {1});
                 }).what(),
                 HasSubstr("accessors[0].sparse.indices: names element 3 of 3"));
@@ -113,7 +98,7 @@ TEST(GltfNodes, HaveTheirWayThroughAllParents) {
          {"rotation", {0, 0.7071067811865476, 0, 0.7071067811865476}}},
         {{"mesh", 0}, {"matrix", {0, 1, 0, 0, -3, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}},
         {{"name", "shows nothing"}}};
-    const std::vector<GltfNode> nodes = gltf_nodes(parsed(writer));
+    const std::vector<GltfNode> nodes = gltf_nodes(parsed_gltf(writer));
     ASSERT_EQ(nodes.size(), 2u);
     EXPECT_EQ(nodes[0].name, "turned");
     EXPECT_THAT(frame_of(nodes[0]), ElementsAre(near({10, 20, 30}), near({10, 20, 28}),
@@ -130,7 +115,7 @@ TEST(GltfNodes, ThatAreInstancesAreOneEach) {
     writer.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"TRANSLATION", places}, {"ROTATION", turns}};
     writer.json["nodes"][0]["scale"] = {1, 1, 2};
-    const std::vector<GltfNode> nodes = gltf_nodes(parsed(writer));
+    const std::vector<GltfNode> nodes = gltf_nodes(parsed_gltf(writer));
     ASSERT_EQ(nodes.size(), 2u);
     EXPECT_THAT(frame_of(nodes[0]),
                 ElementsAre(near({1, 2, 6}), near({0, 2, 6}), near({1, 1, 6}), near({1, 2, 8})));
@@ -140,9 +125,10 @@ TEST(GltfNodes, ThatAreInstancesAreOneEach) {
 TEST(GltfNodes, ThatAreTheirOwnAncestorsAreRefused) {
     GltfWriter writer = triangle_gltf();
     writer.json["nodes"][0]["children"] = {0};
-    EXPECT_THAT(refusal(writer), HasSubstr("a.gltf: nodes[0]: is a child of two nodes"));
+    EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("a.gltf: nodes[0]: is a child of two nodes"));
     writer.json["nodes"][0]["children"] = {7};
-    EXPECT_THAT(refusal(writer), HasSubstr("nodes[0].children[0]: is the number of no node"));
+    EXPECT_THAT(refusal_of_gltf(writer),
+                HasSubstr("nodes[0].children[0]: is the number of no node"));
 }
 
 TEST(GltfMesh, StripsAndFansKeepTheirSides) {
@@ -155,7 +141,7 @@ TEST(GltfMesh, StripsAndFansKeepTheirSides) {
         if (!order.empty())
             writer.json["meshes"][0]["primitives"][0]["indices"] =
                 writer.accessor(order, "SCALAR", 1);
-        return gltf_mesh(parsed(writer), 1).triangles;
+        return gltf_mesh(parsed_gltf(writer), 1).triangles;
     };
     EXPECT_THAT(triangles(4, {0, 1, 2, 2, 1, 3}), ElementsAre(uvec3(0, 1, 2), uvec3(2, 1, 3)));
     EXPECT_THAT(triangles(5, {}), ElementsAre(uvec3(0, 1, 2), uvec3(1, 3, 2), uvec3(2, 3, 4)));
@@ -169,13 +155,13 @@ TEST(GltfMesh, WholeScenesHaveMeshesInTheirPlacesAndMirrorsTurnedRound) {
     writer.json["nodes"].push_back(
         {{"mesh", 0}, {"scale", {-2, 1, 4}}, {"translation", {1, 0, 0}}});
     writer.json["scenes"][0]["nodes"] = {0, 1};
-    const Mesh mesh = gltf_mesh(parsed(writer), 0);
+    const Mesh mesh = gltf_mesh(parsed_gltf(writer), 0);
     EXPECT_THAT(mesh.positions, ElementsAre(vec3(0), vec3(7, 0, 0), vec3(0, 5, 3), vec3(1, 0, 0),
                                             vec3(-13, 0, 0), vec3(1, 5, 12)));
     EXPECT_THAT(mesh.triangles, ElementsAre(uvec3(0, 1, 2), uvec3(3, 5, 4)));
     EXPECT_EQ(glm::normalize(mesh.normals.at(4)), vec3(0, 0, 1));
-    EXPECT_EQ(gltf_mesh(parsed(writer), 1).triangles.size(), 1u);
-    EXPECT_THAT(error_of([&] { gltf_mesh(parsed(writer), 2); }).what(),
+    EXPECT_EQ(gltf_mesh(parsed_gltf(writer), 1).triangles.size(), 1u);
+    EXPECT_THAT(error_of([&] { gltf_mesh(parsed_gltf(writer), 2); }).what(),
                 HasSubstr("has 1 meshes, and none of number 2"));
 }
 
@@ -209,7 +195,7 @@ TEST(GltfMesh, PrimitivesHaveTheirMaterialsColorsAndPlaces) {
           "data:image/png;base64,"
           "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4b8wAAANnATNXmcmTAAAA"
           "AElFTkSuQmCC"}}};
-    const Mesh mesh = gltf_mesh(parsed(writer), 0);
+    const Mesh mesh = gltf_mesh(parsed_gltf(writer), 0);
     EXPECT_THAT(mesh.group_names, ElementsAre("", "a 1", "material 2"));
     EXPECT_THAT(mesh.triangle_group, ElementsAre(0, 1, 2));
     EXPECT_EQ(mesh.vertex_colors.at(2), vec3(1));
@@ -228,11 +214,12 @@ TEST(GltfMesh, NormalsThatAreNoNumbersSayNothingAndPositionsAreRefused) {
     GltfWriter writer = triangle_gltf();
     writer.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
         writer.accessor(std::vector<float>{NAN, 0, 0, 0, 0, INFINITY, 0, 2, 0}, "VEC3", 3);
-    EXPECT_THAT(gltf_mesh(parsed(writer), 0).normals, ElementsAre(vec3(0), vec3(0), vec3(0, 2, 0)));
+    EXPECT_THAT(gltf_mesh(parsed_gltf(writer), 0).normals,
+                ElementsAre(vec3(0), vec3(0), vec3(0, 2, 0)));
     const int positions =
         writer.accessor(std::vector<float>{0, 0, 0, NAN, 0, 0, 0, 5, 3}, "VEC3", 3);
     writer.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = positions;
-    EXPECT_THAT(refusal(writer), HasSubstr("a vertex isn't finite"));
+    EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("a vertex isn't finite"));
 }
 
 TEST(GltfMesh, LeavesOutPointsAndLinesWithANote) {
@@ -240,9 +227,9 @@ TEST(GltfMesh, LeavesOutPointsAndLinesWithANote) {
     Json& primitives = writer.json["meshes"][0]["primitives"];
     primitives.push_back(primitives[0]);
     primitives[1]["mode"] = 0;
-    EXPECT_THAT(gltf_mesh(parsed(writer), 0).notes, ElementsAre(HasSubstr("points or lines")));
+    EXPECT_THAT(gltf_mesh(parsed_gltf(writer), 0).notes, ElementsAre(HasSubstr("points or lines")));
     primitives[0]["mode"] = 1;
-    EXPECT_THAT(refusal(writer), HasSubstr("has no triangles to show"));
+    EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("has no triangles to show"));
 }
 
 }  // namespace voxelume

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "kernels/shared/voxel.h"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
@@ -14,7 +15,6 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kClear = 255u << VXL_TRANSPARENCY_SHIFT;  // the colour of no voxel
-constexpr int kMargin = 4;  // voxels around a model, as around other models
 
 /// A cell's place along one axis of the model, by its number along the file's axis.
 struct AxisMap {
@@ -41,10 +41,10 @@ Layout layout_of(const CellArray& array, const InputFile& file) {
         map.is_mirrored = array.sign[axis] < 0;
         // A mirrored axis begins in the middle of a brick, where the file's cells end.
         const int room = map.is_mirrored ? (kBrickSize - count % kBrickSize) % kBrickSize : 0;
-        const int before = room >= kMargin ? room : room + kBrickSize;
+        const int before = room >= kModelMargin ? room : room + kBrickSize;
         map.first = map.is_mirrored ? (before + count) / kBrickSize - 1 : before / kBrickSize;
         map.step = map.is_mirrored ? -1 : 1;
-        layout.frame.size[axis] = before + count + kMargin;
+        layout.frame.size[axis] = before + count + kModelMargin;
         layout.frame.origin[axis] = array.first_corner[axis] - before * array.voxel_edge[axis];
     }
     layout.frame.voxel_edge = array.voxel_edge;
@@ -163,7 +163,8 @@ class ArrayCubes {
         with_type(array_.type, slabs.values(), [&](const auto* values) {
             if (!array_.is_color()) return choose(values + first, count, array_, values_, chosen);
             for (size_t i = 0; i < count; ++i) {
-                // Of four channels the last one decides, of three any.
+                // The fourth channel, an opacity, decides; without one, any colour but black is a
+                // voxel.
                 const size_t c_first = channels == 4 ? 3 : 0;
                 chosen[i] = 0;
                 for (size_t c = c_first; c < channels; ++c)

@@ -23,7 +23,7 @@ class ByteStream {
 
     /// Fills `data`. Throws Error::input where the file ends before that, or is damaged.
     void read(void* data, size_t size);
-    /// As many bytes as there are, `size` at most; returns how many.
+    /// Fills `data` with up to `size` bytes, fewer only at the file's end. Returns how many.
     size_t read_some(void* data, size_t size);
     void skip(uint64_t count);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
@@ -210,7 +211,7 @@ class ArraySurface {
     void number_bricks(VoxelModel& model) const {
         model.slots.resize(is_near_.size());
         for (size_t brick = 0; brick < is_near_.size(); ++brick) {
-            const glm::ivec3 first = corner(model, brick);
+            const glm::ivec3 first = brick_corner(model.frame, brick);
             if (is_near_[brick]) {
                 model.slots[brick] = uint32_t(model.coordinates.size());
                 model.coordinates.push_back(uint32_t(brick));
@@ -220,13 +221,6 @@ class ArraySurface {
             }
         }
         check_stored_bricks(model.coordinates.size(), file_);
-    }
-
-    static glm::ivec3 corner(const VoxelModel& model, size_t brick) {
-        const glm::ivec3 bricks = model.frame.bricks();
-        const int i = int(brick);
-        return kBrickSize *
-               glm::ivec3(i % bricks.x, i / bricks.x % bricks.y, i / bricks.x / bricks.y);
     }
 
     /// The distance that the node stores: the steepest step is a voxel long. Outside of the array
@@ -247,7 +241,7 @@ class ArraySurface {
     void fill(VoxelModel& model) const {
         model.distance.resize(model.coordinates.size() * kVoxelsPerBrick);
         for (size_t slot = 0; slot < model.coordinates.size(); ++slot) {
-            const glm::ivec3 first = corner(model, model.coordinates[slot]);
+            const glm::ivec3 first = brick_corner(model.frame, model.coordinates[slot]);
             int16_t* out = model.distance.data() + slot * kVoxelsPerBrick;
             for (int z = 0; z < kBrickSize; ++z)
                 for (int y = 0; y < kBrickSize; ++y)

@@ -18,7 +18,8 @@ namespace voxelume::volume_exr {
 
 /// The channels of four-byte floats that are read back, in the order of a sample's values.
 inline constexpr std::array<const char*, 5> kReadChannels = {"R", "G", "B", "A", "depth"};
-/// Those that are written: the ones that other programs want follow.
+/// The channels of floats that are written: those that are read back, then others that only other
+/// programs read.
 inline constexpr std::array<const char*, 8> kFloatChannels = {"R",     "G", "B",     "A",
                                                               "depth", "Z", "ZBack", "distance"};
 /// The channels of ids: the object's number plus 1 or 0 for none, the VoxelKind, and k.

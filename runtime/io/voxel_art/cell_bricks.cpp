@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "kernels/shared/voxel.h"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kBrickMargin = 4;  // voxels around a model, as around other models
 constexpr uint32_t kNoVoxel = 0xFFFFFFFF;
 constexpr uint32_t kWhite = 0xFFFFFF;
 
@@ -17,10 +17,10 @@ constexpr uint32_t kWhite = 0xFFFFFF;
 
 CellBricks::CellBricks(const glm::ivec3& low, const glm::ivec3& high, const InputFile& file)
     : file_(file) {
-    const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low) + 2.0 * kBrickMargin;
+    const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low) + 2.0 * kModelMargin;
     check_voxel_span(size, file);
     frame_.size = glm::ivec3(size);
-    first_ = low - kBrickMargin;
+    first_ = low - kModelMargin;
     frame_.origin = glm::dvec3(first_);
     bricks_ = frame_.bricks();
     numbers_.assign(bricks_of(frame_), kNone);
@@ -39,9 +39,8 @@ void CellBricks::add_cells(size_t bricks) {
 void CellBricks::fill_occupancy(const uint32_t* cells, uint64_t* leaves) const {
     for (size_t i = 0; i < kVoxelsPerBrick; ++i) {
         if (cells[i] == kNoVoxel) continue;
-        const size_t x = i & 15, y = i >> 4 & 15, z = i >> 8;
-        leaves[x >> 2 | y >> 2 << 2 | z >> 2 << 4] |= uint64_t{1}
-                                                      << ((x & 3) | (y & 3) << 2 | (z & 3) << 4);
+        const glm::ivec3 cell = cell_in_brick(i);
+        leaves[leaf_in_brick(cell)] |= bit_in_leaf(cell);
     }
 }
 

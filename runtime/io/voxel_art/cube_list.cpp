@@ -6,37 +6,28 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/grid/brick_cells.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr size_t kMaxCubes = size_t{1} << 28;
 
-glm::ivec3 first_cell(const VoxelModel& model, size_t brick) {
-    const glm::ivec3 bricks = model.frame.bricks();
-    const int i = int(brick);
-    return kBrickSize * glm::ivec3(i % bricks.x, i / bricks.x % bricks.y, i / bricks.x / bricks.y);
-}
-
 void add_stored(const VoxelModel& model, size_t slot, CubeList& cubes) {
-    const glm::ivec3 first = first_cell(model, model.coordinates[slot]);
+    const glm::ivec3 first = brick_corner(model.frame, model.coordinates[slot]);
     for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf)
         for (uint64_t bits = model.occupancy[slot * kLeavesPerBrick + leaf]; bits != 0;
              bits &= bits - 1) {
-            const int bit = std::countr_zero(bits), l = int(leaf);
-            const glm::ivec3 in = kLeafSize * glm::ivec3(l & 3, l >> 2 & 3, l >> 4) +
-                                  glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4);
+            const glm::ivec3 in = leaf_corner(leaf) + cell_in_leaf(std::countr_zero(bits));
             cubes.cells.push_back(first + in);
             if (!model.colors.empty())
-                cubes.colors.push_back(
-                    model.colors[slot * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8)]);
+                cubes.colors.push_back(model.colors[slot * kVoxelsPerBrick + voxel_in_brick(in)]);
         }
 }
 
 void add_full(const VoxelModel& model, size_t brick, CubeList& cubes) {
-    const glm::ivec3 first = first_cell(model, brick);
-    for (int i = 0; i < int(kVoxelsPerBrick); ++i)
-        cubes.cells.push_back(first + glm::ivec3(i & 15, i >> 4 & 15, i >> 8));
+    const glm::ivec3 first = brick_corner(model.frame, brick);
+    for (size_t i = 0; i < kVoxelsPerBrick; ++i) cubes.cells.push_back(first + cell_in_brick(i));
     if (!model.colors.empty()) cubes.colors.resize(cubes.cells.size(), 0xFFFFFF);
 }
 

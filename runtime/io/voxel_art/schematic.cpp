@@ -197,7 +197,8 @@ class SchematicReader {
                               n = size.whole(kAxes[size_t(axis)], file_);
                 if (std::abs(at) > kFarthestRegion || std::abs(n) > kMaxSide)
                     file_.refuse("a region is too large or too far away");
-                // Of a negative size, the position is the last block's.
+                // A negative size counts back from the position, which is then that of the last
+                // block.
                 region.first[axis] = int(n < 0 ? at + n + 1 : at);
                 region.size[axis] = int(std::abs(n));
             }

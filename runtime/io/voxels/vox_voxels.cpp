@@ -10,12 +10,12 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/base/huge_pages.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kVoxMargin = 4;  // voxels around a model, as around other models
 constexpr uint32_t kNoBrick = 0xFFFFFFFF;
 constexpr uint32_t kNoColor = 0xFFFFFF;  // of cells without a voxel
 
@@ -60,10 +60,10 @@ CellBox box_of(const Standing& standing) {
 class Cells {
   public:
     Cells(const CellBox& box, const InputFile& file) : file_(file) {
-        const glm::dvec3 size = glm::dvec3(box.high - box.low) + 2.0 * kVoxMargin;
+        const glm::dvec3 size = glm::dvec3(box.high - box.low) + 2.0 * kModelMargin;
         check_voxel_span(size, file);
         frame_.size = glm::ivec3(size);
-        first_ = box.low - kVoxMargin;
+        first_ = box.low - kModelMargin;
         frame_.origin = glm::dvec3(first_);
         numbers_.assign(bricks_of(frame_), kNoBrick);
     }

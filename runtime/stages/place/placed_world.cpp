@@ -60,6 +60,7 @@ std::optional<PlacedField> WorldPlacer::place_field(const PlacedObject& object,
 }
 
 void WorldPlacer::place_voxels(std::span<const PlacedObject> objects, const GridFrame& world) {
+    world_.voxels = {};  // or lists that are replaced would stay beside the new ones
     world_.voxels = voxels_.place(objects, world);
     painted_ += voxels_.painted_bricks();
     const std::vector<uint32_t>* changed = voxels_.changed_bricks();

@@ -14,6 +14,7 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/geometry/solid_membership.hpp"
 #include "runtime/geometry/solid_program.hpp"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 
@@ -24,13 +25,6 @@ constexpr double kBand = 2.8;  // distances within this many voxels of the surfa
 
 cl_int4 int4_of(const glm::ivec3& v) {
     return cl_int4{{v.x, v.y, v.z, 0}};
-}
-
-glm::ivec3 brick_corner(const GridFrame& frame, uint32_t brick) {
-    const glm::ivec3 bricks = frame.bricks();
-    const int index = static_cast<int>(brick);
-    return kBrickSize *
-           glm::ivec3(index % bricks.x, index / bricks.x % bricks.y, index / bricks.x / bricks.y);
 }
 
 /// The state that the steps of one call share.
@@ -133,13 +127,12 @@ class SolidVoxelizer {
         std::vector<uint64_t> occupancy = grid_.occupancy.read();
         const std::vector<uint32_t> coordinates = grid_.coordinates.read();
         for (size_t leaf = 0; leaf < undecided.size(); ++leaf) {
-            const auto in_brick = static_cast<int>(leaf % kLeavesPerBrick);
             const glm::ivec3 corner =
                 brick_corner(grid_.frame, coordinates[leaf / kLeavesPerBrick]) +
-                kLeafSize * glm::ivec3(in_brick & 3, in_brick >> 2 & 3, in_brick >> 4);
+                leaf_corner(leaf % kLeavesPerBrick);
             for (uint64_t left = undecided[leaf]; left != 0; left &= left - 1) {
                 const int bit = std::countr_zero(left);
-                const glm::ivec3 voxel = corner + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4);
+                const glm::ivec3 voxel = corner + cell_in_leaf(bit);
                 const uint64_t mask = uint64_t{1} << bit;
                 if (belongs(set, voxel))
                     occupancy[leaf] |= mask;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF files of a test's writer as the reader takes them.
+#pragma once
+
+#include <string>
+
+#include "runtime/io/gltf/gltf_mesh.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/gltf_writer.hpp"
+
+namespace voxelume {
+
+inline GltfFile parsed_gltf(const GltfWriter& writer) {
+    return {writer.gltf(), "a.gltf"};
+}
+
+/// What the reader says of a file whose mesh it refuses.
+inline std::string refusal_of_gltf(const GltfWriter& writer) {
+    return error_of([&] { gltf_mesh(parsed_gltf(writer), 0); }).what();
+}
+
+}  // namespace voxelume
