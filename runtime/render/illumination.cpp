@@ -78,6 +78,9 @@ void build_programs(const Device& device, const Features& features, const Scene&
     if (features.global) files.push_back("extend.cl");
     if (features.global && features.area_samples) files.push_back("area_light.cl");
     if (makes_image) files.push_back("resolve.cl");
+    const ImageChannels& channels = scene.render.channels;
+    if (makes_image && (channels.object_matte || channels.material_matte))
+        files.push_back("matte.cl");
     Program::build_together(device, files,
                             resolve_defines(device, features, scene.render.channels));
 }
