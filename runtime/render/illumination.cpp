@@ -51,12 +51,16 @@ Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features&
     return medium_overflows;
 }
 
-/// The numbers of the first records of the solids that let light through.
+/// The numbers of the first records of the solids that let light through, but for those of
+/// instances' models, which come after the world's.
 Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
                                      const Pyramid& world) {
     const std::vector<uint32_t> words = world.solids.read();
     std::vector<uint32_t> numbers;
-    for (uint32_t i = 0; i < words.size() / VXL_SOLID_WORDS; ++i) {
+    const std::vector<InstanceModel>& models = world.instances.models;
+    const auto end =
+        models.empty() ? uint32_t(words.size() / VXL_SOLID_WORDS) : models.front().first_solid;
+    for (uint32_t i = 0; i < end; ++i) {
         SolidShape shape;
         std::memcpy(&shape, &words[size_t(i) * VXL_SOLID_WORDS], sizeof shape);
         const uint32_t material = shape.attribute >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
