@@ -7,6 +7,7 @@
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 
@@ -81,6 +82,9 @@ void build_programs(const Device& device, const Features& features, const Scene&
     if (features.global) files.push_back("extend.cl");
     if (features.global && features.area_samples) files.push_back("area_light.cl");
     if (makes_image) files.push_back("resolve.cl");
+    const ImageChannels& channels = scene.render.channels;
+    if (makes_image && (channels.object_matte || channels.material_matte))
+        files.push_back("matte.cl");
     Program::build_together(device, files,
                             resolve_defines(device, features, scene.render.channels));
 }
@@ -114,6 +118,10 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.global) extend_.emplace(device, features, surroundings_);
     if (features.global && features.area_samples && !lights_.empty())
         area_lighting_.emplace(device, features, shade_.materials());
+    if (features.emitters != VXL_EMITTERS_NONE) {
+        emitters_ = build_emitters(device, features, scene, world);
+        shade_.set_emitters(emitters_);
+    }
     if (features.observer_in_medium) {
         hollow_ = hollow_objects(scene);
         hollow_flags_ =
@@ -199,6 +207,24 @@ void Illumination::bring_light(RayBatch& entries, uint32_t count) {
     if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
 }
 
+/// Follows the rays that paths have sent to emitters. They are apart from the paths' own rays, so
+/// that no two add to one sight ray at once.
+void Illumination::trace_to_emitters(PathDepth& depth, uint32_t count) {
+    NodeLight light = {depth.nodes.radiance, {}, depth.nodes.stride};
+    while (count > 0) {
+        secondary_rays_ += count;
+        std::swap(static_cast<RayQueue&>(depth.to_emitters), depth.next_to_emitters);
+        trace_.closest(world_, depth.to_emitters, count, true);
+        shade_.surface(world_, depth.to_emitters, count);
+        if (medium_) medium_->sight(world_, depth.to_emitters, count);
+        RayQueue none;
+        count = extend_
+                    ->paths(world_, sampling_, emitters_, depth.to_emitters, count, false, light,
+                            depth.next_to_emitters, none)
+                    .paths;
+    }
+}
+
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills
 /// their radiance and coverage.
 void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known) {
@@ -208,8 +234,11 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
         direct(*entries, count);
-        count =
-            extend_->paths(world_, sampling_, *entries, count, is_first, depth.nodes, depth.next);
+        const NextRays sent =
+            extend_->paths(world_, sampling_, emitters_, *entries, count, is_first, depth.nodes,
+                           depth.next, depth.next_to_emitters);
+        trace_to_emitters(depth, sent.to_emitters);
+        count = sent.paths;
         if (count > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;
         secondary_rays_ += count;

@@ -30,12 +30,15 @@ inline constexpr int kMaxImageSide = 65536;
 
 /// What a flat image shows of a pixel. What none of it needs isn't computed.
 struct ImageChannels {
-    bool color = true;      ///< R G B A
-    bool depth = true;      ///< Z
-    bool position = true;   ///< P.X P.Y P.Z
-    bool normal = true;     ///< N.X N.Y N.Z
-    bool object = true;     ///< objectId
-    bool distance = false;  ///< distance
+    bool color = true;            ///< R G B A
+    bool depth = true;            ///< Z
+    bool position = true;         ///< P.X P.Y P.Z
+    bool normal = true;           ///< N.X N.Y N.Z
+    bool object = true;           ///< objectId
+    bool distance = false;        ///< distance
+    bool material = false;        ///< materialId
+    bool object_matte = false;    ///< CryptoObject00 to CryptoObject02
+    bool material_matte = false;  ///< CryptoMaterial00 to CryptoMaterial02
 
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
 };
@@ -44,6 +47,13 @@ struct ImageChannels {
 enum class LightMode : uint8_t {
     local,   ///< that of lights, and along mirrored and refracted rays: Whitted 1980
     global,  ///< all of it, along random paths from surface to surface: Kajiya 1986
+};
+
+/// How paths of global light find emissive surfaces.
+enum class LampSearch : uint8_t {
+    both,   ///< by rays to them and by running into them, each as far as it is the likelier way
+    paths,  ///< by running into them
+    rays,   ///< by rays to them, but for what mirrors and glass show
 };
 
 /// The part of a larger picture that an image is.
@@ -64,7 +74,8 @@ struct RenderSettings {
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
     double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
     LightMode light = LightMode::local;
-    int bounces = 8;         ///< global light: times that a path is scattered, 0..64
+    int bounces = 8;  ///< global light: times that a path is scattered, 0..64
+    LampSearch lamps = LampSearch::both;
     ImageChannels channels;  ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
