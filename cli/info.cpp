@@ -35,19 +35,13 @@ Report report_of(const Facts& facts) {
 }
 
 void check_integrity(const std::string& path) {
-    const auto refuse = [&](const char* reason) {
-        throw Error(ErrorKind::input, path + ": " + reason, {path});
-    };
-    switch (verify_file(path)) {
-        case FileIntegrity::whole:
-            return;
-        case FileIntegrity::damaged:
-            refuse("is damaged: its bytes aren't those that were written");
-        case FileIntegrity::unknown:
-            refuse(
-                "has no checksum; .exr, .png, .nrrd, .vdb and .ply files that `render` writes "
-                "have one, and .vxm files");
-    }
+    const FileIntegrity found = verify_file(path);
+    if (found == FileIntegrity::whole) return;
+    const char* reason = found == FileIntegrity::damaged
+                             ? "is damaged: its bytes aren't those that were written"
+                             : "has no checksum; .exr, .png, .nrrd, .vdb and .ply files that "
+                               "`render` writes have one, and .vxm files";
+    throw Error(ErrorKind::input, path + ": " + reason, {path});
 }
 
 }  // namespace
