@@ -79,7 +79,7 @@ bool can_be_instance(const Scene& scene, const Object& object) {
 
 bool is_instanced(const Scene& scene, const Object& object) {
     if (object.placement == Placement::automatic)
-        return object.moves && can_be_instance(scene, object);
+        return object.moves && !transmits(scene, object) && can_be_instance(scene, object);
     return object.placement == Placement::instance;
 }
 

@@ -41,7 +41,8 @@ bool can_be_instance(const Scene& scene, const Object& object);
 
 /// True if rays are transformed into the object's space, instead of the object into the world's.
 ///
-/// `auto` is `world` for an object that stands still, and for one that can't be an instance.
+/// `auto` is `world` for an object that stands still, for one that can't be an instance, and for
+/// one that lets light through: whether rays begin inside of an instance, only tracing tells.
 bool is_instanced(const Scene& scene, const Object& object);
 
 /// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.

@@ -51,6 +51,17 @@ TEST(DisplaySkipping, LinesOfALatticeThatPassAllObjectsByAreNotSent) {
     EXPECT_EQ(empty.clear_display_lines, off.display_lines + off.clear_display_lines);
 }
 
+/// Opacities are measured on lines through the same voxels, four or more to a voxel's side.
+TEST(DisplaySkipping, LinesThatLookForOpacitiesCountToo) {
+    Scene scene = scene_of("40, 36, 32", "lattice");
+    Volume opaque, sheer;
+    const RenderReport once = report_of(scene, opaque);
+    scene.materials[0].opacity = 0.5f;
+    const RenderReport twice = report_of(scene, sheer);
+    EXPECT_GT(twice.display_lines, once.display_lines * 19 / 10);
+    EXPECT_GT(twice.clear_display_lines, once.clear_display_lines * 19 / 10);
+}
+
 TEST(DisplaySkipping, BeamsEndTilesThatSeeNothingAndChangeNoVoxel) {
     Volume with, without;
     const RenderReport many = report_of(scene_of("256, 256, 24", "rays"), with);

@@ -215,7 +215,8 @@ TEST(Instance, WhatNeedsTheWorldsVoxelsIsRefusedWhenItIsForcedAndElseStaysThere)
     EXPECT_FALSE(is_instanced(scene, scene.objects[1]));
     Scene smooth = scene;
     for (Model& model : smooth.models) model.surface = Surface::smooth;
-    EXPECT_TRUE(is_instanced(smooth, smooth.objects[1]));
+    EXPECT_FALSE(is_instanced(smooth, smooth.objects[1]));
+    EXPECT_TRUE(can_be_instance(smooth, smooth.objects[1]));
     scene.materials[size_t(scene.objects[1].material)].opacity = 1;
     EXPECT_TRUE(is_instanced(scene, scene.objects[1]));
     scene.objects[1].moves = false;

@@ -235,11 +235,9 @@ std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& 
 }
 
 void DisplayScanStage::scan_covers(const Pyramid& world, RayBatch& batch, const PointSink& sink) {
-    const uint64_t lines = lines_, clear_lines = clear_lines_;
     covers_ = true;
     scan_families(world, cover_families_, batch, sink);
     covers_ = false;
-    lines_ = lines, clear_lines_ = clear_lines;  // those of the scan itself
 }
 
 uint32_t DisplayScanStage::cover_lines(int axis) const {
