@@ -2,40 +2,31 @@
 #include "cli/channels.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <vector>
 
 #include "cli/checks.hpp"
 
 namespace voxelume::cli {
-namespace {
-
-constexpr std::array<std::pair<const char*, bool Channels::*>, 6> kNames = {
-    {{"RGBA", &Channels::color},
-     {"Z", &Channels::depth},
-     {"distance", &Channels::distance},
-     {"P", &Channels::position},
-     {"N", &Channels::normal},
-     {"objectId", &Channels::object}}};
-
-}  // namespace
 
 Channels parse_channels(const std::string& text, const char* origin) {
-    Channels channels{false, false, false, false, false};
+    const auto rows = channel_table();
+    Channels channels = kNoChannels;
     for (const std::string& name : listed({text})) {
-        const auto found =
-            std::ranges::find_if(kNames, [&](const auto& row) { return name == row.first; });
-        if (found == kNames.end())
-            fail_usage("{}: \"{}\" is none of RGBA, Z, distance, P, N and objectId", origin, name);
-        channels.*found->second = true;
+        const auto found = std::ranges::find(rows, name, &ChannelRow::name);
+        if (found == rows.end()) {
+            std::vector<std::string_view> names;
+            for (const ChannelRow& row : rows) names.push_back(row.name);
+            fail_usage("{}: there is no channel {}{}", origin, quote(name), suggest(name, names));
+        }
+        channels.*found->member = true;
     }
     return channels;
 }
 
 std::string channel_names(const Channels& channels) {
     std::string names;
-    for (const auto& [name, member] : kNames)
-        if (channels.*member) names += (names.empty() ? "" : ",") + std::string(name);
+    for (const ChannelRow& row : channel_table())
+        if (channels.*row.member) names += (names.empty() ? "" : ",") + std::string(row.name);
     return names;
 }
 

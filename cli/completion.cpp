@@ -92,6 +92,13 @@ std::string zsh_values(const OptionFacts& option) {
                                 : fmt::format(":value:({})", fmt::join(option.words, " "));
 }
 
+/// What follows a command: one of a few words, or files.
+std::string zsh_arguments(const CommandFacts& command) {
+    for (const OptionFacts& option : command.options)
+        if (option.names.empty() && !option.words.empty()) return "1" + zsh_values(option);
+    return "*:file:_files";
+}
+
 std::string zsh_script(const std::vector<CommandFacts>& commands) {
     std::string text = "#compdef voxelume\n_voxelume() {\n    local -a commands=(\n";
     for (const CommandFacts& command : commands)
@@ -108,7 +115,8 @@ std::string zsh_script(const std::vector<CommandFacts>& commands) {
                     fmt::format(" \\\n                {}",
                                 quoted(fmt::format("*{}[{}]{}", name, escaped(option.help, "[]:\\"),
                                                    zsh_values(option))));
-        text += " \\\n                '*:file:_files'\n            ;;\n";
+        text += fmt::format(" \\\n                {}\n            ;;\n",
+                            quoted(zsh_arguments(command)));
     }
     return text + "    esac\n}\n_voxelume \"$@\"\n";
 }
@@ -120,9 +128,10 @@ std::string fish_script(const std::vector<CommandFacts>& commands) {
                             command.name, quoted(escaped(command.help, "\\")));
     for (const CommandFacts& command : commands)
         for (const OptionFacts& option : command.options) {
-            if (option.names.empty()) continue;
-            text += fmt::format("complete -c voxelume -n '__fish_seen_subcommand_from {}'",
-                                command.name);
+            const bool is_argument = option.names.empty();
+            if (is_argument && option.words.empty()) continue;
+            text += fmt::format("complete -c voxelume -n '__fish_seen_subcommand_from {}'{}",
+                                command.name, is_argument ? " -f" : "");
             for (const std::string& name : option.names)
                 text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
             if (!option.words.empty())

@@ -1,117 +1,135 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume diff A B: how far two images are from each other.
+// voxelume diff A B: how far two images are from each other, or the frames of two animations.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <optional>
-#include <sstream>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/diff_files.hpp"
+#include "cli/diff_limits.hpp"
 #include "cli/report.hpp"
 
 namespace voxelume::cli {
 
 namespace {
 
-constexpr const char* kColors[] = {"R", "G", "B"};
-
-struct DiffOptions {
-    std::string a, b;
-    std::string channels;  ///< names with commas between them; empty: all
-    std::optional<double> fail;
+struct DiffCommand {
+    DiffNames names;
+    std::vector<std::string> channels;  ///< names with commas between them; empty: all
+    double threshold = 0;
+    DiffLimits limits;
     bool json = false;
 };
 
-/// Compares files; messages name them.
-ImageDifference compare_files(const DiffOptions& options) {
-    const Image a = Image::read(options.a), b = Image::read(options.b);
+/// Compares files, writes the pictures of it, and names the files in messages.
+ImageDifference compare_files(const DiffFiles& files, const CompareOptions& options) {
+    const Image a = Image::read(files.a), b = Image::read(files.b);
     if (a.holds_codes() != b.holds_codes())
-        fail_usage("diff: {} and {} aren't of one kind: a PNG holds codes, an EXR light", options.a,
-                   options.b);
+        fail_usage("diff: {} and {} aren't of one kind: a PNG holds codes, an EXR light", files.a,
+                   files.b);
     if (a.width() != b.width() || a.height() != b.height())
         throw Error(ErrorKind::render,
-                    fmt::format("{} has {} x {} pixels and {} has {} x {}", options.a, a.width(),
-                                a.height(), options.b, b.width(), b.height()));
-    return compare(a, b);
+                    fmt::format("{} has {} x {} pixels and {} has {} x {}", files.a, a.width(),
+                                a.height(), files.b, b.width(), b.height()));
+    ImageDifference difference = compare(a, b, options);
+    ImageFileOptions whole{.float_color = true};
+    for (const ChannelRow& row : channel_table()) whole.channels.*row.member = true;
+    if (!files.output.empty()) difference_image(a, b, options).write(files.output, whole);
+    if (!files.flip.empty()) flip_image(a, b).write(files.flip, whole);
+    return difference;
 }
 
-/// Leaves the channels that were asked for, and FLIP where all colours are among them.
-void select_channels(ImageDifference& difference, const std::string& list) {
-    std::vector<std::string_view> known(difference.only_in_a.begin(), difference.only_in_a.end());
-    known.insert(known.end(), difference.only_in_b.begin(), difference.only_in_b.end());
-    for (const ChannelDifference& channel : difference.channels) known.push_back(channel.channel);
-    std::vector<std::string> wanted;
-    std::istringstream stream(list);
-    for (std::string name; std::getline(stream, name, ',');) {
-        if (std::find(known.begin(), known.end(), name) == known.end())
-            fail_usage("diff: no channel named {}{}", quote(name), suggest(name, known));
-        wanted.push_back(name);
-    }
-    const auto unwanted = [&](const std::string& name) {
-        return std::find(wanted.begin(), wanted.end(), name) == wanted.end();
-    };
-    std::erase_if(difference.channels, [&](const auto& c) { return unwanted(c.channel); });
-    std::erase_if(difference.only_in_a, unwanted);
-    std::erase_if(difference.only_in_b, unwanted);
-    if (std::ranges::any_of(kColors, unwanted)) difference.flip.reset();
+Report row_of(const ChannelDifference& c) {
+    return {{"channel", c.channel},     {"max", c.max},
+            {"rmse", c.rmse},           {"mae", c.mae},
+            {"mrse", c.mrse},           {"differing", c.differing},
+            {"unmatched", c.unmatched}, {"above", c.above}};
 }
 
-Report make_report(const ImageDifference& difference) {
-    Report report;
-    report["channels"] = Report::array();
-    for (const ChannelDifference& c : difference.channels)
-        report["channels"].push_back({{"channel", c.channel},
-                                      {"max", c.max},
-                                      {"rmse", c.rmse},
-                                      {"mae", c.mae},
-                                      {"mrse", c.mrse},
-                                      {"differing", c.differing},
-                                      {"unmatched", c.unmatched}});
+void add_whole(const ImageDifference& difference, Report& report) {
     if (difference.flip) report["FLIP"] = *difference.flip;
+    report["pixels"] = difference.pixels;
+    report["above"] = difference.above;
     if (!difference.only_in_a.empty()) report["only in A"] = difference.only_in_a;
     if (!difference.only_in_b.empty()) report["only in B"] = difference.only_in_b;
+}
+
+Report report_of(const ImageDifference& difference) {
+    Report report;
+    report["channels"] = Report::array();
+    for (const ChannelDifference& c : difference.channels) report["channels"].push_back(row_of(c));
+    add_whole(difference, report);
     return report;
 }
 
-void check_limit(const ImageDifference& difference, double limit) {
-    const auto fail = [](const std::string& reason) {
-        throw Error(ErrorKind::render, "the images differ: " + reason);
-    };
-    for (const ChannelDifference& c : difference.channels) {
-        if (c.unmatched > 0)
-            fail(fmt::format("{} pixels of {} are finite in one only", c.unmatched, c.channel));
-        if (c.rmse > limit)
-            fail(fmt::format("the RMSE of {} is {:.6g}, above {:.6g}", c.channel, c.rmse, limit));
+/// A row of an animation's table: the channel with the largest RMSE stands for all.
+Report frame_row(int frame, const ImageDifference& difference) {
+    const auto worst = std::ranges::max_element(difference.channels, {}, &ChannelDifference::rmse);
+    const bool is_any = worst != difference.channels.end();
+    Report row = {{"frame", frame},
+                  {"worst", is_any ? Report(worst->channel) : Report()},
+                  {"max", is_any ? worst->max : 0},
+                  {"rmse", is_any ? worst->rmse : 0},
+                  {"FLIP", difference.flip ? Report(*difference.flip) : Report()},
+                  {"above", difference.above}};
+    return row;
+}
+
+int run(const DiffCommand& command) {
+    const CompareOptions options{listed(command.channels), command.threshold};
+    for (const std::string& picture : {command.names.output, command.names.flip})
+        if (!picture.empty()) check_output(picture, {".exr", ".png"}, "diff");
+    for (const std::string& input : {command.names.a, command.names.b})
+        check_distinct({input, command.names.output, command.names.flip}, "diff");
+    Report report;
+    std::optional<std::string> excess;
+    const bool is_animation = command.names.is_animation();
+    for (const DiffFiles& files : diff_files(command.names)) {
+        const ImageDifference difference = compare_files(files, options);
+        if (is_animation)
+            report["frames"].push_back(frame_row(files.frame, difference));
+        else
+            report = report_of(difference);
+        if (excess) continue;
+        excess = excess_of(difference, command.limits);
+        if (excess && is_animation) excess = fmt::format("frame {}: {}", files.frame, *excess);
     }
-    if (!difference.only_in_a.empty()) fail("only A has channel " + difference.only_in_a.front());
-    if (!difference.only_in_b.empty()) fail("only B has channel " + difference.only_in_b.front());
+    print_report(report, command.json);
+    if (excess) throw Error(ErrorKind::render, "the images differ: " + *excess);
+    return 0;
 }
 
 }  // namespace
 
 Action add_diff(CLI::App& app) {
-    auto options = std::make_shared<DiffOptions>();
-    app.add_option("A", options->a, "image to judge, OpenEXR or PNG")->required();
-    app.add_option("B", options->b, "reference image, of the same kind and size")->required();
-    app.add_option("--channels", options->channels, "compare only these channels, like R,G,B");
-    app.add_option("--fail", options->fail,
-                   "exit with 1 if a channel's RMSE is above this, a value is finite in one image "
-                   "only, or a channel is missing; ids are listed but never fail");
-    app.add_flag("--json", options->json, "print the result as JSON");
+    auto command = std::make_shared<DiffCommand>();
+    app.add_option("A", command->names.a, "image to judge, OpenEXR or PNG; #### is frames' number")
+        ->required();
+    app.add_option("B", command->names.b, "reference image, of the same kind and size")->required();
+    app.add_option("--channels", command->channels, "compare only these channels, like R,G,B")
+        ->allow_extra_args(false);
+    app.add_option("--frames", command->names.frames,
+                   "frames to compare, like 1-10; without it all of which there is a file");
+    app.add_option("--threshold", command->threshold,
+                   "count pixels as `above` that differ by more than this")
+        ->check(in_range(0, 1e30));
+    add_limit_options(app, command->limits);
+    app.add_option("-o,--output", command->names.output,
+                   "write a picture of |A - B|, .exr or .png; #### is frames' number");
+    app.add_option("--flip-map", command->names.flip,
+                   "write a picture of FLIP, .exr or .png: black, red, yellow, white as it grows");
+    app.add_flag("--json", command->json, "print the result as JSON");
     app.footer(
         "max, rmse, mae: largest, root mean square and mean absolute error; mrse: mean of\n"
         "((A - B) / (|B| + 0.01))^2; differing: pixels that aren't equal; unmatched: those of "
         "them\n"
-        "that aren't finite in both, which the errors leave out. FLIP: mean of what eyes see when\n"
-        "the images alternate, 0..1 (Andersson et al. 2020, LDR: light is cut to 0..1), at 67\n"
-        "pixels a degree.");
-    return [options] {
-        ImageDifference difference = compare_files(*options);
-        if (!options->channels.empty()) select_channels(difference, options->channels);
-        print_report(make_report(difference), options->json);
-        if (options->fail) check_limit(difference, *options->fail);
-        return 0;
-    };
+        "that aren't finite in both, which the errors leave out; above: pixels that differ by\n"
+        "more than --threshold, or are unmatched. FLIP: mean of what eyes see when the images\n"
+        "alternate, 0..1 (Andersson et al. 2020, LDR: light is cut to 0..1), at 67 pixels a\n"
+        "degree.");
+    return [command] { return run(*command); };
 }
 
 }  // namespace voxelume::cli

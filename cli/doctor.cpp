@@ -64,7 +64,12 @@ Report cache_report() {
     const fs::path folder = user_cache_folder();
     Report report;
     report["cache"] = folder.empty() ? "none: nothing is kept" : folder.string();
-    for (const fs::path& base : user_cache_bases()) report["cache bases"].push_back(base.string());
+    for (const fs::path& base : user_cache_bases()) {
+        const std::string refusal = cache_base_refusal(base);
+        report["cache bases"].push_back(
+            {{"folder", base.string()},
+             {"state", refusal.empty() ? "is read" : "isn't read: " + refusal}});
+    }
     if (folder.empty()) return report;
     std::error_code error;
     uintmax_t bytes = 0, files = 0;

@@ -27,28 +27,30 @@ Overwrite overwrite_of(const RenderCommand& command) {
 size_t skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
                      std::vector<FrameFiles>& frames) {
     if (overwrite == Overwrite::always) return 0;
-    std::vector<std::string> hashes;
-    if (overwrite == Overwrite::changed) hashes = frame_hashes(scene, numbers_of(frames));
+    const std::vector<int> numbers = numbers_of(frames);
+    std::vector<std::string> hashes, of_volumes;
+    if (overwrite == Overwrite::changed) {
+        hashes = frame_hashes(scene, numbers);
+        of_volumes = volume_hashes(scene, numbers);
+    }
     size_t skipped = 0;
     std::vector<FrameFiles> left;
     for (size_t i = 0; i < frames.size(); ++i) {
-        const auto is_finished = [&](const auto& check) {
-            return [&](const std::filesystem::path& file) {
-                std::error_code error;
-                if (overwrite == Overwrite::never) return std::filesystem::exists(file, error);
-                return check(file) == FrameFileState::current;
-            };
+        const auto has_image = [&](const std::filesystem::path& file) {
+            std::error_code error;
+            return overwrite == Overwrite::never
+                       ? std::filesystem::exists(file, error)
+                       : image_file_state(file, hashes[i], options) == FrameFileState::current;
         };
-        const auto check_image = [&](const auto& file) {
-            return image_file_state(file, hashes[i], options);
-        };
-        const auto check_volume = [&](const auto& file) {
-            return volume_file_state(file, hashes[i]);
+        const auto has_volume = [&](const std::filesystem::path& file) {
+            return overwrite == Overwrite::never
+                       ? !volume_files(file).empty()
+                       : volume_file_state(file, of_volumes[i]) == FrameFileState::current;
         };
         FrameFiles& files = frames[i];
         const size_t before = files.images.size() + files.volumes.size();
-        std::erase_if(files.images, is_finished(check_image));
-        std::erase_if(files.volumes, is_finished(check_volume));
+        std::erase_if(files.images, has_image);
+        std::erase_if(files.volumes, has_volume);
         if (before > 0 && files.images.empty() && files.volumes.empty())
             ++skipped;
         else

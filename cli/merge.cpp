@@ -45,11 +45,10 @@ std::string difference(const ShardManifest& a, const ShardManifest& b) {
         (a.rows && (a.rows->height != b.rows->height || a.rows->outputs != b.rows->outputs)))
         return "their images differ in size";
     const auto options = [](const ImageFileOptions& o) {
-        return std::tuple(o.exposure, o.view_transform, o.png_bits, o.float_color, o.channels.color,
-                          o.channels.depth, o.channels.distance, o.channels.position,
-                          o.channels.normal, o.channels.object);
+        return std::tuple(o.exposure, o.view_transform, o.png_bits, o.float_color);
     };
-    if (options(a.options) != options(b.options)) return "their options of images differ";
+    if (options(a.options) != options(b.options) || a.options.channels != b.options.channels)
+        return "their options of images differ";
     if (a.scene != b.scene || (a.rows && a.rows->hash != b.rows->hash))
         return "the scene, one of its files, its settings or the version differ";
     return {};

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;  // changes with the keys, and with what they mean
 constexpr const char* kFormatKey = "voxelume_shard";
 
 Json json_of(const ShardFile& file) {

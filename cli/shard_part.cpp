@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "cli/checks.hpp"
@@ -16,35 +15,6 @@ namespace voxelume::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The files that writing a volumetric image makes: some have a header of their own, and slices are
-/// a file each.
-std::vector<fs::path> files_of_volume(const fs::path& volume) {
-    std::vector<fs::path> files;
-    const auto add = [&](const fs::path& file) {
-        std::error_code error;
-        if (fs::is_regular_file(file, error)) files.push_back(file);
-    };
-    add(volume);
-    const std::string name = volume.filename().string();
-    const size_t last = name.find_last_of('#');
-    if (ending_of(volume) == ".raw") add(fs::path(volume).replace_extension(".json"));
-    if (ending_of(volume) == ".json") add(fs::path(volume).replace_extension(".raw"));
-    if (!files.empty() || last == std::string::npos) return files;
-    const size_t first = name.find_last_not_of('#', last) + 1;
-    const std::string start = name.substr(0, first), end = name.substr(last + 1);
-    std::error_code error;
-    const fs::path folder = volume.has_parent_path() ? volume.parent_path() : fs::path(".");
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        const std::string slice = entry.path().filename().string();
-        if (slice.size() > start.size() + end.size() && slice.starts_with(start) &&
-            slice.ends_with(end) &&
-            slice.find_first_not_of("0123456789", start.size()) == slice.size() - end.size())
-            files.push_back(volume.parent_path() / slice);
-    }
-    std::ranges::sort(files);
-    return files;
-}
 
 /// One hash of all frames of a run; that of its only frame is that frame's own.
 std::string joint_hash(const std::vector<std::string>& hashes) {
@@ -115,8 +85,7 @@ void ShardPart::write() const {
         own.frame = frame.frame;
         for (const fs::path& file : frame.images) own.files.push_back(described(file));
         for (const fs::path& volume : frame.volumes)
-            for (const fs::path& file : files_of_volume(volume))
-                own.files.push_back(described(file));
+            for (const fs::path& file : volume_files(volume)) own.files.push_back(described(file));
     }
     if (manifest.rows && manifest.rows->end > manifest.rows->first)
         manifest.rows->file = described(rows_);

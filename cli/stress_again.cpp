@@ -10,7 +10,7 @@ namespace voxelume::cli {
 namespace {
 
 /// Variables of the environment that change what a device does.
-constexpr std::array kSettings = {
+constexpr std::array kSettingsOfTests = {
     "VOXELUME_DEVICE",    "VOXELUME_LANES",         "VOXELUME_WORK_GROUP",   "VOXELUME_UNITS",
     "VOXELUME_BUFFER_MB", "VOXELUME_BUILD_OPTIONS", "POCL_MAX_PTHREAD_COUNT"};
 
@@ -27,7 +27,7 @@ std::string shell_word(const std::string& text) {
 
 std::string command_for(const std::string& test, uint64_t number, const StressCommand& command) {
     std::string text;
-    for (const char* name : kSettings)
+    for (const char* name : kSettingsOfTests)
         if (const char* value = std::getenv(name); value && *value)
             text += fmt::format("{}={} ", name, shell_word(value));
     text += fmt::format("voxelume stress --only {} --seed {} --rays 1 --first {}", test,

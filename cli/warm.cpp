@@ -92,7 +92,7 @@ Action add_warm(CLI::App& app) {
     app.add_option("--frames", command->frames,
                    "frames to render into nothing, like 1,20; the first by default");
     app.add_option("--channels", command->channels,
-                   "channels that images will have: some of RGBA,Z,distance,P,N,objectId");
+                   "channels that images will have, as `render --channels` names them");
     app.add_flag("--volume", command->volume, "prepare volumetric images, too");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };

@@ -150,12 +150,15 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
 /// those that go on along the ray that met the surface.
-static inline void enter_media(const Surroundings* around, const ScatterPoint* p,
-                               const RayBatch* batch, uint first, const Choice* way, NewRays* r) {
+static inline void enter_media(PyramidShape shape, const Surroundings* around,
+                               const ScatterPoint* p, const RayBatch* batch, uint first,
+                               const Choice* way, NewRays* r) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     const lane_int across = way->refracted | way->straight;
-    const lane_int same = way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f));
+    const lane_int of_instance = are_of_instances(batch, first);
+    const lane_int same =
+        way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~of_instance);
     MediumSet passed = load_medium_set(batch->paths, stride, first, p->valid);
     passed = cross_counted(passed, p->packed, p->leaving, way->straight, around->medium_overflows);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
@@ -173,6 +176,7 @@ static inline void enter_media(const Surroundings* around, const ScatterPoint* p
     r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
+    begin_behind(shape, batch, first, way->straight & of_instance, r);
     if (!VXL_CUBE_BODIES) return;
     const lane_int in_cell = way->refracted | (p->leaving & ~across);
     r->flags |= joined_flag(&r->media, around->materials) |
@@ -188,7 +192,7 @@ static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* aroun
     r.flags = VXL_PATH_ON_SURFACE | (LANES_AS_UINT(within) & VXL_PATH_WITHIN_SOURCE);
     r.medium = (lane_uint)0;
     set_out_ways(shape, p, batch, first, way, at, &r);
-    if (VXL_TRANSMISSION) enter_media(around, p, batch, first, way, &r);
+    if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, &r);
     for (int c = 0; c < 3; ++c) r.throughput[c] = way->throughput[c];
     return r;
 }

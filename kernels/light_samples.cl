@@ -25,6 +25,10 @@ static inline uint attributes_of_voxel(const SurfaceView* s, uint voxel) {
     return VXL_ATTRIBUTES ? s->attributes[voxel] : s->constant_attribute;
 }
 
+static inline bool is_cube_kind(uint kind) {
+    return kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
+}
+
 /// True if a cube fills the cell, or if the cell is outside of the world.
 static inline bool is_covered(const WorldView* world, bool is_model, int x, int y, int z) {
     const PyramidView* p = &world->pyramid;
@@ -41,7 +45,7 @@ static inline bool is_covered(const WorldView* world, bool is_model, int x, int 
     const uint in_leaf = (uint)((x & 3) | (y & 3) << 2 | (z & 3) << 4);
     if (!has_bit(low, high, in_leaf)) return false;
     const uint voxel = p->leaf_voxels[leaf] + bits_below(low, high, in_leaf);
-    return attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
+    return is_cube_kind(attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT);
 }
 
 /// The emissive surfaces to list, with a value per object and one per material. `found` counts all
@@ -119,15 +123,15 @@ static inline void list_emitter(const WorldView* world, const EmissivePieces* g,
     }
     if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
         list_piece(g, x, y, z, VXL_EMITTER_SIDES_ALL, voxel, packed);
-    if (kind != VXL_KIND_EXACT) return;
+    if (kind < VXL_KIND_EXACT) return;
     if (VXL_FIELD_LISTS) {
         const uint2 list = vload2(0, s->fields + (size_t)voxel * VXL_FIELD_WORDS);
         for (uint field = list.x; field < list.x + list.y; ++field)
             if (emits(g, s->attributes[field]))
                 list_piece(g, x, y, z, VXL_EMITTER_SIDES_ALL, field, s->attributes[field]);
     }
-    if (!VXL_EXACT) return;
-    const uint of = first_emission(s, g, voxel);
+    uint of = VXL_EXACT ? first_emission(s, g, voxel) : VXL_NO_EMISSION;
+    if (VXL_CUBES && kind == VXL_KIND_EXACT_IN_CUBE && emits(g, packed)) of = packed;
     if (of != VXL_NO_EMISSION) list_piece(g, x, y, z, VXL_EMITTER_SIDES_ALL, voxel, of);
 }
 
@@ -141,17 +145,17 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
         list_emitter(world, g, x, y, z, voxel, packed);
         return;
     }
-    if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
+    if (VXL_CUBES && is_cube_kind(kind) && emits(g, packed))
         list_faces(world, g, x, y, z, voxel, packed);
     if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
         list_piece(g, x, y, z, VXL_PIECE_FIELD, voxel, packed);
-    if (VXL_FIELD_LISTS && kind == VXL_KIND_EXACT) {
+    if (VXL_FIELD_LISTS && kind >= VXL_KIND_EXACT) {
         const uint2 list = vload2(0, s->fields + (size_t)voxel * VXL_FIELD_WORDS);
         for (uint field = list.x; field < list.x + list.y; ++field)
             if (emits(g, s->attributes[field]))
                 list_piece(g, x, y, z, VXL_PIECE_FIELD, field, s->attributes[field]);
     }
-    if (!VXL_SOLIDS || kind != VXL_KIND_EXACT) return;
+    if (!VXL_SOLIDS || kind < VXL_KIND_EXACT) return;
     for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
         if (!(s->primitives[i] & VXL_SOLID_PRIMITIVE)) continue;
         const uint solid = s->primitives[i] & ~VXL_SOLID_PRIMITIVE;

@@ -2,7 +2,8 @@
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
 // The build constants VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE, VXL_SHOWS_POSITION,
-// VXL_SHOWS_NORMAL and VXL_SHOWS_OBJECT, in addition to the features', are the channels asked for.
+// VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, in addition to the features', are the
+// channels asked for.
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
@@ -136,12 +137,19 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                      image + distance_plane * pixels);
 }
 
+/// Stores the numbers of what the `hit` pixels show, from 1 on, and 0 for others.
+static inline void store_number(lane_uint number, lane_int hit, const Pixels* at,
+                                global uint* restrict plane) {
+    store_pixels(LANES_AS_FLOAT(LANES_SELECT(hit, number + 1u, (lane_uint)0)), at,
+                 (global float*)plane);
+}
+
 /// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A Z distance
-/// P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart; `objects` holds the number of the
-/// object plus 1, 0 for none.
+/// P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart; `ids` holds the numbers of the
+/// object and the material plus 1, likewise, 0 for none.
 kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
-                           global float* restrict image, global uint* restrict objects,
+                           global float* restrict image, global uint* restrict ids,
                            global uint* restrict not_finite) {
     const uint item = work_item() * VXL_LANES;
     if (item >= tile_count * 16u) return;
@@ -157,9 +165,11 @@ kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origi
     const lane_int hit = LANE_MASK(s.shown != VXL_NO_VOXEL);
     const lane_uint ray = s.shown & LANES_AS_UINT(hit);
     store_geometry(&camera, shape.edge, world_origin, &batch, ray, hit, &at, pixels, image);
-    if (VXL_SHOWS_OBJECT) {
-        const lane_uint object = (LANES_GATHER_UINT(hit_attributes, ray) & VXL_OBJECT_MASK) + 1u;
-        store_pixels(LANES_AS_FLOAT(LANES_SELECT(hit, object, (lane_uint)0)), &at,
-                     (global float*)objects);
+    if (VXL_SHOWS_OBJECT || VXL_SHOWS_MATERIAL) {
+        const lane_uint packed = LANES_GATHER_UINT(hit_attributes, ray);
+        if (VXL_SHOWS_OBJECT) store_number(packed & VXL_OBJECT_MASK, hit, &at, ids);
+        if (VXL_SHOWS_MATERIAL)
+            store_number((packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK, hit, &at,
+                         ids + VXL_SHOWS_OBJECT * pixels);
     }
 }

@@ -15,6 +15,8 @@ std::vector<py::ssize_t> shape_of(const Image& image) {
 
 py::array plane(const py::object& self, const std::string& channel) {
     const auto& image = self.cast<const Image&>();
+    if (channel == "materialId" && !image.material_ids().empty())
+        return view(image.material_ids().data(), shape_of(image), self);
     if (channel == "objectId" && !image.object_ids().empty())
         return view(image.object_ids().data(), shape_of(image), self);
     if (!image.has(channel)) throw py::key_error(channel);
@@ -54,6 +56,7 @@ py::dict difference(const Image& a, const Image& b) {
 std::vector<std::string> channels_of(const Image& image) {
     std::vector<std::string> names = image.channels();
     if (!image.object_ids().empty()) names.emplace_back("objectId");
+    if (!image.material_ids().empty()) names.emplace_back("materialId");
     return names;
 }
 

@@ -38,7 +38,8 @@ class DevicesInUse {
 };
 
 voxelume::Channels channels_of(const std::vector<std::string>& names) {
-    voxelume::Channels channels{false, false, false, false, false};
+    voxelume::Channels channels = voxelume::kNoChannels;
+    const auto rows = voxelume::channel_table();
     for (const std::string& name : names) {
         if (name == "color")
             channels.color = true;
@@ -50,10 +51,14 @@ voxelume::Channels channels_of(const std::vector<std::string>& names) {
             channels.normal = true;
         else if (name == "object")
             channels.object = true;
+        else if (const auto row = std::ranges::find(rows, name, &voxelume::ChannelRow::name);
+                 row != rows.end())
+            channels.*row->member = true;
         else
-            throw voxelume::Error(voxelume::ErrorKind::usage, "no channel named \"" + name +
-                                                                  "\": there are color, depth, "
-                                                                  "position, normal and object");
+            throw voxelume::Error(voxelume::ErrorKind::usage,
+                                  "no channel named \"" + name +
+                                      "\": there are color, depth, position, normal and object, "
+                                      "and the names of --channels");
     }
     return channels;
 }

@@ -134,7 +134,8 @@ void add_points(const Scene& scene, const Pyramid& world, Features& features) {
     const bool all = features.radiance && (features.paths || has_light(scene, world));
     features.positions = all || channels.depth || channels.distance || channels.position;
     features.normals = all || channels.normal;
-    features.hit_attributes = all || channels.object;
+    features.hit_attributes = all || channels.object || channels.material ||
+                              channels.object_matte || channels.material_matte;
 }
 
 /// An upper bound of the depth for which arrays are reserved: a ray ends when its weight is too

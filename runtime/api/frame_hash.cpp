@@ -88,13 +88,20 @@ void add_settings(const RenderSettings& render, CacheKey& key) {
     key.add(render.samples).add(int(render.light));
 }
 
+/// The settings of the whole picture that a crop is a part of.
+RenderSettings without_crop(RenderSettings render) {
+    if (render.crop.frame.x > 0) render.size = render.crop.frame;
+    render.crop = {};
+    return render;
+}
+
 }  // namespace
 
-std::string FrameHashes::of(int frame) {
+std::string FrameHashes::hash(int frame, bool is_of_volume) {
     const Scene& scene = inside(scene_);
     CacheKey key;
     key.add_text(version()).add_text(scene_.implementation().hash);
-    add_settings(scene.render, key);
+    add_settings(is_of_volume ? without_crop(scene.render) : scene.render, key);
     if (moves(scene)) key.add(frame);
     const auto adder = [&](std::string (*read)(const std::filesystem::path&)) {
         return [this, &key, read](const std::filesystem::path& file) {
@@ -121,14 +128,11 @@ std::string hash_for_image(const std::string& hash, std::string_view ending,
     const v1::Channels& c = options.channels;
     if (ending == ".png")
         key.add(options.exposure).add(int(options.view_transform)).add(options.png_bits);
-    if (ending == ".exr")
-        key.add(options.float_color)
-            .add(c.color)
-            .add(c.depth)
-            .add(c.position)
-            .add(c.normal)
-            .add(c.object)
-            .add(c.distance);
+    if (ending == ".exr") {
+        key.add(options.float_color);
+        for (const v1::ChannelRow& row : v1::channel_table())
+            if (c.*row.member) key.add_text(row.name);
+    }
     const std::array<std::string_view, 2> parts = {ending, key.bytes()};
     return cache_key(parts);
 }
@@ -136,15 +140,27 @@ std::string hash_for_image(const std::string& hash, std::string_view ending,
 }  // namespace voxelume::api
 
 namespace voxelume::v1 {
+namespace {
 
-std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames) {
+std::vector<std::string> hashes_of(const Scene& scene, const std::vector<int>& frames,
+                                   std::string (api::FrameHashes::*hash)(int frame)) {
     return api::guarded([&] {
         api::FrameHashes hashes(scene);
         std::vector<std::string> list;
         list.reserve(frames.size());
-        for (const int frame : frames) list.push_back(hashes.of(frame));
+        for (const int frame : frames) list.push_back((hashes.*hash)(frame));
         return list;
     });
+}
+
+}  // namespace
+
+std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames) {
+    return hashes_of(scene, frames, &api::FrameHashes::of);
+}
+
+std::vector<std::string> volume_hashes(const Scene& scene, const std::vector<int>& frames) {
+    return hashes_of(scene, frames, &api::FrameHashes::of_volume);
 }
 
 FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,

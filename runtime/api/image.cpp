@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat images for callers: their planes, files and differences.
+// Flat images for callers: their planes and files.
 #include "runtime/image/image.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "runtime/api/frame_hash.hpp"
@@ -12,19 +11,14 @@
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/image/flip.hpp"
-#include "runtime/image/image_difference.hpp"
 #include "runtime/image/join_images.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 #include "runtime/voxelume/render.hpp"
 
 namespace voxelume {
 namespace {
-
-constexpr const char* kColors[] = {"R", "G", "B"};
 
 bool is_png(const std::filesystem::path& file) {
     const InputFile input(file);
@@ -47,27 +41,6 @@ Image image_from(const Picture& picture) {
     return image;
 }
 
-/// Codes as the light that they stand for.
-void make_linear(Image& image) {
-    for (const char* name : kColors)
-        for (float& value : image.planes.at(name)) value = linear_from_srgb(double(value));
-}
-
-bool has_colors(const Image& image) {
-    const auto is_nan = [](float value) { return std::isnan(value); };
-    return std::ranges::all_of(kColors, [&](const char* name) {
-        const auto plane = image.planes.find(name);
-        return plane != image.planes.end() && std::ranges::none_of(plane->second, is_nan);
-    });
-}
-
-/// Nothing without colours, and for colours that aren't numbers.
-std::optional<double> flip_of(Image a, Image b, bool are_codes) {
-    if (!has_colors(a) || !has_colors(b)) return {};
-    if (are_codes) make_linear(a), make_linear(b);
-    return mean_flip(a, b);
-}
-
 const Plane<float>& plane_of(const Image& image, std::string_view channel) {
     const auto found = image.planes.find(std::string(channel));
     if (found != image.planes.end()) return found->second;
@@ -77,21 +50,19 @@ const Plane<float>& plane_of(const Image& image, std::string_view channel) {
                 suggest(channel, names));
 }
 
+/// Nothing where the image has no such numbers.
+std::span<const uint32_t> ids_of(const Image& image, const char* plane) {
+    const auto found = image.id_planes.find(plane);
+    if (found == image.id_planes.end()) return {};
+    return {found->second.data(), found->second.size()};
+}
+
 /// The names of the planes that an OpenEXR file leaves out.
 std::vector<const char*> left_out(const v1::Channels& channels) {
-    constexpr size_t kPlanes = 13;
     std::vector<const char*> names;
-    names.reserve(kPlanes);
-    const auto leave_out = [&names](bool is_shown, std::initializer_list<const char*> planes) {
-        if (is_shown) return;
-        for (const char* const plane : planes) names.push_back(plane);
-    };
-    leave_out(channels.color, {"R", "G", "B", "A"});
-    leave_out(channels.depth, {"Z"});
-    leave_out(channels.position, {"P.X", "P.Y", "P.Z"});
-    leave_out(channels.normal, {"N.X", "N.Y", "N.Z"});
-    leave_out(channels.object, {"objectId"});
-    leave_out(channels.distance, {"distance"});
+    for (const v1::ChannelRow& row : v1::channel_table())
+        if (!(channels.*row.member))
+            names.insert(names.end(), row.planes.begin(), row.planes.end());
     return names;
 }
 
@@ -175,16 +146,6 @@ std::string encoded(std::string_view extension, const v1::Image::Implementation&
     });
 }
 
-v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
-    v1::ImageDifference result;
-    for (const ChannelDifference& c : difference.channels)
-        result.channels.push_back(
-            {c.channel, c.largest, c.rmse, c.mae, c.mrse, c.differing, c.unmatched});
-    result.only_in_a = difference.only_in_a;
-    result.only_in_b = difference.only_in_b;
-    return result;
-}
-
 }  // namespace
 
 v1::Image api::handle_of(std::shared_ptr<const Image> image, Attributes attributes,
@@ -234,10 +195,11 @@ std::span<const float> Image::plane(std::string_view channel) const {
 }
 
 std::span<const uint32_t> Image::object_ids() const {
-    const auto& planes = api::inside(*this).id_planes;
-    const auto found = planes.find("objectId");
-    if (found == planes.end()) return {};
-    return {found->second.data(), found->second.size()};
+    return ids_of(api::inside(*this), "objectId");
+}
+
+std::span<const uint32_t> Image::material_ids() const {
+    return ids_of(api::inside(*this), "materialId");
 }
 
 void Image::copy(std::string_view channel, std::span<float> to) const {
@@ -270,23 +232,6 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
         const Image image = api::handle_of(
             std::make_shared<const voxelume::Image>(std::move(whole)), std::move(attributes));
         for (const std::filesystem::path& file : files) image.write(file, options);
-    });
-}
-
-ImageDifference compare(const Image& a, const Image& b) {
-    return api::guarded([&] {
-        const voxelume::Image& first = api::inside(a);
-        const voxelume::Image& second = api::inside(b);
-        if (a.holds_codes() != b.holds_codes())
-            throw voxelume::Error(voxelume::ErrorKind::usage,
-                                  "one image holds the codes of a PNG, the other light");
-        if (first.width != second.width || first.height != second.height)
-            throw voxelume::Error(voxelume::ErrorKind::render,
-                                  "one image has {} x {} pixels and the other {} x {}", first.width,
-                                  first.height, second.width, second.height);
-        ImageDifference result = difference_for_callers(compare_images(first, second));
-        result.flip = flip_of(first, second, a.holds_codes());
-        return result;
     });
 }
 

@@ -72,6 +72,10 @@ std::vector<std::filesystem::path> user_cache_bases() {
     return api::guarded([] { return cache_bases(); });
 }
 
+std::string cache_base_refusal(const std::filesystem::path& base) {
+    return api::guarded([&] { return refusal_of_base(base); });
+}
+
 void remove_unfinished_files() {
     delete_temporary_files();
     PoclFolder::remove();

@@ -46,18 +46,12 @@ struct Wanted {
 };
 
 void add(const v1::Channels& more, v1::Channels& channels) {
-    channels.color |= more.color;
-    channels.depth |= more.depth;
-    channels.position |= more.position;
-    channels.normal |= more.normal;
-    channels.object |= more.object;
-    channels.distance |= more.distance;
+    for (const v1::ChannelRow& row : v1::channel_table()) channels.*row.member |= more.*row.member;
 }
 
 /// PNG files and volumetric images show colour, OpenEXR files and memory what their options say.
 Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
-    constexpr v1::Channels kNone{false, false, false, false, false};
-    Wanted wanted{job.deliver_images, job.deliver_volumes, kNone};
+    Wanted wanted{job.deliver_images, job.deliver_volumes, v1::kNoChannels};
     if (job.deliver_images) add(options.channels, wanted.channels);
     for (const v1::FrameFiles& frame : job.frames) {
         wanted.images |= !frame.images.empty();
@@ -159,17 +153,16 @@ class Run {
         const v1::FrameFiles& files = job_.frames[reports_.size()];
         reports_.push_back(result.report);
         api::Attributes attributes = attributes_of(scene_, files.frame);
-        const std::string hash = hashes_.of(files.frame);
         v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
         if (result.image) {
             api::Attributes all = attributes;
-            all[api::kFrameHash] = hash;
+            all[api::kFrameHash] = hashes_.of(files.frame);
             rendered.image = api::handle_of(result.image, std::move(all));
         }
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
             for (const auto& [name, text] : attributes) all[name] = text;
-            all[api::kStamp] = stamp_of(hash);
+            all[api::kStamp] = stamp_of(hashes_.of_volume(files.frame));
             rendered.volume = api::handle_of(result.volume, std::move(all));
         }
         write(rendered, files);

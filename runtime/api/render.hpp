@@ -13,8 +13,9 @@
 namespace voxelume::api {
 
 inline ImageChannels inside(const v1::Channels& channels) {
-    return {channels.color,  channels.depth,  channels.position,
-            channels.normal, channels.object, channels.distance};
+    return {channels.color,    channels.depth,        channels.position,
+            channels.normal,   channels.object,       channels.distance,
+            channels.material, channels.object_matte, channels.material_matte};
 }
 
 /// What one frame took.

@@ -145,6 +145,10 @@ void Volume::write_page(const std::filesystem::path& file, ViewPoint from, doubl
     });
 }
 
+std::vector<std::filesystem::path> volume_files(const std::filesystem::path& file) {
+    return api::guarded([&] { return voxelume::volume_files(file); });
+}
+
 void check_volume_file(const std::filesystem::path& file, const Scene& scene) {
     api::guarded([&] { check_volume_output(file, display_frame(api::inside(scene))); });
 }

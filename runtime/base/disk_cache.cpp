@@ -118,6 +118,18 @@ std::vector<fs::path> cache_bases(const std::string& name) {
     return bases;
 }
 
+std::string refusal_of_base(const fs::path& base) {
+    if (const PrivateFolder folder = PrivateFolder::open_base(base); !folder)
+        return folder.is_missing() ? "there is no such folder" : folder.refusal();
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(base, error)) {
+        if (!entry.is_directory(error)) continue;
+        if (const PrivateFolder folder = PrivateFolder::open_base(entry.path()); !folder)
+            return fmt::format("{}: {}", entry.path().filename().string(), folder.refusal());
+    }
+    return error ? error.message() : "";
+}
+
 std::string cache_key(std::span<const std::string_view> parts) {
     std::string text;
     for (const std::string_view part : parts) {

@@ -22,6 +22,9 @@ std::filesystem::path cache_folder();
 /// and nothing is written there. Those of `name` below them.
 std::vector<std::filesystem::path> cache_bases(const std::string& name = {});
 
+/// Why a base isn't read, or one of the folders in it, in words for people. Empty if it is.
+std::string refusal_of_base(const std::filesystem::path& base);
+
 /// A 128-bit hash (XXH3) of all `parts` and their lengths, as 32 hexadecimal digits.
 std::string cache_key(std::span<const std::string_view> parts);
 

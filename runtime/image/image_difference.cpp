@@ -3,10 +3,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
 
 namespace voxelume {
 
 namespace {
+
+constexpr float kUnmatched = 65504.0f;  // as light that isn't finite couldn't be written
+
+bool are_equal(float a, float b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+/// |a - b| as pictures of differences have it.
+float distance_of(float a, float b) {
+    if (are_equal(a, b)) return 0.0f;
+    return std::isfinite(a) && std::isfinite(b) ? std::abs(a - b) : kUnmatched;
+}
+
+float distance_of(uint32_t a, uint32_t b) {
+    return a == b ? 0.0f : 1.0f;
+}
+
+bool is_above(float a, float b, double threshold) {
+    if (are_equal(a, b)) return false;
+    return !std::isfinite(a) || !std::isfinite(b) || std::abs(double{a} - double{b}) > threshold;
+}
+
+bool is_above(uint32_t a, uint32_t b, double) {
+    return a != b;
+}
 
 ChannelDifference compare_values(const std::string& name, const Plane<float>& a,
                                  const Plane<float>& b) {
@@ -14,7 +43,7 @@ ChannelDifference compare_values(const std::string& name, const Plane<float>& a,
     double squares = 0.0, sum = 0.0, relative_squares = 0.0;
     size_t counted = 0;
     for (size_t i = 0; i < a.size(); ++i) {
-        const bool equal = a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]));
+        const bool equal = are_equal(a[i], b[i]);
         const bool finite = std::isfinite(a[i]) && std::isfinite(b[i]);
         if (!equal) ++result.differing;
         if (!equal && !finite) ++result.unmatched;
@@ -43,25 +72,85 @@ ChannelDifference compare_values(const std::string& name, const Plane<uint32_t>&
     return result;
 }
 
-template <class Planes>
-void compare_planes(const Planes& a, const Planes& b, ImageDifference& result) {
+/// The channels that are compared.
+class Selection {
+  public:
+    Selection(const Image& a, const Image& b, const std::vector<std::string>& wanted)
+        : wanted_(wanted) {
+        std::vector<std::string_view> known;
+        for (const Image* image : {&a, &b}) {
+            for (const auto& [name, plane] : image->planes) known.push_back(name);
+            for (const auto& [name, plane] : image->id_planes) known.push_back(name);
+        }
+        std::ranges::sort(known);
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        for (const std::string& name : wanted)
+            if (std::ranges::find(known, name) == known.end())
+                throw Error(ErrorKind::usage, "no channel named {}{}", quote(name),
+                            suggest(name, known));
+    }
+
+    bool has(const std::string& name) const {
+        return wanted_.empty() || std::ranges::find(wanted_, name) != wanted_.end();
+    }
+
+  private:
+    const std::vector<std::string>& wanted_;
+};
+
+/// Calls `visit` with the name of each selected channel of both images, and its two planes.
+template <class Planes, class Visit>
+void for_each_pair(const Planes& a, const Planes& b, const Selection& selection,
+                   const Visit& visit) {
     for (const auto& [name, plane] : a) {
         const auto other = b.find(name);
-        if (other == b.end())
-            result.only_in_a.push_back(name);
-        else
-            result.channels.push_back(compare_values(name, plane, other->second));
+        if (other != b.end() && selection.has(name)) visit(name, plane, other->second);
     }
-    for (const auto& [name, plane] : b)
-        if (!a.contains(name)) result.only_in_b.push_back(name);
+}
+
+template <class Planes>
+void note_missing(const Planes& in, const Planes& from, const Selection& selection,
+                  std::vector<std::string>& missing) {
+    for (const auto& [name, plane] : in)
+        if (!from.contains(name) && selection.has(name)) missing.push_back(name);
 }
 
 }  // namespace
 
-ImageDifference compare_images(const Image& a, const Image& b) {
+ImageDifference compare_images(const Image& a, const Image& b, const CompareOptions& options) {
+    const Selection selection(a, b, options.channels);
     ImageDifference result;
-    compare_planes(a.planes, b.planes, result);
-    compare_planes(a.id_planes, b.id_planes, result);
+    result.pixels = uint64_t(a.width) * uint64_t(a.height);
+    std::vector<bool> above(result.pixels);
+    const auto visit = [&](const std::string& name, const auto& first, const auto& second) {
+        ChannelDifference& channel =
+            result.channels.emplace_back(compare_values(name, first, second));
+        for (size_t i = 0; i < first.size(); ++i) {
+            if (!is_above(first[i], second[i], options.threshold)) continue;
+            ++channel.above;
+            above[i] = true;
+        }
+    };
+    for_each_pair(a.planes, b.planes, selection, visit);
+    for_each_pair(a.id_planes, b.id_planes, selection, visit);
+    note_missing(a.planes, b.planes, selection, result.only_in_a);
+    note_missing(a.id_planes, b.id_planes, selection, result.only_in_a);
+    note_missing(b.planes, a.planes, selection, result.only_in_b);
+    note_missing(b.id_planes, a.id_planes, selection, result.only_in_b);
+    result.above = uint64_t(std::ranges::count(above, true));
+    return result;
+}
+
+Image difference_image(const Image& a, const Image& b, const CompareOptions& options) {
+    const Selection selection(a, b, options.channels);
+    Image result{a.width, a.height, {}, {}, {}, a.first, a.frame};
+    const auto visit = [&](const std::string& name, const auto& first, const auto& second) {
+        std::vector<float> distances(first.size());
+        for (size_t i = 0; i < first.size(); ++i) distances[i] = distance_of(first[i], second[i]);
+        result.planes[name] = std::move(distances);
+    };
+    for_each_pair(a.planes, b.planes, selection, visit);
+    for_each_pair(a.id_planes, b.id_planes, selection, visit);
     return result;
 }
 

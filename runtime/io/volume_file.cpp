@@ -88,6 +88,16 @@ void write_volume(const std::filesystem::path& path, const Volume& volume,
     entry.write(path, volume, options);
 }
 
+std::vector<std::filesystem::path> volume_files(const std::filesystem::path& path) {
+    std::vector<VolumePath> files = entry_of(volume_format_of(path)).files(path);
+    const auto is_there = [](const VolumePath& file) {
+        std::error_code error;
+        return std::filesystem::is_regular_file(file, error);
+    };
+    if (!std::ranges::all_of(files, is_there)) files.clear();
+    return files;
+}
+
 Volume read_volume(const std::filesystem::path& path) {
     const auto read = entry_of(volume_format_of(path)).read;
     if (!read)

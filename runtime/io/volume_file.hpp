@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "runtime/image/volume.hpp"
 #include "runtime/io/volume/volume_options.hpp"
@@ -27,6 +28,10 @@ void check_volume_output(const std::filesystem::path& path, const VolumeFrame& f
 /// Error::output for a volume that find_fault() refuses.
 void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeOptions& options = {});
+
+/// The files of a volume that was written to the path: some formats have a header of their own, and
+/// slices are a file each. Empty unless all of them are there.
+std::vector<std::filesystem::path> volume_files(const std::filesystem::path& path);
 
 /// Reads a .vdb, .exr, .nrrd or .raw/.json that voxelume wrote; scenes/VOLUMES.md says what each
 /// format keeps. Throws Error::input for a file that is missing, damaged or not a volume of

@@ -113,6 +113,14 @@ void check_slices(const VolumePath& path, VolumeFormat format) {
     check_header(slices_header_of(path), format);
 }
 
+std::vector<VolumePath> one_file(const VolumePath& path) {
+    return {path};
+}
+
+std::vector<VolumePath> with_header(const VolumePath& path) {
+    return {path, header_path_of(path)};
+}
+
 void write_kv6(const VolumePath& path, const Volume& volume, Options options) {
     write_volume_kv6(path, volume, options.device);
 }
@@ -134,29 +142,29 @@ using enum VolumeFormat;
 // clang-format off
 const std::array<VolumeFormatEntry, 11> kTable = {{
     // The columns: format, endings, layout_fault, dense_bytes, max_dense_bytes, max_size,
-    // check_path, write, read.
+    // check_path, files, write, read.
     {vdb, {".vdb"}, affine_or_perspective, no_bytes, kMaxFileBytes, kAnySize,
-     check_vdb, written_by<write_volume_vdb>, read_volume_vdb},
+     check_vdb, one_file, written_by<write_volume_vdb>, read_volume_vdb},
     {exr, {".exr"}, rays_only, no_bytes, kMaxFileBytes, kAnySize,
-     check_file, written_by<write_volume_exr>, read_volume_exr},
+     check_file, one_file, written_by<write_volume_exr>, read_volume_exr},
     {nrrd, {".nrrd"}, any_layout, nrrd_bytes, kMaxFileBytes, kAnySize,
-     check_file, write_volume_nrrd, read_volume_nrrd},
+     check_file, one_file, write_volume_nrrd, read_volume_nrrd},
     {raw, {".raw", ".json"}, any_layout, bytes_a_voxel<25>, kMaxFileBytes, kAnySize,
-     check_raw, written_by<write_volume_raw>, read_volume_raw},
+     check_raw, raw_files_of, written_by<write_volume_raw>, read_volume_raw},
     {slices, {".png"}, any_layout, bytes_a_voxel<4>, kMaxFileBytes, kAnySize,
-     check_slices, written_by<write_volume_slices>, nullptr},
+     check_slices, slice_files_of, written_by<write_volume_slices>, nullptr},
     {ply, {".ply"}, any_layout, no_bytes, kMaxFileBytes, kAnySize,
-     check_file, written_by<write_volume_ply>, nullptr},
+     check_file, one_file, written_by<write_volume_ply>, nullptr},
     {kv6, {".kv6"}, lattice_only, no_bytes, kMaxFileBytes, kMaxKv6,
-     check_file, write_kv6, nullptr},
+     check_file, one_file, write_kv6, nullptr},
     {planes, {".planes"}, lattice_only, bits_a_voxel<1>, kMaxBufferBytes, kAnySize,
-     check_with_header, written_as<write_volume_planes, planes>, nullptr},
+     check_with_header, with_header, written_as<write_volume_planes, planes>, nullptr},
     {color_planes, {".cplanes"}, lattice_only, bits_a_voxel<3>, kMaxBufferBytes, kAnySize,
-     check_with_header, written_as<write_volume_planes, color_planes>, nullptr},
+     check_with_header, with_header, written_as<write_volume_planes, color_planes>, nullptr},
     {rgb332, {".rgb332"}, lattice_only, cylinder_bytes<1>, kMaxBufferBytes, kAnySize,
-     check_with_header, written_as<write_volume_cylinder, rgb332>, nullptr},
+     check_with_header, with_header, written_as<write_volume_cylinder, rgb332>, nullptr},
     {rgb565, {".rgb565"}, lattice_only, cylinder_bytes<2>, kMaxBufferBytes, kAnySize,
-     check_with_header, written_as<write_volume_cylinder, rgb565>, nullptr},
+     check_with_header, with_header, written_as<write_volume_cylinder, rgb565>, nullptr},
 }};
 // clang-format on
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "runtime/io/volume/volume_formats.hpp"
 
@@ -28,6 +29,9 @@ struct VolumeFormatEntry {
     /// Throws Error::output where a file can't be made at the path, or would overwrite a file that
     /// isn't of this format.
     void (*check_path)(const VolumePath& path, VolumeFormat format);
+
+    /// The names of all files that `write` makes; empty where a header that lists them isn't there.
+    std::vector<VolumePath> (*files)(const VolumePath& path);
 
     void (*write)(const VolumePath& path, const Volume& volume, const VolumeOptions& options);
     Volume (*read)(const VolumePath& path);  ///< null where the format is only written

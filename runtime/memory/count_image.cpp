@@ -83,6 +83,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     if (features.medium_grid)
         memory.density = allocate_density(device, medium.slots, medium.places);
     memory.image = allocate_image(device, scene.render.size, scene.render.channels);
+    memory.mattes = allocate_mattes(device, scene.render.size, scene.render.channels);
     return memory;
 }
 

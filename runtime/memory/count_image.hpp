@@ -4,6 +4,7 @@
 
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/resolve/matte.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 #include "runtime/stages/trace/beam.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
@@ -20,6 +21,7 @@ struct ImageMemory {
     Buffer<uint8_t> tables;  ///< of materials, objects and samples
     Buffer<uint8_t> emitters;
     ImageArrays image;
+    std::vector<MatteArrays> mattes;
 };
 
 /// All that Renderer's image of a world takes, without the world. `depth` is that of the arrays for

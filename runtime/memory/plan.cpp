@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kernels/shared/matte.h"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/following_memory.hpp"
@@ -59,7 +60,10 @@ double pixel_bytes(const ImageChannels& channels) {
 
 double image_bytes(const RenderSettings& render) {
     const double pixels = double(render.size.x) * double(render.size.y);
-    return (pixel_bytes(render.channels) + (render.channels.object ? 4 : 0)) * pixels;
+    const ImageChannels& channels = render.channels;
+    const int ids = int(channels.object) + int(channels.material);
+    const int mattes = int(channels.object_matte) + int(channels.material_matte);
+    return (pixel_bytes(channels) + 4.0 * ids + 8.0 * VXL_MATTE_RANKS * mattes) * pixels;
 }
 
 double ScenePlan::run_bytes(size_t frames, double memory) const {

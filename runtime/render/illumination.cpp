@@ -51,12 +51,16 @@ Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features&
     return medium_overflows;
 }
 
-/// The numbers of the first records of the solids that let light through.
+/// The numbers of the first records of the solids that let light through, but for those of
+/// instances' models, which come after the world's.
 Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
                                      const Pyramid& world) {
     const std::vector<uint32_t> words = world.solids.read();
     std::vector<uint32_t> numbers;
-    for (uint32_t i = 0; i < words.size() / VXL_SOLID_WORDS; ++i) {
+    const std::vector<InstanceModel>& models = world.instances.models;
+    const auto end =
+        models.empty() ? uint32_t(words.size() / VXL_SOLID_WORDS) : models.front().first_solid;
+    for (uint32_t i = 0; i < end; ++i) {
         SolidShape shape;
         std::memcpy(&shape, &words[size_t(i) * VXL_SOLID_WORDS], sizeof shape);
         const uint32_t material = shape.attribute >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
@@ -78,6 +82,9 @@ void build_programs(const Device& device, const Features& features, const Scene&
     if (features.global) files.push_back("extend.cl");
     if (features.global && features.area_samples) files.push_back("area_light.cl");
     if (makes_image) files.push_back("resolve.cl");
+    const ImageChannels& channels = scene.render.channels;
+    if (makes_image && (channels.object_matte || channels.material_matte))
+        files.push_back("matte.cl");
     Program::build_together(device, files,
                             resolve_defines(device, features, scene.render.channels));
 }

@@ -10,6 +10,7 @@
 #include "runtime/memory/plan.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/stages/resolve/matte.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -180,6 +181,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         send_light_beams(dilated_occupancy_of(built, *dilated_occupancy), max, illumination);
     }
     ResolveStage resolve(device_, features, observer, scene.render.channels);
+    MatteStage mattes(device_, features, observer, scene);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
         const uint32_t first = range->first, now = range->count;
         illumination.set_sampling(path_sampling(scene, observer, first));
@@ -195,11 +197,13 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
             if (keeps_hits) hits_.push_back({batch.rays, batch.hits});
         }
         resolve.pixels(world, batch, first, now);
+        mattes.pixels(batch, first, now);
         report.sight_rays += now * rays_per_tile;
         note_done(*range, tiles);
     }
     view_ = std::move(view);
     Image image = resolve.image();
+    mattes.add_to(image);
     image.first = scene.render.crop.first;
     image.frame = scene.render.crop.frame;
     report.not_finite = resolve.not_finite();

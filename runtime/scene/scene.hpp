@@ -30,12 +30,15 @@ inline constexpr int kMaxImageSide = 65536;
 
 /// What a flat image shows of a pixel. What none of it needs isn't computed.
 struct ImageChannels {
-    bool color = true;      ///< R G B A
-    bool depth = true;      ///< Z
-    bool position = true;   ///< P.X P.Y P.Z
-    bool normal = true;     ///< N.X N.Y N.Z
-    bool object = true;     ///< objectId
-    bool distance = false;  ///< distance
+    bool color = true;            ///< R G B A
+    bool depth = true;            ///< Z
+    bool position = true;         ///< P.X P.Y P.Z
+    bool normal = true;           ///< N.X N.Y N.Z
+    bool object = true;           ///< objectId
+    bool distance = false;        ///< distance
+    bool material = false;        ///< materialId
+    bool object_matte = false;    ///< CryptoObject00 to CryptoObject02
+    bool material_matte = false;  ///< CryptoMaterial00 to CryptoMaterial02
 
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
 };

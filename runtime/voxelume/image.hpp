@@ -18,13 +18,31 @@ namespace voxelume::v1 {
 
 /// What an image shows of a pixel. What isn't asked for isn't computed.
 struct Channels {
-    bool color = true;      ///< R G B A
-    bool depth = true;      ///< Z
-    bool position = true;   ///< P.X P.Y P.Z
-    bool normal = true;     ///< N.X N.Y N.Z
-    bool object = true;     ///< objectId
-    bool distance = false;  ///< distance
+    bool color = true;            ///< R G B A
+    bool depth = true;            ///< Z
+    bool position = true;         ///< P.X P.Y P.Z
+    bool normal = true;           ///< N.X N.Y N.Z
+    bool object = true;           ///< objectId
+    bool distance = false;        ///< distance
+    bool material = false;        ///< materialId
+    bool object_matte = false;    ///< Cryptomatte of the objects: CryptoObject00 to CryptoObject02
+    bool material_matte = false;  ///< ... of the materials: CryptoMaterial00 to CryptoMaterial02
+
+    friend bool operator==(const Channels&, const Channels&) = default;
 };
+
+/// A group of channels that is asked for together.
+struct ChannelRow {
+    std::string_view name;                ///< of the group: "RGBA", "CryptoObject"
+    bool Channels::*member;               ///< that asks for it
+    std::span<const char* const> planes;  ///< their names in files
+};
+
+/// All groups of channels, in the order in which people read them.
+std::span<const ChannelRow> channel_table();
+
+/// No channels at all.
+inline constexpr Channels kNoChannels{false, false, false, false, false};
 
 /// Colour alone: what a picture shows.
 inline constexpr Channels kColorAlone{true, false, false, false, false};
@@ -52,7 +70,8 @@ struct ImageFileOptions {
 /// Colour is linear Rec. 709 and multiplied by A. Z is the depth along the observer's axis in
 /// metres, and for displays that look backwards, too, the distance. `distance` counts along the
 /// sight ray, P is the point and N the normal in the world. Pixels that show no object have Z =
-/// distance = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene.
+/// distance = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene,
+/// and so do materials, after `default`, which is 1.
 class Image {
   public:
     /// Reads an OpenEXR file with all of its channels, or a PNG file, whose R G B A become codes
@@ -75,6 +94,8 @@ class Image {
     std::span<const float> plane(std::string_view channel) const;
     /// The numbers of the objects; empty where they weren't asked for.
     std::span<const uint32_t> object_ids() const;
+    /// Likewise those of the materials.
+    std::span<const uint32_t> material_ids() const;
 
     /// Copies a plane to the caller's memory of as many values. Throws Error::usage for another
     /// number of them.
@@ -108,6 +129,8 @@ struct ChannelDifference {
     double mrse = 0;         ///< mean of ((a - b) / (|b| + 0.01))^2
     uint64_t differing = 0;  ///< pixels whose values are unequal
     uint64_t unmatched = 0;  ///< of these, pixels with a value that isn't finite: in no mean
+    uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; numbers of
+                             ///< objects: unequal ones
 };
 
 /// How far two images are apart.
@@ -116,11 +139,28 @@ struct ImageDifference {
     std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
     std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
     std::optional<double>
-        flip;  ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
+        flip;             ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
+    uint64_t pixels = 0;  ///< of each image
+    uint64_t above = 0;   ///< pixels above the threshold in some channel that both have
+};
+
+/// Which differences count.
+struct CompareOptions {
+    std::vector<std::string> channels{};  ///< these alone, and FLIP with R, G and B; empty: all
+    double threshold = 0;                 ///< |a - b| up to this isn't above it
 };
 
 /// Compares `a` with the reference `b`. Throws Error::render for images of different sizes,
-/// Error::usage where one holds codes and the other light.
-ImageDifference compare(const Image& a, const Image& b);
+/// Error::usage where one holds codes and the other light, and for channels that neither has.
+ImageDifference compare(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// A picture of |a - b|, channel by channel; 65504 where a value isn't finite. Of images that hold
+/// codes it is one whose codes in a PNG file are the differences of theirs. Throws as `compare`.
+Image difference_image(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// A picture of FLIP: a channel FLIP, 0..1, and as R, G, B a scale of heat from black, for what
+/// looks equal, over red and yellow to white. Throws as `compare`, and Error::usage for images
+/// without colours.
+Image flip_image(const Image& a, const Image& b);
 
 }  // namespace voxelume::v1

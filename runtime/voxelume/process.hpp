@@ -57,6 +57,10 @@ std::filesystem::path user_cache_folder();
 /// nobody else may write there.
 std::vector<std::filesystem::path> user_cache_bases();
 
+/// Why nothing is read from such a folder, or from one of those in it: "it belongs to another
+/// user". Empty if it is read.
+std::string cache_base_refusal(const std::filesystem::path& base);
+
 /// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
 /// their sources.
 struct CacheOptions {

@@ -100,6 +100,9 @@ Channels needed_channels(const FrameJob& job, const RenderOptions& options = {})
 /// .nrrd, .vdb, .ply), with a hash of all their bytes.
 std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames);
 
+/// The same for the frames' volumetric images, which are whole where the scene has a crop.
+std::vector<std::string> volume_hashes(const Scene& scene, const std::vector<int>& frames);
+
 /// What is known of a frame's file that was written before.
 enum class FrameFileState {
     missing,  ///< there is none
@@ -113,7 +116,8 @@ enum class FrameFileState {
 FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,
                                 const ImageFileOptions& options = {});
 
-/// Reads the file of a frame's volumetric image and compares it with the frame's hash.
+/// Reads the file of a frame's volumetric image and compares it with the frame's hash, of
+/// volume_hashes.
 FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash);
 
 /// Puts an image together from the OpenEXR files of its parts and writes it to `files`, .exr or

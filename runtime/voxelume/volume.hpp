@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "image.hpp"
 #include "observer.hpp"
@@ -131,6 +132,10 @@ class Volume {
   private:
     std::shared_ptr<const Implementation> implementation_;
 };
+
+/// The files of a volumetric image that was written under this name: some formats have a header of
+/// their own, and slices are a file each. Empty unless all of them are there.
+std::vector<std::filesystem::path> volume_files(const std::filesystem::path& file);
 
 /// Throws what writing any volumetric image of the scene to this file would throw, before there is
 /// one: Error::usage, Error::limit and Error::output as Volume::write does.

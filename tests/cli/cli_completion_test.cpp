@@ -10,8 +10,10 @@
 namespace voxelume {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
+using testing::Not;
 
 /// All matches of a pattern's first group.
 std::set<std::string> matches(const std::string& text, const std::string& pattern) {
@@ -71,6 +73,18 @@ TEST_F(CliCompletionTest, BashCompletesCommandsOptionsAndTheirWords) {
     EXPECT_EQ(completed("voxelume render tr"), "try.sh\n");
     put_bytes(folder / "two words.json", "");
     EXPECT_EQ(completed("voxelume render tw"), "two words.json\n");
+}
+
+TEST_F(CliCompletionTest, ZshAndFishOfferTheWordsOfArguments) {
+    const std::string zsh = run("completion zsh").out;
+    const size_t command = zsh.find("        completion)\n");
+    ASSERT_NE(command, zsh.npos);
+    EXPECT_THAT(zsh.substr(command, zsh.find(";;", command) - command),
+                AllOf(HasSubstr("'1:value:(bash zsh fish)'\n"), Not(HasSubstr("_files"))));
+    EXPECT_THAT(run("completion fish").out,
+                HasSubstr("'__fish_seen_subcommand_from completion' -f -x -a 'bash zsh fish' -d "));
+    if (run_line("zsh --version").exit_code != 0) GTEST_SKIP() << "there is no zsh";
+    EXPECT_EQ(run_line("bash -c 'voxelume completion zsh >z && zsh -n z'").exit_code, 0);
 }
 
 TEST_F(CliCompletionTest, ThePageIsReadWithoutWarnings) {

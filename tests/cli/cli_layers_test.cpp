@@ -54,7 +54,39 @@ TEST_F(CliLayersTest, WithoutAFolderToWriteToThereIsNothingToWarm) {
     EXPECT_THAT(result.err, HasSubstr("there is no cache to fill"));
     const Json report = Json::parse(run_with("/a:/b:/c", "doctor --json --no-test").out);
     EXPECT_EQ(report["cache"], "/c");
-    EXPECT_EQ(report["cache bases"], Json::array({"/a", "/b"}));
+    const std::string missing = "isn't read: there is no such folder";
+    EXPECT_EQ(report["cache bases"], Json::array({{{"folder", "/a"}, {"state", missing}},
+                                                  {{"folder", "/b"}, {"state", missing}}}));
+}
+
+TEST_F(CliLayersTest, TheDoctorTellsWhyABaseIsNotRead) {
+    const auto state_of = [&](const std::string& base) {
+        const std::string text = run_with(base + ":/c", "doctor --json --no-test").out;
+        return Json::parse(text)["cache bases"][0]["state"].get<std::string>();
+    };
+    const fs::path base = folder / "base";
+    fs::create_directories(base / "programs");
+    EXPECT_EQ(state_of(base), "is read");
+    fs::permissions(base / "programs", fs::perms::all);
+    EXPECT_EQ(state_of(base),
+              "isn't read: programs: other users may write to it; `chmod go-w` forbids them");
+    fs::permissions(base, fs::perms::all);
+    EXPECT_EQ(state_of(base), "isn't read: other users may write to it; `chmod go-w` forbids them");
+    put_bytes(folder / "file", "");
+    EXPECT_EQ(state_of(folder / "file"), "isn't read: Not a directory");
+    fs::create_directory_symlink(base, folder / "link");
+    EXPECT_EQ(state_of(folder / "link"),
+              "isn't read: a link in the place of a folder isn't followed");
+}
+
+TEST_F(CliLayersTest, StrictWarmingEndsWithTheFirstWarning) {
+    write_scene([](Json& scene) { scene["objects"][0]["position"] = {90, 1, 0.5}; });
+    const ProgramResult told = run_with(folder / "base", "warm scene.json");
+    EXPECT_EQ(told.exit_code, 0);
+    EXPECT_THAT(told.err, HasSubstr("warning: "));
+    const ProgramResult strict = run_with(folder / "base", "warm scene.json --strict");
+    EXPECT_EQ(strict.exit_code, 3);
+    EXPECT_THAT(strict.err, HasSubstr("voxelume: scene.json"));
 }
 
 }  // namespace

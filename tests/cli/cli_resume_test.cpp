@@ -183,6 +183,41 @@ TEST_F(CliResumeTest, VolumesWithHeadersCarryTheHashToo) {
                                   Not(HasSubstr("v.1.nrrd")), Not(HasSubstr("v.1.vdb"))));
 }
 
+TEST_F(CliResumeTest, NeverKeepsVolumesOfSeveralFilesOnlyIfTheyAreWhole) {
+    const std::string line =
+        "render scene.json --frames 1 --volume s.%02d.png --volume t.###.png --volume v.raw "
+        "--volume w.json --overwrite never --progress json";
+    ASSERT_EQ(run(line).exit_code, 0);
+    EXPECT_THAT(run(line).err, HasSubstr("1 of 1 frames are there already"));
+    const std::vector<std::string> whole = names();
+    for (const char* part : {"s.0001.04.png", "s.0001.json", "t.0001.000.png", "v0001.raw",
+                             "v0001.json", "w0001.raw", "w0001.json"}) {
+        const std::string bytes = bytes_of(folder / part);
+        ASSERT_FALSE(bytes.empty()) << part;
+        std::filesystem::remove(folder / part);
+        EXPECT_THAT(run(line).err, HasSubstr("\"written\"")) << part;
+        EXPECT_EQ(bytes_of(folder / part), bytes) << part;
+    }
+    EXPECT_EQ(names(), whole);
+}
+
+TEST_F(CliResumeTest, ACropMakesImagesStaleAndNoVolume) {
+    const std::string line =
+        "render scene.json --frames 1,2 -o c.#.exr --volume c.#.nrrd --progress json ";
+    ASSERT_EQ(run(line + "--crop 2,3,9,7").exit_code, 0);
+    const auto time = [&] { return std::filesystem::last_write_time(folder / "c.2.nrrd"); };
+    const std::string volume = bytes_of(folder / "c.2.nrrd"), image = bytes_of(folder / "c.2.exr");
+    const auto before = time();
+    EXPECT_THAT(run(line + "--resume --crop 2,3,9,7").err, HasSubstr("2 of 2 frames are there"));
+    ASSERT_EQ(run(line + "--resume").exit_code, 0);
+    EXPECT_EQ(time(), before);
+    EXPECT_NE(bytes_of(folder / "c.2.exr"), image);
+    ASSERT_EQ(run(line).exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "c.2.nrrd"), volume);
+    EXPECT_THAT(expect_failure(2, "render scene.json --volume c.nrrd --crop 2,3,9,7"),
+                HasSubstr("--crop is of images, and no -o names one"));
+}
+
 TEST_F(CliResumeTest, AKilledRunGoesOnToTheSameFilesAndWritesNoneTwice) {
     ASSERT_EQ(count_rendered(""), 8);
     const auto whole = pictures();

@@ -11,6 +11,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+namespace fs = std::filesystem;
 
 class CliShardTest : public SceneProgramTest {
   protected:
@@ -90,6 +91,28 @@ TEST_F(CliShardTest, SoDoPartsOfAnAnimation) {
     expect_merged("render moving.json -q --volume v.##.nrrd --volume v.##.raw", 'v', "v.*.shard");
 }
 
+TEST_F(CliShardTest, PartsTellOfAllFilesOfAVolume) {
+    const std::string line =
+        "render moving.json -q --frames 1,3 --volume q.%02d.png --volume v.raw";
+    expect_merged(line, 'q', "q.*.shard");
+    for (const char* file : {"q.0003.07.png", "q.0003.json", "v0003.raw", "v0003.json"}) {
+        const std::string bytes = bytes_of(folder / file);
+        std::filesystem::remove(folder / file);
+        EXPECT_THAT(refusal("q.*.shard"), HasSubstr(std::string(file) + ": isn't there")) << file;
+        put_bytes(folder / file, bytes);
+    }
+    EXPECT_EQ(run("merge q.*.shard").exit_code, 0);
+}
+
+TEST_F(CliShardTest, APartOfAnotherVersionsFormatIsRefused) {
+    render_parts(kImage, 2);
+    const fs::path part = folder / "p.exr.1-of-2.shard";
+    Json manifest = Json::parse(bytes_of(part));
+    manifest["voxelume_shard"] = 1;
+    put_bytes(part, manifest.dump());
+    EXPECT_THAT(refusal("p.*.shard"), HasSubstr("is of another version of voxelume"));
+}
+
 TEST_F(CliShardTest, AMissingPartIsNamed) {
     render_parts(kImage, 8);
     std::filesystem::remove(folder / "p.exr.3-of-8.shard");
@@ -121,7 +144,7 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
     EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
-    put_bytes(folder / "x.shard", R"({"voxelume_shard": 1, "part": "x"})");
+    put_bytes(folder / "x.shard", R"({"voxelume_shard": 2, "part": "x"})");
     EXPECT_THAT(refusal("x.shard"), HasSubstr("is damaged"));
 }
 

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "runtime/base/error.hpp"
+
 namespace voxelume {
 
 namespace {
@@ -52,6 +54,36 @@ TEST(ImageDifference, IdsAreOnlyCounted) {
     const ChannelDifference d = compare_images(a, b).channels.at(0);
     EXPECT_EQ(d.differing, 2u);
     EXPECT_EQ(d.largest, 0.0);
+}
+
+TEST(ImageDifference, PixelsAboveAThresholdAreCountedOnceAcrossChannels) {
+    const Image a{4, 1, {{"R", {0, 0.5f, 0.25f, kNan}}, {"Z", {1, 1, 1, 1}}}, {}, {}};
+    const Image b{4, 1, {{"R", {0, 0.75f, 1.25f, 2}}, {"Z", {1, 3, 1.25f, 1}}}, {}, {}};
+    const auto above = [&](double threshold, const std::vector<std::string>& channels) {
+        const ImageDifference d = compare_images(a, b, {channels, threshold});
+        std::vector<uint64_t> counts{d.above};
+        for (const ChannelDifference& channel : d.channels) counts.push_back(channel.above);
+        return counts;
+    };
+    using Counts = std::vector<uint64_t>;
+    EXPECT_EQ(above(0, {}), (Counts{3, 3, 2}));
+    EXPECT_EQ(above(0.25, {}), (Counts{3, 2, 1}));  // 0.25 itself isn't above
+    EXPECT_EQ(above(1, {}), (Counts{2, 1, 1}));
+    EXPECT_EQ(above(9, {}), (Counts{1, 1, 0}));  // what isn't finite is above everything
+    EXPECT_EQ(above(0.25, {"Z"}), (Counts{1, 1}));
+    EXPECT_EQ(compare_images(a, b).pixels, 4u);
+    EXPECT_THROW(compare_images(a, b, {{"z"}, 0}), Error);
+}
+
+TEST(ImageDifference, ItsPictureHasDistancesAndMarks) {
+    const Image a{
+        3, 1, {{"R", {1, 0.25f, kInfinity}}, {"A", {1, 1, 1}}}, {{"objectId", {1, 2, 3}}}, {}};
+    const Image b{3, 1, {{"R", {1, 0.75f, 2}}, {"Z", {1, 1, 1}}}, {{"objectId", {1, 7, 3}}}, {}};
+    const Image picture = difference_image(a, b);
+    ASSERT_EQ(picture.planes.size(), 2u);
+    EXPECT_EQ(picture.planes.at("R"), (Plane<float>{0, 0.5f, 65504}));
+    EXPECT_EQ(picture.planes.at("objectId"), (Plane<float>{0, 1, 0}));
+    EXPECT_TRUE(picture.id_planes.empty());
 }
 
 TEST(ImageDifference, ChannelsOfOneImageAreNamed) {

@@ -38,7 +38,7 @@ struct Change {
     const char* to = "";
 };
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string text_with(std::string text, const std::string& from, const std::string& to) {
     for (size_t at = text.find(from); !from.empty() && at != std::string::npos;
          at = text.find(from, at + to.size()))
         text.replace(at, from.size(), to);
@@ -59,8 +59,8 @@ class WorldCacheFiles : public FileTest {
     }
 
     Scene scene(const std::string& surface, const Change& change = {}) const {
-        const std::string text = replaced(kCachedScene, "SURFACE", surface);
-        const std::string changed = replaced(text, change.from, change.to);
+        const std::string text = text_with(kCachedScene, "SURFACE", surface);
+        const std::string changed = text_with(text, change.from, change.to);
         EXPECT_TRUE(*change.from == 0 || changed != text) << change.from;
         return parse_scene(changed, folder / "s.json", {});
     }
@@ -121,7 +121,7 @@ TEST_F(WorldCacheFiles, WhatTheVoxelsAreMadeOfIsAnotherWorld) {
             EXPECT_EQ(outcome.hash, show(changed).hash) << surface << ": " << change.to;
         }
     }
-    put_bytes(folder / "m.obj", replaced(kMesh, "0.7", "0.6"));
+    put_bytes(folder / "m.obj", text_with(kMesh, "0.7", "0.6"));
     EXPECT_FALSE(show(scene("smooth")).world.is_from_cache) << "other bytes of the mesh";
 }
 
@@ -150,14 +150,14 @@ struct Motion {
 class MovingWorldFiles : public WorldCacheFiles {
   protected:
     Scene moving_scene(const Motion& motion) const {
-        std::string text = replaced(kCachedScene, "SURFACE", "smooth");
-        text = replaced(text, "\"name\": \"b\"",
+        std::string text = text_with(kCachedScene, "SURFACE", "smooth");
+        text = text_with(text, "\"name\": \"b\"",
                         fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
         const std::string animation = fmt::format(
             R"("animation": {{"frames": 3, "tracks": [{{"target": "{}", "keys": [
                 {{"frame": 1, "value": {}}}, {{"frame": 3, "value": {}}}]}}]}}, "render":)",
             motion.target, motion.from, motion.to);
-        return parse_scene(replaced(text, "\"render\":", animation), folder / "s.json", {});
+        return parse_scene(text_with(text, "\"render\":", animation), folder / "s.json", {});
     }
     ModelCache cache() const { return ModelCache(folder / "models", 64 << 20, 0).with_worlds(); }
 };

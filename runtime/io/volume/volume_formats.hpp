@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "runtime/image/volume.hpp"
 #include "runtime/io/volume/volume_options.hpp"
@@ -15,9 +16,13 @@ void write_volume_vdb(const VolumePath& path, const Volume& volume);
 void write_volume_exr(const VolumePath& path, const Volume& volume);
 void write_volume_nrrd(const VolumePath& path, const Volume& volume, const VolumeOptions& options);
 void write_volume_raw(const VolumePath& path, const Volume& volume);
+/// The arrays and their header, of the name of either.
+std::vector<VolumePath> raw_files_of(const VolumePath& path);
 void write_volume_slices(const VolumePath& pattern, const Volume& volume);
 /// The path of the header of slices, without their number: `a/s.####.png` -> `a/s.json`.
 VolumePath slices_header_of(const VolumePath& pattern);
+/// All slices, as many as their header tells of, and the header; empty where that isn't there.
+std::vector<VolumePath> slice_files_of(const VolumePath& pattern);
 void write_volume_ply(const VolumePath& path, const Volume& volume);
 void write_volume_kv6(const VolumePath& path, const Volume& volume, const DeviceOptions& options);
 /// Writes the format `planes` or `color_planes`.

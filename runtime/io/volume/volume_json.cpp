@@ -17,16 +17,17 @@ namespace {
 /// The maximum size of a header. Headers are much shorter; scenes may be longer.
 constexpr uintmax_t kMaxHeaderBytes = 1 << 20;
 
-bool is_header(const VolumePath& path, VolumeFormat format) {
-    std::error_code failed;
-    if (std::filesystem::file_size(path, failed) > kMaxHeaderBytes || failed) return false;
-    std::ifstream file(path, std::ios::binary);
-    const VolumeJson json = VolumeJson::parse(file, nullptr, false);
-    return json.is_object() && json.contains("voxelume_volume") &&
-           json.value("format", VolumeJson()) == volume_format_name(format);
-}
-
 }  // namespace
+
+VolumeJson read_header(const VolumePath& header, VolumeFormat format) {
+    std::error_code failed;
+    if (std::filesystem::file_size(header, failed) > kMaxHeaderBytes || failed) return {};
+    std::ifstream file(header, std::ios::binary);
+    VolumeJson json = VolumeJson::parse(file, nullptr, false);
+    const bool is_one = json.is_object() && json.contains("voxelume_volume") &&
+                        json.value("format", VolumeJson()) == volume_format_name(format);
+    return is_one ? json : VolumeJson();
+}
 
 VolumePath header_path_of(const VolumePath& data) {
     VolumePath header = data;
@@ -36,7 +37,8 @@ VolumePath header_path_of(const VolumePath& data) {
 
 void check_header(const VolumePath& header, VolumeFormat format) {
     std::error_code failed;
-    if (!std::filesystem::is_regular_file(header, failed) || is_header(header, format)) return;
+    if (!std::filesystem::is_regular_file(header, failed) || !read_header(header, format).empty())
+        return;
     throw Error(ErrorKind::output,
                 "{}: a header of format {} would go there, and this file isn't one; choose another "
                 "name",

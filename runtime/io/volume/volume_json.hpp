@@ -14,6 +14,9 @@ using VolumeJson = nlohmann::ordered_json;
 /// appended.
 VolumePath header_path_of(const VolumePath& data);
 
+/// The header in a file; null where there is none of this format.
+VolumeJson read_header(const VolumePath& header, VolumeFormat format);
+
 /// Throws Error::output where the header would replace a file that is no header of this format: a
 /// scene, or the header of other files with the same name.
 void check_header(const VolumePath& header, VolumeFormat format);

@@ -63,11 +63,19 @@ VolumeJson write_arrays(AtomicFile& file, const Volume& volume) {
     return arrays;
 }
 
+VolumePath data_path_of(const VolumePath& path) {
+    return ending_of(path) == ".json" ? VolumePath(path).replace_extension(".raw") : path;
+}
+
 }  // namespace
 
+std::vector<VolumePath> raw_files_of(const VolumePath& path) {
+    const VolumePath data = data_path_of(path);
+    return {data, header_path_of(data)};
+}
+
 void write_volume_raw(const VolumePath& path, const Volume& volume) {
-    const VolumePath data =
-        ending_of(path) == ".json" ? VolumePath(path).replace_extension(".raw") : path;
+    const VolumePath data = data_path_of(path);
     AtomicFile file(data);
     VolumeJson header = start_header(data, volume, VolumeFormat::raw);
     const glm::ivec3& size = volume.frame.size;

@@ -62,6 +62,18 @@ VolumePath slices_header_of(const VolumePath& pattern) {
     return pattern.parent_path() / (name.empty() ? "slices.json" : name + ".json");
 }
 
+std::vector<VolumePath> slice_files_of(const VolumePath& pattern) {
+    const VolumePath header = slices_header_of(pattern);
+    const VolumeJson json = read_header(header, VolumeFormat::slices);
+    if (json.empty()) return {};
+    const VolumeJson count = json.value("/shape/2"_json_pointer, VolumeJson());
+    std::vector<VolumePath> files;
+    for (int k = 0; count.is_number_integer() && k < count.get<int>(); ++k)
+        files.emplace_back(frame_path(pattern.string(), k, true));
+    files.push_back(header);
+    return files;
+}
+
 void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
     const glm::ivec3& size = volume.frame.size;
     PngOptions options;

@@ -20,6 +20,13 @@ std::vector<const char*> plane_names(const ImageChannels& channels) {
     return names;
 }
 
+std::vector<const char*> id_plane_names(const ImageChannels& channels) {
+    std::vector<const char*> names;
+    if (channels.object) names.push_back("objectId");
+    if (channels.material) names.push_back("materialId");
+    return names;
+}
+
 size_t pixel_count(const Camera& camera) {
     return size_t(camera.width) * size_t(camera.height);
 }
@@ -34,7 +41,8 @@ Defines resolve_defines(const Device& device, const Features& features,
                                    {"VXL_SHOWS_DISTANCE", channels.distance},
                                    {"VXL_SHOWS_POSITION", channels.position},
                                    {"VXL_SHOWS_NORMAL", channels.normal},
-                                   {"VXL_SHOWS_OBJECT", channels.object}});
+                                   {"VXL_SHOWS_OBJECT", channels.object},
+                                   {"VXL_SHOWS_MATERIAL", channels.material}});
     return defines;
 }
 
@@ -42,7 +50,7 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
                            const ImageChannels& channels) {
     const size_t pixels = size_t(size.x) * size_t(size.y);
     return {{device, "image", plane_names(channels).size() * pixels, kSmallerImage},
-            {device, "object numbers", channels.object ? pixels : 0, kSmallerImage},
+            {device, "object numbers", id_plane_names(channels).size() * pixels, kSmallerImage},
             {device, "not finite", 1}};
 }
 
@@ -50,6 +58,7 @@ ResolveStage::ResolveStage(const Device& device, const Features& features, const
                            const ImageChannels& channels)
     : camera_(camera),
       names_(plane_names(channels)),
+      id_names_(id_plane_names(channels)),
       image_(allocate_image(device, {camera.width, camera.height}, channels)),
       program_(device, "resolve.cl", resolve_defines(device, features, channels)),
       pixels_(program_.kernel("resolve_pixels")) {
@@ -61,7 +70,7 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
     pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch,
-                           first_tile, tiles, image_.planes, image_.objects, image_.not_finite);
+                           first_tile, tiles, image_.planes, image_.ids, image_.not_finite);
 }
 
 Image ResolveStage::image() const {
@@ -73,7 +82,11 @@ Image ResolveStage::image() const {
     for (size_t i = 0; i < names_.size(); ++i)
         image.planes[names_[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),
                                    pixels};
-    if (!image_.objects.empty()) image.id_planes["objectId"] = {image_.objects.contents(), pixels};
+    if (id_names_.empty()) return image;
+    const std::shared_ptr<uint32_t> ids = image_.ids.contents();
+    for (size_t i = 0; i < id_names_.size(); ++i)
+        image.id_planes[id_names_[i]] = {std::shared_ptr<uint32_t>(ids, ids.get() + i * pixels),
+                                         pixels};
     return image;
 }
 

@@ -19,7 +19,7 @@ Defines resolve_defines(const Device& device, const Features& features,
 /// What an image is made in.
 struct ImageArrays {
     Buffer<float> planes;         ///< one after another
-    Buffer<uint32_t> objects;     ///< number of the object plus 1
+    Buffer<uint32_t> ids;         ///< numbers of the object and the material plus 1, likewise
     Buffer<uint32_t> not_finite;  ///< one value
 };
 ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
@@ -43,7 +43,7 @@ class ResolveStage {
 
   private:
     Camera camera_;
-    std::vector<const char*> names_;  ///< of the planes
+    std::vector<const char*> names_, id_names_;  ///< of the planes
     ImageArrays image_;
     Program program_;
     Kernel pixels_;

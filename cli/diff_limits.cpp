@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/diff_limits.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/checks.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+/// For an option's text: "12" or "0.5%".
+std::string check_above(const std::string& text) {
+    const bool is_share = text.ends_with('%');
+    const std::string number = is_share ? text.substr(0, text.size() - 1) : text;
+    return is_share ? in_range(0, 100)(number) : in_range(0, 1e18, Number::whole)(number);
+}
+
+/// How many pixels `text` allows above the threshold.
+double allowed_pixels(const std::string& text, uint64_t pixels) {
+    if (!text.ends_with('%')) return std::stod(text);
+    return std::stod(text.substr(0, text.size() - 1)) / 100 * double(pixels);
+}
+
+std::optional<std::string> excess_of_channels(const ImageDifference& difference, double limit) {
+    for (const ChannelDifference& c : difference.channels) {
+        if (c.unmatched > 0)
+            return fmt::format("{} pixels of {} are finite in one only", c.unmatched, c.channel);
+        if (c.rmse > limit)
+            return fmt::format("the RMSE of {} is {:.6g}, above {:.6g}", c.channel, c.rmse, limit);
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_limit_options(CLI::App& app, DiffLimits& limits) {
+    app.add_option("--fail", limits.rmse,
+                   "exit with 1 if a channel's RMSE is above this, a value is finite in one image "
+                   "only, or a channel is missing; ids are listed but never fail");
+    app.add_option("--fail-above", limits.above,
+                   "exit with 1 if more pixels than this are above --threshold in some channel, "
+                   "ids among them, or a channel is missing; 0.1% is a part of all pixels")
+        ->check(check_above)
+        ->type_name("COUNT");
+    app.add_option("--fail-flip", limits.flip, "exit with 1 if FLIP is above this")
+        ->check(in_range(0, 1));
+}
+
+std::optional<std::string> excess_of(const ImageDifference& difference, const DiffLimits& limits) {
+    if (limits.rmse)
+        if (auto excess = excess_of_channels(difference, *limits.rmse)) return excess;
+    if (!limits.above.empty() &&
+        double(difference.above) > allowed_pixels(limits.above, difference.pixels))
+        return fmt::format("{} of {} pixels are above the threshold, and {} may be",
+                           difference.above, difference.pixels, limits.above);
+    if (limits.flip && !difference.flip)
+        fail_usage("diff: --fail-flip: FLIP compares colours, and R, G and B aren't compared");
+    if (limits.flip && *difference.flip > *limits.flip)
+        return fmt::format("FLIP is {:.6g}, above {:.6g}", *difference.flip, *limits.flip);
+    if (!limits.rmse && limits.above.empty()) return {};
+    if (!difference.only_in_a.empty()) return "only A has channel " + difference.only_in_a.front();
+    if (!difference.only_in_b.empty()) return "only B has channel " + difference.only_in_b.front();
+    return {};
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far images may be apart before `diff` fails.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runtime/voxelume.hpp"
+
+// NOLINTNEXTLINE(readability-identifier-naming): the library's own name
+namespace CLI {
+class App;
+}
+
+namespace voxelume::cli {
+
+struct DiffLimits {
+    std::optional<double> rmse;  ///< of a channel
+    std::optional<double> flip;  ///< mean FLIP
+    std::string above;           ///< pixels above the threshold: a number, or a percentage
+};
+
+/// Declares --fail, --fail-above and --fail-flip.
+void add_limit_options(CLI::App& app, DiffLimits& limits);
+
+/// What exceeds the limits first, as part of a sentence; nothing where all is within them, and
+/// where there are none. Throws Error::usage for a limit of FLIP where no colours were compared.
+std::optional<std::string> excess_of(const ImageDifference& difference, const DiffLimits& limits);
+
+}  // namespace voxelume::cli

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// samples -> mattes: which objects, or materials, cover most of each pixel, and by how much.
+//
+// Source: Friedman, Jones: "Fully Automatic ID Mattes with Support for Motion Blur and
+// Transparency", 2015, whose ranks are Cryptomatte's.
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/ray_batch.h"
+#include "shared/matte.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+/// The field of packed attributes that a matte is of.
+typedef struct {
+    uint shift, mask;
+} MatteField;
+
+/// The samples of a pixel: every 16th ray from its first one on.
+typedef struct {
+    const RayBatch* batch;
+    uint first;
+    MatteField field;
+} PixelSamples;
+
+/// The number of what a sample's ray met first, from 1 on; 0 for nothing.
+static inline uint sample_number(const PixelSamples* s, uint sample) {
+    const uint ray = s->first + sample * 16u;
+    if (s->batch->hits[VXL_HIT_VOXEL * s->batch->stride + ray] == VXL_NO_VOXEL) return 0u;
+    return ((s->batch->hit_attributes[ray] >> s->field.shift) & s->field.mask) + 1u;
+}
+
+/// What a sample adds to the pixel's A, which belongs to the surface that it met first.
+static inline float sample_coverage(const PixelSamples* s, uint sample) {
+    const bool is_counted = VXL_TRANSMISSION && VXL_RADIANCE;
+    return is_counted ? s->batch->coverage[s->first + sample * 16u] : 1.0f;
+}
+
+static inline bool was_met_before(const PixelSamples* s, uint sample, uint number) {
+    for (uint earlier = 0; earlier < sample; ++earlier)
+        if (sample_number(s, earlier) == number) return true;
+    return false;
+}
+
+/// The numbers that cover most, and how much; equal ones in the order of their numbers.
+typedef struct {
+    uint number[VXL_MATTE_RANKS];
+    float share[VXL_MATTE_RANKS];
+} Ranks;
+
+static inline void insert_rank(Ranks* ranks, uint number, float share) {
+    for (uint i = 0; i < VXL_MATTE_RANKS; ++i) {
+        const bool is_before =
+            share > ranks->share[i] ||
+            (share == ranks->share[i] && (ranks->number[i] == 0u || number < ranks->number[i]));
+        if (!is_before) continue;
+        const uint other = ranks->number[i];
+        const float its_share = ranks->share[i];
+        ranks->number[i] = number, ranks->share[i] = share;
+        if (other == 0u) return;
+        number = other, share = its_share;
+    }
+}
+
+/// One work-item ranks what one pixel shows. Rank r of a pixel is `pixels` * r behind its first, in
+/// `numbers`, 0 for none, and in `shares`, the part of the pixel that it covers.
+kernel void rank_matte(Camera camera, VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
+                       uint shift, uint mask, global uint* restrict numbers,
+                       global float* restrict shares) {
+    const uint item = work_item();
+    if (item >= tile_count * 16u) return;
+    const uint tile = first_tile + item / 16u, tiles_x = ((uint)camera.width + 3u) / 4u;
+    const uint column = tile % tiles_x * 4u + (item & 3u);
+    const uint row = tile / tiles_x * 4u + (item % 16u >> 2);
+    if (column >= (uint)camera.width || row >= (uint)camera.height) return;
+    const RayBatch batch = VXL_BATCH;
+    const uint samples = (uint)camera.samples;
+    const PixelSamples s = {&batch, item / 16u * samples * 16u + item % 16u, {shift, mask}};
+    Ranks ranks;
+    for (uint i = 0; i < VXL_MATTE_RANKS; ++i) ranks.number[i] = 0u, ranks.share[i] = 0.0f;
+    for (uint sample = 0; sample < samples; ++sample) {
+        const uint number = sample_number(&s, sample);
+        if (number == 0u || was_met_before(&s, sample, number)) continue;
+        float share = 0.0f;
+        for (uint other = sample; other < samples; ++other)
+            if (sample_number(&s, other) == number) share += sample_coverage(&s, other);
+        if (share > 0.0f) insert_rank(&ranks, number, share * camera.sample_weight);
+    }
+    const size_t pixels = (size_t)camera.width * (size_t)camera.height;
+    const size_t place = row * (size_t)camera.width + column;
+    for (uint i = 0; i < VXL_MATTE_RANKS; ++i) {
+        numbers[i * pixels + place] = ranks.number[i];
+        shares[i * pixels + place] = ranks.share[i];
+    }
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mattes as a compositor reads them: from the file alone.
+#include <gmock/gmock.h>
+
+#include <bit>
+
+#include "runtime/io/image/exr.hpp"
+#include "tests/cli/scene_program.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::HasSubstr;
+
+class CliMatteTest : public SceneProgramTest {
+  protected:
+    static constexpr const char* kMattes =
+        "render scene.json -q -o m.exr --samples 4 --channels RGBA,CryptoObject,CryptoMaterial ";
+
+    void SetUp() override {
+        SceneProgramTest::SetUp();
+        write_scene([](Json& scene) {
+            scene["materials"]["moss"] = {{"color", {0.2, 0.5, 0.1}}};
+            scene["objects"].push_back({{"name", "Würfel \"2\""},
+                                        {"model", "thing"},
+                                        {"material", "moss"},
+                                        {"position", {2.1, 1.2, 0.6}}});
+        });
+    }
+
+    /// The names of a layer's manifest with the floats that stand for them.
+    static std::map<std::string, float> names_of(const Image& image, const std::string& layer) {
+        for (const auto& [key, value] : image.attributes) {
+            if (!key.starts_with("cryptomatte/") || !key.ends_with("/name") || value != layer)
+                continue;
+            const std::string start = key.substr(0, key.size() - 4);
+            EXPECT_EQ(image.attributes.at(start + "hash"), "MurmurHash3_32");
+            EXPECT_EQ(image.attributes.at(start + "conversion"), "uint32_to_float32");
+            std::map<std::string, float> names;
+            const Json manifest = Json::parse(image.attributes.at(start + "manifest"));
+            for (const auto& [name, bits] : manifest.items())
+                names[name] = std::bit_cast<float>(
+                    uint32_t(std::stoul(bits.get<std::string>(), nullptr, 16)));
+            return names;
+        }
+        ADD_FAILURE() << "there is no " << layer;
+        return {};
+    }
+};
+
+TEST_F(CliMatteTest, AFileNamesWhatCoversItsPixels) {
+    ASSERT_EQ(run(kMattes).exit_code, 0);
+    const Image image = read_exr(folder / "m.exr");
+    for (const std::string layer : {"CryptoObject", "CryptoMaterial"}) {
+        const std::map<std::string, float> names = names_of(image, layer);
+        std::map<float, std::string> by_id;
+        for (const auto& [name, id] : names) by_id[id] = name;
+        std::map<std::string, double> covered;
+        for (size_t i = 0; i < image.planes.at("A").size(); ++i) {
+            double sum = 0;
+            for (const std::string rank : {"00.RG", "00.BA", "01.RG", "01.BA", "02.RG", "02.BA"}) {
+                const auto value = [&](size_t channel) {
+                    return image.planes.at(layer + rank.substr(0, 3) + rank[channel])[i];
+                };
+                if (value(4) == 0) continue;
+                ASSERT_TRUE(by_id.contains(value(3))) << layer << rank << i;
+                covered[by_id[value(3)]] += double(value(4));
+                sum += double(value(4));
+            }
+            EXPECT_NEAR(sum, image.planes.at("A")[i], 1e-3) << i;  // A is a half
+        }
+        ASSERT_EQ(covered.size(), 2u) << layer;
+        for (const auto& [name, pixels] : covered) EXPECT_GT(pixels, 5) << name;
+    }
+    EXPECT_TRUE(names_of(image, "CryptoObject").contains("Würfel \"2\""));
+    EXPECT_TRUE(names_of(image, "CryptoMaterial").contains("moss"));
+}
+
+TEST_F(CliMatteTest, PartsHaveTheBytesOfTheWhole) {
+    ASSERT_EQ(run(kMattes).exit_code, 0);
+    const std::string whole = bytes_of(folder / "m.exr");
+    std::filesystem::remove(folder / "m.exr");
+    for (const char* shard : {"1/2", "2/2"})
+        ASSERT_EQ(run(std::string(kMattes) + "--shard " + shard).exit_code, 0);
+    ASSERT_EQ(run("merge m.exr.*.shard").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "m.exr"), whole);
+}
+
+TEST_F(CliMatteTest, AFileWithoutThemHasNoManifest) {
+    ASSERT_EQ(run("render scene.json -q -o m.exr --channels RGBA,materialId").exit_code, 0);
+    const Image image = read_exr(folder / "m.exr");
+    EXPECT_EQ(image.planes.size(), 4u);
+    EXPECT_TRUE(image.id_planes.contains("materialId"));
+    for (const auto& [key, value] : image.attributes)
+        EXPECT_FALSE(key.starts_with("crypto")) << key;
+    EXPECT_THAT(expect_failure(2, "render scene.json -o x.exr --channels cryptoobject"),
+                HasSubstr("did you mean \"CryptoObject\"?"));
+}
+
+TEST_F(CliMatteTest, OtherProgramsFindTheMatteOfACrop) {
+    if (run_line("oiiotool --version").exit_code != 0) GTEST_SKIP() << "there is no oiiotool";
+    ASSERT_EQ(run(std::string(kMattes) + "--crop 2,3,15,8").exit_code, 0);
+    const ProgramResult info = run_line("oiiotool --info -v m.exr");
+    EXPECT_THAT(info.out, testing::AllOf(HasSubstr("CryptoMaterial00.R"), HasSubstr("manifest"),
+                                         HasSubstr("full/display size: 20 x 12"),
+                                         HasSubstr("pixel data origin: x=2, y=3")));
+    EXPECT_EQ(info.err, "");
+    ASSERT_EQ(
+        run_line("oiiotool m.exr --ch CryptoObject00.R,CryptoMaterial02.A -o c.exr").exit_code, 0);
+    const Image chosen = read_exr(folder / "c.exr"), image = read_exr(folder / "m.exr");
+    EXPECT_EQ(chosen.first, glm::ivec2(2, 3));
+    for (const auto& [name, plane] : chosen.planes) EXPECT_EQ(plane, image.planes.at(name)) << name;
+}
+
+}  // namespace
+}  // namespace voxelume

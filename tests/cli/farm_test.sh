@@ -1,0 +1,188 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Runs a recipe of scenes/farm with the real thing, and compares its files with those of a single
+# run. Exits with 77 where the thing isn't installed.
+# Usage: farm_test.sh SOURCE_FOLDER PROGRAM slurm|parallel|openjd
+set -euo pipefail
+source=$(realpath "$1")
+program=$(realpath "$2")
+recipe=$3
+farm=$source/scenes/farm
+folder=$(mktemp -d)
+servers=()
+finish() {
+    if [ ${#servers[@]} -gt 0 ]; then kill "${servers[@]}" 2>/dev/null || true; fi
+    wait
+    rm -rf "$folder"
+}
+trap finish EXIT
+cd "$folder"
+mkdir bin whole parts
+ln -s "$program" bin/voxelume
+export PATH=$folder/bin:$PATH:/usr/sbin
+export VOXELUME_CACHE_DIR=$folder/cache
+
+need() {
+    for name in "$@"; do
+        command -v "$name" >/dev/null || { echo "there is no $name"; exit 77; }
+    done
+}
+
+# A box that turns through 24 frames, each of which takes a while.
+cat >scene.json <<'END'
+{"voxelume": 1,
+ "world": {"voxel_size": 0.1, "bounds": {"min": [0, 0, 0], "max": [3, 2, 1]}},
+ "models": {"thing": {"shape": "box", "size": [1.2, 0.8, 0.4]}},
+ "objects": [{"name": "thing", "model": "thing", "position": [1.5, 1, 0.5]}],
+ "lights": [{"type": "directional", "direction": [0.2, -0.5, -1]}],
+ "observer": {"position": [1.5, 1, 4], "look_at": [1.5, 1, 0.5],
+              "display": {"shape": "pyramid", "angles": [45, 45]}},
+ "render": {"size": [256, 256], "samples": 9},
+ "animation": {"frames": 24, "tracks": [{"target": "objects.thing.turn",
+     "keys": [{"frame": 1, "value": [0, 0, 0]}, {"frame": 24, "value": [90, 200, 40]}]}]}}
+END
+seconds() { date +%s.%N; }
+told() { printf '%s: %.1f s\n' "$1" "$(echo "$(seconds) - $2" | bc)"; }
+
+render_whole() {
+    local start
+    start=$(seconds)
+    voxelume render scene.json -q -o whole/f.####.exr
+    told "24 frames, one run" "$start"
+    start=$(seconds)
+    voxelume render scene.json -q -o whole/one.exr --frames 7
+    told "one frame of 64 rows of tiles, one run" "$start"
+}
+
+# compare PATTERN: expects that the parts' files are the whole run's.
+compare() {
+    local count=0 file
+    for file in whole/$1; do
+        cmp "$file" "parts/${file#whole/}"
+        count=$((count + 1))
+    done
+    [ "$count" -eq "$2" ] || { echo "$count files instead of $2"; exit 1; }
+}
+
+start_slurm() {
+    local name
+    name=$(hostname -s)
+    mkdir -p slurm/ctld slurm/d
+    cat >slurm/slurm.conf <<END
+ClusterName=test
+SlurmctldHost=$name(127.0.0.1)
+SlurmUser=$(id -un)
+SlurmdUser=$(id -un)
+AuthType=auth/none
+CredType=cred/none
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+SlurmctldPort=16817
+SlurmdPort=16818
+StateSaveLocation=$folder/slurm/ctld
+SlurmdSpoolDir=$folder/slurm/d
+SlurmctldPidFile=$folder/slurm/ctld.pid
+SlurmdPidFile=$folder/slurm/d.pid
+SlurmctldLogFile=$folder/slurm/ctld.log
+SlurmdLogFile=$folder/slurm/d.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+MpiDefault=none
+SwitchType=switch/none
+ReturnToService=2
+KillWait=2
+SchedulerParameters=bf_interval=1,sched_min_interval=0
+NodeName=$name NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=debug Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+END
+    export SLURM_CONF=$folder/slurm/slurm.conf
+    slurmctld -D -c -f "$SLURM_CONF" 2>/dev/null &
+    servers+=($!)
+    slurmd -D -N "$name" -f "$SLURM_CONF" 2>/dev/null &
+    servers+=($!)
+    for ((i = 0; i < 100; ++i)); do
+        sinfo -h -o %T 2>/dev/null | grep -q idle && return
+        sleep 0.2
+    done
+    cat slurm/*.log
+    echo "Slurm doesn't start" && exit 1
+}
+
+# wait_for MERGE ARRAY: until both jobs are done; the merge must have succeeded.
+wait_for() {
+    for ((i = 0; i < 1500; ++i)); do
+        [ -z "$(squeue -h -j "$1,$2" 2>/dev/null)" ] && break
+        sleep 0.2
+    done
+    scontrol show job -o "$1" | grep -q 'JobState=COMPLETED' ||
+        { scontrol show job -o "$1" || true; tail -n 3 voxelume-*.log; exit 1; }
+}
+
+# requeue_first ARRAY: kills a task that has finished a frame and works on its next one.
+requeue_first() {
+    for ((i = 0; i < 600; ++i)); do
+        [ -e parts/f.0001.exr ] && break
+        sleep 0.05
+    done
+    scontrol requeue "$1_1"
+    cp -p parts/f.0001.exr kept.exr
+    # Slurm would wait for two minutes.
+    for ((i = 0; i < 100; ++i)); do
+        squeue -h -j "$1_1" -o %T | grep -q PENDING && break
+        sleep 0.1
+    done
+    scontrol update JobId="$1_1" StartTime=now
+}
+
+run_slurm() {
+    need slurmctld slurmd sbatch bc
+    render_whole
+    start_slurm
+    local start jobs
+    rm -rf cache  # no node has a kernel yet
+    start=$(seconds)
+    read -r -a jobs < <("$farm/slurm_submit.sh" 8 scene.json -o parts/f.####.exr)
+    requeue_first "${jobs[0]}"
+    wait_for "${jobs[1]}" "${jobs[0]}"
+    told "24 frames, 8 tasks, one of them requeued" "$start"
+    scontrol show job -o "${jobs[0]}_1" | grep -q 'Restarts=1' ||
+        { echo "no task began again"; exit 1; }
+    [ "$(stat -c %Y.%y parts/f.0001.exr)" = "$(stat -c %Y.%y kept.exr)" ] ||
+        { echo "a finished frame was rendered again"; exit 1; }
+    compare 'f.*.exr' 24
+    start=$(seconds)
+    read -r -a jobs < <("$farm/slurm_submit.sh" 8 scene.json --frames 7 -o parts/one.exr)
+    wait_for "${jobs[1]}" "${jobs[0]}"
+    told "one frame of 64 rows of tiles, 8 tasks" "$start"
+    compare 'one*.exr' 1
+}
+
+run_parallel() {
+    need parallel bc
+    render_whole
+    local start
+    start=$(seconds)
+    "$farm/parallel.sh" 8 parts/f.####.exr scene.json 2>/dev/null
+    told "24 frames, GNU parallel" "$start"
+    compare 'f.*.exr' 24
+    "$farm/parallel.sh" 5 parts/one.exr scene.json --frames 7 2>/dev/null
+    compare 'one*.exr' 1
+}
+
+run_openjd() {
+    need openjd bc
+    openjd check "$farm/openjd.yaml"
+    render_whole
+    local parameters=(--job-param "Scene=$folder/scene.json" --job-param "Folder=$folder/parts"
+        --job-param Output=f.####.exr --job-param Parts=3)
+    for step in Render Merge; do
+        openjd run "$farm/openjd.yaml" --step "$step" "${parameters[@]}" >"$step.log" 2>&1 ||
+            { cat "$step.log"; exit 1; }
+    done
+    compare 'f.*.exr' 24
+}
+
+"run_$recipe"
+echo "all files are those of a single run"
