@@ -10,23 +10,9 @@
 #include "lib/light/directions.h"
 #include "lib/light/emitters.h"
 #include "lib/light/layer.h"
+#include "lib/light/lobes.h"
 #include "lib/light/path_samples.h"
 #include "lib/light/paths.h"
-
-/// The parts of the light that a packet's surfaces return from each way on.
-typedef struct {
-    lane_float diffuse[3];
-    lane_float reflected, refracted;
-    lane_float straight;  // past the surface, which covers only a part
-} Lobes;
-
-/// The ways that the paths go on, as masks, and what their light is multiplied by.
-typedef struct {
-    lane_int diffuse, reflected, refracted, straight;
-    lane_float throughput[3];
-    lane_float clear;   // in proportion to the straight way's throughput
-    lane_float chance;  // of the diffuse way
-} Choice;
 
 /// Adds the light at the paths' surfaces to the light of their sight rays, whose sums the first
 /// surfaces begin. Multiplies `throughput` by what the medium and objects on the way let through.
@@ -62,64 +48,6 @@ static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_in
     LANES_STORE(LANES_SELECT(met, (lane_float)1.0f, 1.0f - clear), covered, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane)
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
-}
-
-/// What the surfaces return. Those that a path meets after its last scattering only let it pass.
-static inline Lobes lobes_of(const Surroundings* around, global const uint* restrict colors,
-                             const RayBatch* batch, uint first, ScatterPoint* p,
-                             const lane_float opacity, lane_int scatters) {
-    const lane_float zero = (lane_float)0.0f;
-    global const float* materials = around->materials;
-    Scattered reflected, refracted;
-    scatter_light(around, p, &reflected, &refracted);
-    const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first);
-    const lane_uint voxel = number & LANES_AS_UINT(p->hit);
-    const lane_uint color =
-        color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
-    const lane_float covered = LANES_SELECT(p->hit & scatters, opacity, zero);
-    const lane_float diffuse =
-        covered * LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_DIFFUSE);
-    Lobes l;
-    for (int c = 0; c < 3; ++c)
-        l.diffuse[c] = diffuse * surface_color(materials, color, colors, voxel, c);
-    l.reflected = covered * reflected.returned;
-    l.refracted = covered * refracted.returned;
-    l.straight = zero;
-    return l;
-}
-
-/// Chooses a way for each path with a probability in proportion to what comes from it. `roulette`
-/// is the mask of paths that may end, the more probably the less light they can still bring.
-static inline Choice choose_way(const Lobes* l, const lane_float* throughput, SquarePoint p,
-                                lane_int roulette) {
-    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    const lane_float diffuse = largest(l->diffuse);
-    const lane_float to_reflected = diffuse + l->reflected;
-    const lane_float to_refracted = to_reflected + l->refracted;
-    const lane_float all = to_refracted + l->straight, at = p.x * all;
-    Choice c;
-    c.diffuse = LANE_MASK(at < diffuse);
-    c.reflected = LANE_MASK(at < to_reflected) & ~c.diffuse & LANE_MASK(l->reflected > 0.0f);
-    c.refracted = LANE_MASK(at < to_refracted) & LANE_MASK(at >= to_reflected) &
-                  LANE_MASK(l->refracted > 0.0f);
-    c.straight = LANE_MASK(at >= to_refracted) & LANE_MASK(l->straight > 0.0f);
-    c.clear = all;
-    const lane_float per_diffuse =
-        exact_divide(all, LANES_SELECT(LANE_MASK(diffuse > 0.0f), diffuse, one));
-    c.chance = exact_divide(diffuse, LANES_SELECT(LANE_MASK(all > 0.0f), all, one));
-    for (int i = 0; i < 3; ++i)
-        c.throughput[i] = throughput[i] * LANES_SELECT(c.diffuse, l->diffuse[i] * per_diffuse, all);
-    const lane_float brings = largest(c.throughput);
-    const lane_int ends = roulette & ~c.straight & LANE_MASK(brings < 1.0f);
-    const lane_int stays = LANE_MASK(p.y < brings) | ~ends;
-    c.diffuse &= stays, c.reflected &= stays, c.refracted &= stays;
-    const lane_int some = ends & LANE_MASK(brings > 0.0f);
-    const lane_float scale =
-        LANES_SELECT(some, exact_reciprocal(LANES_SELECT(some, brings, one)), one);
-    for (int i = 0; i < 3; ++i) c.throughput[i] *= scale;
-    const lane_int lives = LANE_MASK(brings > zero);
-    c.diffuse &= lives, c.reflected &= lives, c.refracted &= lives, c.straight &= lives;
-    return c;
 }
 
 /// Directions and sides of the rays that leave surfaces: where matt ones scatter light by `at`,
@@ -212,13 +140,14 @@ static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch,
     return fmax(cosine, 0.0f);
 }
 
-/// Sends a ray from each matt surface to an emitter. Its throughput is that of the path for light
-/// from there, times the share of what the path may run into itself.
-static inline void look_for_emitters(PyramidShape shape, const Surroundings* around,
-                                     const ScatterPoint* p, const RayBatch* batch, uint first,
-                                     const Lobes* lobes, const lane_float* throughput,
-                                     lane_float chance, const PathSamples* samples,
-                                     const Emitters* emitters, lane_int* wanted, NewRays* r) {
+/// Fills rays from matt surfaces to emitters, but for their state and target. Their throughput is
+/// that of the path for light from there, times the share of it that falls to these rays.
+/// Returns the mask of rays to send.
+static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings* around,
+                                         const ScatterPoint* p, const RayBatch* batch, uint first,
+                                         const Lobes* lobes, const lane_float* throughput,
+                                         lane_float chance, const PathSamples* samples,
+                                         const Emitters* emitters, NewRays* r) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const SquarePoint choice = path_point(samples, VXL_DECISION_EMITTER);
     const SquarePoint place = path_point(samples, VXL_DECISION_EMITTER_POINT);
@@ -230,18 +159,42 @@ static inline void look_for_emitters(PyramidShape shape, const Surroundings* aro
     const EmitterRays s = choose_emitter(emitters, r->origin, shape.edge, choice, place);
     lane_int above;
     const lane_float cosine = cosine_at(p, batch, first, s.direction, &above) * 0.318309886f;
-    *wanted = way.diffuse & s.found & above;
+    const lane_int wanted = way.diffuse & s.found & above;
     lane_float density = s.density;
     if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * cosine;
-    const lane_float weight = exact_divide(cosine, LANES_SELECT(*wanted, density, one));
+    const lane_float weight = exact_divide(cosine, LANES_SELECT(wanted, density, one));
     for (int c = 0; c < 3; ++c)
-        r->throughput[c] = LANES_SELECT(*wanted, throughput[c] * lobes->diffuse[c] * weight, zero);
-    const Vector ahead = select_vector(*wanted, s.direction, p->normal);
+        r->throughput[c] = LANES_SELECT(wanted, throughput[c] * lobes->diffuse[c] * weight, zero);
+    const Vector ahead = select_vector(wanted, s.direction, p->normal);
     set_out_child(r, shape,
                   offset_origin(shape, p->position, p->normal, batch->hits, batch->stride, first),
                   p->normal, ahead);
     r->emitter = s.number;
     r->clear = zero;
+    return wanted;
+}
+
+/// The number of surfaces met, in the states of rays that go on from one more.
+static inline lane_uint met_after(lane_uint state) {
+    return min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
+}
+
+/// The states of paths that the surfaces have scattered, or let pass straight.
+static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_uint state) {
+    const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
+    const lane_uint next = ((bounces + 1u) << VXL_STATE_BOUNCE_SHIFT) |
+                           (LANES_AS_UINT(way->diffuse) & VXL_STATE_DIFFUSE);
+    return met_after(state) | LANES_SELECT(scattered, next, state & ~(lane_uint)VXL_STATE_MET);
+}
+
+/// VXL_PATH_EMITTER of rays that surfaces have scattered.
+static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch, uint first,
+                                   const Choice* way, const NewRays* r, float4 edge) {
+    lane_int above;
+    const Vector direction = unit(scaled(r->direction, edge));
+    const lane_float density =
+        cosine_at(p, batch, first, direction, &above) * 0.318309886f * way->chance;
+    return LANES_SELECT(way->diffuse, LANES_AS_UINT(density), (lane_uint)0);
 }
 
 /// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
@@ -285,17 +238,15 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     const Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
                                   LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
-    const lane_uint met = min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
-    if (VXL_EMITTERS && emitter_count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
+    if (VXL_EMITTERS && emitter_count) {
         const Emitters table = VXL_EMITTER_TABLE;
-        const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
-        lane_int wanted;
         NewRays ray;
-        look_for_emitters(shape, &around, &p, &batch, first, &lobes, throughput, way.chance,
-                          &samples, &table, &wanted, &ray);
+        const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        const lane_int wanted = look_for_emitters(shape, &around, &p, &batch, first, &lobes,
+                                                  throughput, way.chance, &samples, &table, &ray);
         ray.target = target;
-        ray.state = met | (sampling.bounces << VXL_STATE_BOUNCE_SHIFT) | VXL_STATE_DIFFUSE |
-                    VXL_STATE_TO_EMITTER;
+        ray.state = met_after(state) | (sampling.bounces << VXL_STATE_BOUNCE_SHIFT) |
+                    VXL_STATE_DIFFUSE | VXL_STATE_TO_EMITTER;
         const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
         put_rays(&sent, &ray, &slots);
     }
@@ -307,18 +258,10 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                                path_point(&samples, VXL_DECISION_DIRECTION));
     ray.target = target;
     ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
-    ray.state = met | ((bounces + 1u) << VXL_STATE_BOUNCE_SHIFT) |
-                (LANES_AS_UINT(way.diffuse) & VXL_STATE_DIFFUSE);
-    ray.state = LANES_SELECT(scattered, ray.state, met | (state & ~(lane_uint)VXL_STATE_MET));
-    if (VXL_EMITTERS) {
-        lane_int above;
-        const Vector direction = unit(scaled(ray.direction, shape.edge));
-        const lane_float density =
-            cosine_at(&p, &batch, first, direction, &above) * 0.318309886f * way.chance;
-        const lane_uint before = LANES_LOAD(paths, VXL_PATH_EMITTER * stride + first);
-        const lane_uint now = LANES_SELECT(way.diffuse, LANES_AS_UINT(density), (lane_uint)0);
-        ray.emitter = LANES_SELECT(scattered, now, before);
-    }
+    ray.state = state_after(&way, scattered, state);
+    if (VXL_EMITTERS)
+        ray.emitter = LANES_SELECT(scattered, density_of(&p, &batch, first, &way, &ray, shape.edge),
+                                   LANES_LOAD(paths, VXL_PATH_EMITTER * stride + first));
     const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
     put_rays(&queue, &ray, &slots);
 }

@@ -95,24 +95,21 @@ static inline void list_faces(const WorldView* world, const EmissivePieces* g, i
         if (sides >> face & 1u) list_piece(g, x, y, z, face, voxel, packed);
 }
 
-/// The first emissive surface among a voxel's triangles and solids, as packed attributes;
-/// VXL_NO_EMISSION if it has none.
 #define VXL_NO_EMISSION 0xFFFFFFFFu
+
+/// The attributes of the first emissive triangle or solid of a voxel, or VXL_NO_EMISSION.
 static inline uint first_emission(const SurfaceView* s, const EmissivePieces* g, uint voxel) {
     for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
         const uint number = s->primitives[i];
-        uint of = VXL_NO_EMISSION;
-        if (VXL_SOLIDS && number & VXL_SOLID_PRIMITIVE)
-            of = s->solids[number & ~VXL_SOLID_PRIMITIVE].attribute;
-        else if (VXL_TRIANGLES)
-            of = s->triangle_attributes[number];
-        if (of != VXL_NO_EMISSION && emits(g, of)) return of;
+        const uint of = number & VXL_SOLID_PRIMITIVE
+                            ? s->solids[number & ~VXL_SOLID_PRIMITIVE].attribute
+                            : s->triangle_attributes[number];
+        if (emits(g, of)) return of;
     }
     return VXL_NO_EMISSION;
 }
 
-/// Lists a voxel with emissive surfaces by the numbers that hits on these have: its own, once, and
-/// those of fields in its list.
+/// Lists a voxel by the numbers that hits on its emissive surfaces have: its own or its fields'.
 static inline void list_emitter(const WorldView* world, const EmissivePieces* g, int x, int y,
                                 int z, uint voxel, uint packed) {
     const SurfaceView* s = &world->surface;

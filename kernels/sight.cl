@@ -8,6 +8,7 @@
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/beam.h"
 #include "lib/traverse/display_shape.h"
+#include "lib/traverse/lens.h"
 #include "shared/scene.h"
 
 /// Observer metres to voxels, along one axis of the world.
@@ -33,7 +34,12 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     const lane_float py = LANES_FLOAT(row + camera.first_row) + offsets[2u * sample + 1u];
     const lane_float u = exact_divide(2.0f * px, (lane_float)(float)camera.frame_width) - 1.0f;
     const lane_float v = exact_divide(2.0f * py, (lane_float)(float)camera.frame_height) - 1.0f;
-    const SightRay ray = sight_ray(&camera, u, v, &seen);
+    SightRay ray = sight_ray(&camera, u, v, &seen);
+    if (VXL_LENS) {
+        const lane_uint frame_column = LANES_AS_UINT(column + camera.first_column);
+        const lane_uint frame_row = LANES_AS_UINT(row + camera.first_row);
+        ray = through_lens(&camera, ray, lens_point(frame_column, frame_row, sample));
+    }
 
     lane_float dx = along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.direction);
     lane_float dy = along(camera.axis_x.y, camera.axis_y.y, camera.axis_z.y, ray.direction);

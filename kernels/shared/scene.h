@@ -55,7 +55,8 @@ typedef struct Camera {
                  // spread out already; near_plane and far_plane count from there
     int first_column, first_row;    // of the image in its frame, which it may be a part of
     int frame_width, frame_height;  // pixels that half_x and half_y span
-    int unused[2];
+    float lens_radius;              // metres; 0: all rays start at one point
+    float lens_slope;               // lens_radius over the depth of what is sharp
 } Camera;
 VXL_SIZE_IS(Camera, 144);
 

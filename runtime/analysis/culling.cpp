@@ -123,7 +123,9 @@ void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<
             emissive_objects.push_back(boxes[i]);
     const RayHull hull(scene, emissive_objects, is_bounded ? lift : 0);
     std::vector<bool> met = potentially_visible;
-    bool all = scene.observer.display.layout == VolumeLayout::lattice || !is_bounded;
+    // A lens sees past the sides of the observer's pyramid.
+    bool all = scene.observer.display.layout == VolumeLayout::lattice || !is_bounded ||
+               scene.observer.aperture > 0;
     for (size_t i = 0; i < objects.size(); ++i) {
         if (!met[i])
             met[i] = !is_empty(boxes[i]) &&

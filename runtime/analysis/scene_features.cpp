@@ -213,6 +213,8 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     const Features voxels = features;
     add_light(scene, world, features);
     if (!scene.render.channels.color) features = without_light(voxels, scene, world, features);
+    features.lens =
+        scene.observer.aperture > 0 && scene.observer.display.shape == DisplayShape::pyramid;
     add_points(scene, world, features);
 }
 

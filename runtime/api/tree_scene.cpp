@@ -208,6 +208,7 @@ JsonValue tree(const v1::Observer& observer) {
     ObjectTree object;
     object.add("position", observer.position).add("look_at", observer.look_at);
     object.add("up", observer.up).add("turn", observer.turn);
+    object.add("aperture", observer.aperture).add("focus", observer.focus);
     return object.put("display", tree_of_display(observer.display)).take();
 }
 

@@ -154,6 +154,7 @@ void count_volume(const Device& device, const Scene& scene, const Pyramid& world
     Scene all_channels = scene;
     all_channels.render.channels = {};
     all_channels.render.light = LightMode::local;
+    all_channels.observer.aperture = 0;
     DisplayCounter(device, all_channels, world, medium, estimate).run();
 }
 

@@ -207,46 +207,6 @@ void Illumination::bring_light(RayBatch& entries, uint32_t count) {
     if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
 }
 
-/// Follows the rays that paths have sent to emitters. They are apart from the paths' own rays, so
-/// that no two add to one sight ray at once.
-void Illumination::trace_to_emitters(PathDepth& depth, uint32_t count) {
-    NodeLight light = {depth.nodes.radiance, {}, depth.nodes.stride};
-    while (count > 0) {
-        secondary_rays_ += count;
-        std::swap(static_cast<RayQueue&>(depth.to_emitters), depth.next_to_emitters);
-        trace_.closest(world_, depth.to_emitters, count, true);
-        shade_.surface(world_, depth.to_emitters, count);
-        if (medium_) medium_->sight(world_, depth.to_emitters, count);
-        RayQueue none;
-        count = extend_
-                    ->paths(world_, sampling_, emitters_, depth.to_emitters, count, false, light,
-                            depth.next_to_emitters, none)
-                    .paths;
-    }
-}
-
-/// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills
-/// their radiance and coverage.
-void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known) {
-    reserve_depth(0, batch.stride);
-    PathDepth& depth = *depths_[0];
-    RayBatch* entries = &batch;
-    for (bool is_first = true; count > 0; is_first = false) {
-        if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
-        direct(*entries, count);
-        const NextRays sent =
-            extend_->paths(world_, sampling_, emitters_, *entries, count, is_first, depth.nodes,
-                           depth.next, depth.next_to_emitters);
-        trace_to_emitters(depth, sent.to_emitters);
-        count = sent.paths;
-        if (count > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
-        entries = &depth.entries;
-        secondary_rays_ += count;
-    }
-    std::swap(batch.radiance, depth.nodes.radiance);
-    if (features_.transmission) std::swap(batch.coverage, depth.nodes.coverage);
-}
-
 /// Fills the nodes of a depth with the light of its rays, which are in `first`.
 void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
                           const LayerSink& sink) {

@@ -23,6 +23,7 @@ namespace {
 /// The scene with the default channels and in local light; what it asks for are a flat image's.
 Scene with_all_channels(Scene scene) {
     scene.render.light = LightMode::local;
+    scene.observer.aperture = 0;
     scene.render.channels = {};
     return scene;
 }

@@ -10,10 +10,12 @@ namespace voxelume {
 
 std::span<const ValueRow<ObserverParameters>> observer_rows() {
     using O = ObserverParameters;
-    static constexpr std::array<ValueRow<O>, 4> rows = {{{"position", &O::position, kCoordinate},
+    static constexpr std::array<ValueRow<O>, 6> rows = {{{"position", &O::position, kCoordinate},
                                                          {"look_at", &O::look_at, kCoordinate},
                                                          {"up", &O::up, kCoordinate},
-                                                         {"turn", &O::turn, kDegrees}}};
+                                                         {"turn", &O::turn, kDegrees},
+                                                         {"aperture", &O::aperture, kNotNegative},
+                                                         {"focus", &O::focus, kLength}}};
     return rows;
 }
 
@@ -21,6 +23,11 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
     observer.position = p.position;
     refuse_both(p.look_at.has_value(), "look_at", p.turn.has_value(), "turn", refuse);
     refuse_both(p.up.has_value(), "up", p.turn.has_value(), "turn", refuse);
+    observer.aperture = p.aperture;
+    observer.focus = p.focus.value_or(p.look_at ? glm::distance(*p.look_at, p.position) : 0);
+    if (p.aperture > 0 && !p.focus && !p.look_at)
+        refuse("aperture",
+               "a lens shows one distance sharp; say which by \"focus\" or \"look_at\"");
     if (p.turn) {
         observer.world_from_observer = rotation_from_turn(*p.turn);
         return;

@@ -17,6 +17,8 @@ namespace voxelume {
 struct Observer {
     glm::dvec3 position{0};             ///< metres
     glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
+    double aperture = 0;  ///< metres: diameter of the lens; 0: flat images are sharp everywhere
+    double focus = 0;     ///< metres along Z_E to what the lens shows sharp
     Display display;
     SourcePlace where;
 
@@ -28,6 +30,8 @@ struct ObserverParameters {
     glm::dvec3 position{0};  ///< metres
     std::optional<glm::dvec3> look_at, up;
     std::optional<glm::dvec3> turn;  ///< degrees; instead of both
+    double aperture = 0;             ///< metres
+    std::optional<double> focus;     ///< metres; otherwise the distance of `look_at`
     DisplayParameters display;
 
     friend bool operator==(const ObserverParameters&, const ObserverParameters&) = default;

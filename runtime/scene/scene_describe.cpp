@@ -76,10 +76,15 @@ std::string medium_text(const Medium& medium) {
 
 std::string observer_text(const Observer& observer) {
     const Display& d = observer.display;
+    const std::string lens = observer.aperture > 0
+                                 ? fmt::format(", lens of {:.6g} m, sharp at {:.6g} m",
+                                               observer.aperture, observer.focus)
+                                 : "";
     return fmt::format(
-        "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} m",
+        "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} "
+        "m{}",
         vector_text(observer.position), vector_text(observer.world_from_observer[2]),
-        shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far);
+        shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far, lens);
 }
 
 }  // namespace

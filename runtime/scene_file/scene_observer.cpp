@@ -96,6 +96,8 @@ Observer read_observer(const SceneValue& value, const Scene& scene) {
     observer.where = value.where();
     place_observer(read_place(fields), fields.refusal(), observer);
     observer.display = read_display(fields.get("display"), scene, observer.position);
+    if (observer.aperture > 0 && observer.display.shape != DisplayShape::pyramid)
+        fields.get("aperture").fail("needs a display of the shape \"pyramid\"");
     return observer;
 }
 

@@ -79,7 +79,9 @@ struct Observer {
     std::optional<Vec3> look_at{};  ///< a point in the middle of the view
     std::optional<Vec3> up{};       ///< what is up in the image; without it +Y
     std::optional<Vec3> turn{};     ///< degrees [psi, theta, gamma], instead of `look_at` and `up`
-    Display display{};              ///< what is seen, and how display voxels lie
+    std::optional<double> aperture{};  ///< metres: diameter of a lens, of flat images of a pyramid
+    std::optional<double> focus{};     ///< metres to what it shows sharp; without it `look_at`
+    Display display{};                 ///< what is seen, and how display voxels lie
 };
 
 /// The light that reaches surfaces of a flat image.

@@ -98,6 +98,9 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/light/sky.h",
                                         "lib/light/sobol.h",
                                         "lib/light/directions.h",
+                                        "lib/light/emitters.h",
+                                        "lib/light/emission_share.h",
+                                        "lib/traverse/lens.h",
                                         "lib/light/path_samples.h"};
 
 /// The kernels that frames of such a scene launch, by file.

@@ -31,7 +31,7 @@ std::string scene_text(const std::string& light) {
 "materials": {"glass": {"diffuse": 0.2, "refraction": 0.8, "reflection": 0.2, "fresnel": true,
                         "ior": 1.1, "absorption": [0.1, 0.3, 0.2]},
               "clay": {"color": [0.8, 0.6, 0.4], "checker": {"color": [0.1, 0.2, 0.3], "size": 0.4}},
-              "veil": {"opacity": 0.5}},
+              "glow": {"emission": [3, 2, 1]}, "veil": {"opacity": 0.5}},
 "models": {"ball": {"shape": "sphere", "radius": 0.4, "surface": "exact"},
            "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
            "ice": {"shape": "box", "size": [0.6, 0.5, 0.4], "surface": "cubes", "set": "solid"},
@@ -44,12 +44,13 @@ std::string scene_text(const std::string& light) {
             {"model": "lens", "material": "clay", "position": [0.4, 0.5, -1.8]},
             {"model": "ice", "material": "glass", "position": [-0.8, -0.5, 0.3]},
             {"model": "floor", "material": "clay", "position": [0, -0.9, 0]},
+            {"model": "ice", "material": "glow", "position": [0.9, 0.6, 0.4]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
             {"model": "lens", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
 "lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
             "intensity": 9, "spots": 2}],
-"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0],
+"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0], "aperture": 0.02,
              "display": {"shape": "pyramid", "angle": 60}},
 "render": {"size": [24, 18], "depth": 2, "shadow": "filtered", "light": ")" +
            light + "\"}}";
@@ -83,16 +84,19 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device))
         EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE" ||
-                    (name == "VXL_GLOBAL" && !is_global))
+                    ((name == "VXL_GLOBAL" || name == "VXL_EMITTERS") && !is_global))
             << name;
 
     DeviceCounters& counters = device.counters();
     counters.launches.clear();
+    // The kernels that list the lamp's surface are a program of their own: rays don't need them.
+    const Program lists(device, "light_samples.cl",
+                        features_of(scene, world.pyramid).defines(device));
     const uint64_t before = counters.programs_built;
     const Image image = Renderer(device, false).new_image(scene, world, report);
     EXPECT_EQ(counters.programs_built - before, 1u);
     for (const char* kernel : {"cast_sight", "begin_paths", "begin_inside", "trace_closest",
-                               "shade_surface", "trace_shadows", "absorb_sight"})
+                               "shade_surface", "trace_shadows", "absorb_sight", "list_emissive"})
         EXPECT_GT(counters.launches[kernel], 0u) << kernel;
     for (const char* kernel :
          {"add_light", "pass_layer", "scatter_rays", "gather_light", "add_sky_light"})

@@ -52,6 +52,14 @@ TEST(Culling, DoesNotHappenWhereRaysGoInAllDirections) {
     EXPECT_EQ(visible_names(scene), "seen ");
 }
 
+TEST(Culling, DoesNotHappenThroughALens) {
+    Scene scene = scene_of();
+    EXPECT_EQ(visible_names(scene), "seen ");
+    scene.observer.aperture = 0.01;
+    scene.observer.focus = 2;
+    EXPECT_EQ(visible_names(scene), "seen left right behind beyond ");
+}
+
 TEST(Culling, HappensUnderASkyThatNoRaysAreSentTo) {
     Scene scene = scene_of();
     scene.world.sky.emplace().samples = 0;

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <vector>
 
 #include "runtime/stages/trace/trace.hpp"
 #include "tests/support/test_device.hpp"
@@ -73,6 +76,64 @@ Look look(const Scene& s, int column, int row) {
 }
 
 class SightRays : public testing::TestWithParam<DisplayShape> {};
+
+/// The rays of a scene's samples, of which all pixels lie in the image: their origins and
+/// directions in metres.
+std::vector<std::array<glm::dvec3, 2>> metric_rays(const Scene& s) {
+    const Device device = test_device();
+    const Pyramid pyramid = world();
+    Features features;
+    features.lens = s.observer.aperture > 0;
+    SightStage stage(device, features, camera_of(s, pyramid.frame));
+    const uint32_t tiles = tile_count(s.render.size.x, s.render.size.y);
+    RayBatch batch;
+    batch.stride = tiles * 16 * uint32_t(s.render.samples);
+    batch.rays = Buffer<float>(device, "rays", size_t(batch.stride) * VXL_RAY_COMPONENTS);
+    stage.cast(shape_of(pyramid), 0, tiles, batch);
+    const std::vector<float> values = batch.rays.read();
+    std::vector<std::array<glm::dvec3, 2>> rays(batch.stride);
+    for (uint32_t ray = 0; ray < batch.stride; ++ray)
+        for (uint32_t axis = 0; axis < 6; ++axis) {
+            const double value = values[(VXL_RAY_OX + axis) * batch.stride + ray];
+            const int a = int(axis % 3);
+            rays[ray][axis / 3][a] =
+                value * pyramid.frame.voxel_edge[a] + (axis < 3 ? pyramid.frame.origin[a] : 0.0);
+        }
+    return rays;
+}
+
+TEST(LensRays, FillTheLensAndMeetWhereItIsFocused) {
+    Scene sharp = scene(DisplayShape::pyramid);
+    sharp.render.size = {8, 4};
+    sharp.render.samples = 64;
+    Scene blurred = sharp;
+    blurred.observer.aperture = 0.3;
+    blurred.observer.focus = 1.7;
+    const auto own = metric_rays(sharp), through = metric_rays(blurred);
+    const auto in_observer = [&](const glm::dvec3& v) {
+        return glm::transpose(sharp.observer.world_from_observer) * v;
+    };
+    glm::dvec2 sum(0), squares(0);
+    double largest = 0;
+    for (size_t i = 0; i < own.size(); ++i) {
+        const glm::dvec3 d = in_observer(own[i][1]), e = in_observer(through[i][1]);
+        const glm::dvec3 o = in_observer(through[i][0] - sharp.observer.position);
+        const glm::dvec3 on_lens = o - e * (o.z / e.z);
+        const glm::dvec3 sharp_point = d * (1.7 / d.z);
+        EXPECT_LT(glm::distance(on_lens + e * (1.7 / e.z), sharp_point), 1e-4) << i;
+        largest = std::max(largest, glm::length(on_lens));
+        sum += glm::dvec2(on_lens);
+        squares += glm::dvec2(on_lens) * glm::dvec2(on_lens);
+    }
+    const auto count = double(own.size());
+    EXPECT_LE(largest, 0.1501);
+    EXPECT_GT(largest, 0.147);
+    // A disk's middle is 0, and its mean square along an axis is a quarter of the radius' square.
+    for (int axis = 0; axis < 2; ++axis) {
+        EXPECT_NEAR(sum[axis] / count, 0, 1e-3);
+        EXPECT_NEAR(squares[axis] / count, 0.15 * 0.15 / 4, 1e-4);
+    }
+}
 
 TEST_P(SightRays, LeaveTheNearSurfaceWhereTheShapeSays) {
     const Device device = test_device();

@@ -129,6 +129,9 @@ TEST(BuiltScene, OfMirrorsGlassLampsAndMediaTakesWhatIsPromised) {
                       room(R"("refraction": 0.9, "ior": 1.5)", "", "", 0.02, "exact"));
     expect_image_kept("lamp", room(R"("emission": [3, 2, 1])", "", "", 0.02));
     expect_image_kept("fog", room("", "", kFog, 0.02));
+    Scene global = room(R"("emission": [3, 2, 1])", "", "", 0.02);
+    global.render.light = LightMode::global;
+    expect_image_kept("lamp, global", global);
 }
 
 TEST(BuiltScene, OfALargeWorldTakesWhatIsPromised) {

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "kernels/shared/display.h"
+#include "kernels/shared/emitters.h"
 #include "kernels/shared/instance.h"
 #include "kernels/shared/medium.h"
 #include "kernels/shared/paths.h"
@@ -26,7 +27,7 @@
 #define CAMERA_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) \
-    I(first_column) I(first_row) I(frame_width) I(frame_height) IA(unused, 2)
+    I(first_column) I(first_row) I(frame_width) I(frame_height) F(lens_radius) F(lens_slope)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
@@ -57,6 +58,11 @@
 #define INSTANCE_NODE_FIELDS \
     F(low[0][0]) F(low[0][1]) F(low[0][2]) F(low[1][0]) F(low[1][1]) F(low[1][2]) F(high[0][0]) \
     F(high[0][1]) F(high[0][2]) F(high[1][0]) F(high[1][1]) F(high[1][2]) IA(child, 2) IA(unused, 2)
+#define EMITTER_RECORD_FIELDS \
+    FA(corner, 3) I(instance) I(voxel) I(sides) F(probability) F(own_share) I(alias) I(unused)
+#define EMITTER_FRAME_FIELDS \
+    FA(object_from_world, 9) FA(world_from_object, 9) FA(center, 3) FA(image, 3) F(volume) \
+    FA(unused, 7)
 // clang-format on
 
 #define TEXT_OF(fields) TEXT_OF_(fields)
@@ -79,6 +85,8 @@ constexpr const char* kPathSamplingText = TEXT_OF(PATH_SAMPLING_FIELDS);
 constexpr const char* kLightAreaRecordText = TEXT_OF(LIGHT_AREA_RECORD_FIELDS);
 constexpr const char* kSkyRecordText = TEXT_OF(SKY_RECORD_FIELDS);
 constexpr const char* kInstanceRecordText = TEXT_OF(INSTANCE_RECORD_FIELDS);
+constexpr const char* kEmitterRecordText = TEXT_OF(EMITTER_RECORD_FIELDS);
+constexpr const char* kEmitterFrameText = TEXT_OF(EMITTER_FRAME_FIELDS);
 constexpr const char* kInstanceNodeText = TEXT_OF(INSTANCE_NODE_FIELDS);
 
 using Words = std::vector<uint32_t>;
@@ -100,6 +108,7 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #include "shared/medium.h"
 #include "shared/scene.h"
 #include "shared/display.h"
+#include "shared/emitters.h"
 #include "shared/instance.h"
 #include "shared/paths.h"
 #include "shared/sky.h"
@@ -154,6 +163,8 @@ CROSSES(PathSampling, PATH_SAMPLING_FIELDS, kPathSamplingText)
 CROSSES(LightAreaRecord, LIGHT_AREA_RECORD_FIELDS, kLightAreaRecordText)
 CROSSES(SkyRecord, SKY_RECORD_FIELDS, kSkyRecordText)
 CROSSES(InstanceRecord, INSTANCE_RECORD_FIELDS, kInstanceRecordText)
+CROSSES(EmitterRecord, EMITTER_RECORD_FIELDS, kEmitterRecordText)
+CROSSES(EmitterFrame, EMITTER_FRAME_FIELDS, kEmitterFrameText)
 CROSSES(InstanceNode, INSTANCE_NODE_FIELDS, kInstanceNodeText)
 CROSSES(DensityShape, DENSITY_SHAPE_FIELDS, kDensityShapeText)
 

@@ -217,6 +217,23 @@ TEST(SceneErrors, RefuseAViewParallelToUp) {
                 HasSubstr("leave one of them out"));
 }
 
+TEST(SceneErrors, RefuseALensWithoutFocusOrForAnotherShape) {
+    const auto refused = [](const std::string& shape, const std::string& members) {
+        return message(
+            R"({"voxelume": 1, "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+"observer": {"position": [1, 2, 9], "display": {"shape": )" +
+            shape + R"(}, )" + members + "}}");
+    };
+    EXPECT_THAT(refused(R"("pyramid")", R"("aperture": 0.1)"),
+                HasSubstr("\"focus\" or \"look_at\""));
+    EXPECT_EQ(refused(R"("pyramid")", R"("aperture": 0.1, "focus": 2)"), "no error");
+    EXPECT_EQ(refused(R"("pyramid")", R"("aperture": 0.1, "look_at": [0, 0, 0])"), "no error");
+    EXPECT_THAT(refused(R"("ball", "radius": 3)", R"("aperture": 0.1, "focus": 2)"),
+                HasSubstr("\"pyramid\""));
+    EXPECT_THAT(refused(R"("pyramid")", R"("aperture": -1, "focus": 2)"), HasSubstr("aperture"));
+    EXPECT_THAT(refused(R"("pyramid")", R"("aperture": 1, "focus": 0)"), HasSubstr("focus"));
+}
+
 class SceneText : public testing::TestWithParam<const char*> {};
 
 TEST_P(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {

@@ -58,6 +58,10 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
     camera.frame_height = frame.y;
     camera.samples = scene.render.samples;
     camera.shape = shape.kernel_number;
+    if (observer.aperture > 0) {
+        camera.lens_radius = float(observer.aperture / 2);
+        camera.lens_slope = float(observer.aperture / 2 / observer.focus);
+    }
     camera.sample_weight = 1.0f / float(scene.render.samples);
     return camera;
 }
