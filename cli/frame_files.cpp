@@ -102,6 +102,12 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
         ->allow_extra_args(false);
     app.add_option("--exposure", command.exposure, "exposure of .png files, in stops")
         ->check(in_range(-64, 64));
+    app.add_option("--view-transform", command.view_transform,
+                   "how light brighter than a screen is shown in .png files: srgb (the default, "
+                   "cut off), filmic, agx, or none for linear values")
+        ->type_name("srgb|filmic|agx|none");
+    app.add_option("--png-bits", command.png_bits, "bits a channel of .png files, 8 or 16")
+        ->check(one_of({"8", "16"}));
     app.add_flag("--float", command.float_color,
                  "write the colours of .exr files as 32-bit floats, not halves");
     app.add_option(

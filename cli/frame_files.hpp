@@ -24,6 +24,8 @@ struct RenderCommand {
     std::string crop;   ///< X,Y,WIDTH,HEIGHT; empty: all of the image
     std::string shard;  ///< I/N; empty: all of the run
     double exposure = 0;
+    std::string view_transform = "srgb";
+    int png_bits = 8;
     bool float_color = false;
     std::string channels = "RGBA,Z,P,N,objectId";
     std::string stats;

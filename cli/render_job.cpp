@@ -14,6 +14,7 @@
 #include "cli/render_progress.hpp"
 #include "cli/render_report.hpp"
 #include "cli/shard_part.hpp"
+#include "cli/view_transforms.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
@@ -97,7 +98,9 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     FrameJob job;
-    job.image_files = {command.exposure, command.float_color,
+    job.image_files = {command.exposure,
+                       parse_view_transform(command.view_transform, "render: --view-transform"),
+                       command.png_bits, command.float_color,
                        parse_channels(command.channels, "render: --channels")};
     Scene scene = read_with(command.scene, "render");
     job.frames = frame_files(command, scene);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/channels.hpp"
+#include "cli/view_transforms.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -50,6 +51,9 @@ ShardManifest manifest_of(const Json& json) {
     manifest.frames = json.at("frames").get<std::vector<int>>();
     manifest.outputs = json.at("outputs").get<std::vector<std::string>>();
     manifest.options.exposure = json.at("exposure").get<double>();
+    manifest.options.view_transform =
+        parse_view_transform(json.at("view_transform").get<std::string>(), "view_transform");
+    manifest.options.png_bits = json.at("png_bits").get<int>();
     manifest.options.float_color = json.at("float").get<bool>();
     manifest.options.channels = parse_channels(json.at("channels").get<std::string>(), "channels");
     for (const Json& frame : json.at("own")) {
@@ -76,6 +80,8 @@ void write_manifest(const std::filesystem::path& file, const ShardManifest& mani
                  {"frames", manifest.frames},
                  {"outputs", manifest.outputs},
                  {"exposure", manifest.options.exposure},
+                 {"view_transform", name_of(manifest.options.view_transform)},
+                 {"png_bits", manifest.options.png_bits},
                  {"float", manifest.options.float_color},
                  {"channels", channel_names(manifest.options.channels)},
                  {"own", Json::array()}};

@@ -1,208 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 // probe lines -> probe points: every crossing of the lines of a display's lattice with a surface.
 //
-// One work-item carries VXL_LANES lines through the world. Lanes that reach an occupied voxel wait
-// until no lane is walking; then the surfaces in those voxels are crossed together.
+// One work-item carries VXL_LANES lines through the world, and then through the voxels of each
+// instance that they come to.
+#include "lib/display/crossings.h"
 #include "lib/lanes/work_item.h"
-#include "lib/solid/solid_surface.h"
-#include "lib/surface/smooth.h"
-#include "lib/surface/triangle.h"
-#include "lib/traverse/voxel_kinds.h"
-#include "lib/traverse/world.h"
-#include "shared/display.h"
+#include "lib/traverse/instances.h"
 #include "shared/scene.h"
-#include "shared/voxel.h"
 
-// How far inside of a face between two voxels of the display its probe points are, in such voxels:
-// more than rounding moves them.
-#define VXL_INWARD 0.0009765625f
-
-// Crossings of one solid in one voxel, at most.
-#define VXL_SOLID_CROSSINGS 4
-
-/// The slots of a packet's crossings: slot i of line n is at i * stride + n.
-typedef struct {
-    float4 row;  // of the lattice coordinate along the lines
-    uint first, stride, slots;
-    global float* restrict crossings;
-    lane_uint count;  // crossings found, including those without a slot
-    uint covers;      // 1: what sight rays count of them is looked for, see scan_lines
-} ScanResult;
-
-/// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to
-/// the one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where
-/// 0. It is 2 where lines for covers enter a cube.
-static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed, lane_float t,
-                                  lane_float inward) {
-    if (!lanes_any(crossed)) return;
-    const lane_float x = fma(w->dx, t, w->ox), y = fma(w->dy, t, w->oy), z = fma(w->dz, t, w->oz);
-    lane_float s = fma(x, r->row.x, fma(y, r->row.y, fma(z, r->row.z, r->row.w)));
-    const lane_float side = rint(s);
-    const lane_int on_side = LANE_MASK(fabs(s - side) < VXL_INWARD) & LANE_MASK(inward != 0.0f);
-    s = LANES_SELECT(on_side, fma(inward, (lane_float)VXL_INWARD, side), s);
-    if (r->covers) {
-        const lane_uint sense =
-            LANES_SELECT(LANE_MASK(inward > 1.0f), (lane_uint)VXL_CROSSES_CUBE,
-                         LANES_SELECT(LANE_MASK(inward > 0.0f), (lane_uint)VXL_CROSSES_IN,
-                                      (lane_uint)VXL_CROSSES_OUT));
-        s = LANES_AS_FLOAT((LANES_AS_UINT(s) & ~VXL_CROSSES_SENSES) | sense);
-    }
-    float value[VXL_LANES];
-    int kept[VXL_LANES];
-    uint slot[VXL_LANES];
-    LANES_STORE(s, value, 0);
-    LANES_STORE(crossed, kept, 0);
-    LANES_STORE(r->count, slot, 0);
-    for (uint i = 0; i < VXL_LANES; ++i)
-        if (kept[i] && slot[i] < r->slots)
-            r->crossings[slot[i] * r->stride + r->first + i] = value[i];
-    r->count += LANES_AS_UINT(crossed) & 1u;
-}
-
-/// Keeps the crossing between u = a and b of a smooth voxel, where F changes its sign.
-static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ray, lane_int crossed,
-                               lane_float a, lane_float b, lane_float fa, lane_float fb,
-                               ScanResult* r) {
-    const lane_float outside = (lane_float)1.0f;
-    for (int step = 0; step < VXL_SECANT_STEPS; ++step) {  // regula falsi, as in hit_smooth
-        const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
-        const lane_float u = clamp(fma(exact_divide(fa, gap), b - a, a), a, b);
-        const lane_float fu = field_along(f, ray, outside, u);
-        const lane_int at_b = LANE_MASK(fu < 0.0f) ^ LANE_MASK(fa < 0.0f);
-        fb = LANES_SELECT(at_b, fu, 0.5f * fb);
-        b = LANES_SELECT(at_b, u, b);
-        fa = LANES_SELECT(at_b, 0.5f * fa, fu);
-        a = LANES_SELECT(at_b, a, u);
-    }
-    const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
-    const lane_float enters = LANES_SELECT(LANE_MASK(fb < 0.0f), outside, -outside);
-    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b), enters);
-}
-
-static inline void scan_field(const SurfaceView* s, const Walk* w, lane_uint number,
-                              lane_int tested, ScanResult* r) {
-    const Field field = read_field(s->fields, number);
-    const LocalRay ray = local_ray(w);
-    const lane_float zero = (lane_float)0.0f, outside = (lane_float)1.0f;
-    const lane_float end = fmax(exit_time(w) - w->t, 0.0f), middle = 0.5f * end;
-    const lane_float at_entry = field_along(&field, &ray, outside, zero);
-    const lane_float at_middle = field_along(&field, &ray, outside, middle);
-    const lane_float at_exit = field_along(&field, &ray, outside, end);
-    const lane_int inside = LANE_MASK(at_middle < 0.0f);
-    const lane_int before = tested & (LANE_MASK(at_entry < 0.0f) ^ inside);
-    const lane_int after = tested & (LANE_MASK(at_exit < 0.0f) ^ inside);
-    const lane_int once = before | after;
-    if (lanes_any(once))
-        cross_field(&field, w, &ray, once, LANES_SELECT(before, zero, middle),
-                    LANES_SELECT(before, middle, end), LANES_SELECT(before, at_entry, at_middle),
-                    LANES_SELECT(before, at_middle, at_exit), r);
-    const lane_int twice = before & after;
-    if (lanes_any(twice)) cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
-}
-
-/// Keeps the crossings with the fields of the `tested` lanes' voxels: one, or those that the record
-/// lists.
-static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint voxel,
-                               lane_int tested, lane_int lists, ScanResult* r) {
-    lane_uint number = voxel & LANES_AS_UINT(tested), end = number + 1u;
-    if (VXL_FIELD_LISTS && lanes_any(lists)) {
-        const lane_uint record = (voxel & LANES_AS_UINT(lists)) * VXL_FIELD_WORDS;
-        number = LANES_SELECT(lists, LANES_GATHER_UINT(s->fields, record), number);
-        end = LANES_SELECT(lists, number + LANES_GATHER_UINT(s->fields, record + 1u), end);
-        tested &= LANE_MASK(number < end);
-    }
-    while (lanes_any(tested)) {
-        scan_field(s, w, number & LANES_AS_UINT(tested), tested, r);
-        if (!VXL_FIELD_LISTS) return;
-        number += 1u;
-        tested &= LANE_MASK(number < end);
-    }
-}
-
-/// Keeps the crossings with solid `number` between t and t_exit.
-static inline void scan_solid(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                              lane_uint number, lane_int tested, lane_float t, lane_float t_exit,
-                              ScanResult* r) {
-    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
-    for (int i = 0; i < VXL_SOLID_CROSSINGS && lanes_any(tested); ++i) {
-        lane_float at = t_exit;
-        tested &= hit_solids(s->solids, number, &ray, t, (lane_int)0, (lane_int)0, tested, &at);
-        const lane_int crossed = tested & is_in_world(p, w, at);
-        if (lanes_any(crossed)) {
-            const SolidRay from = {fma(w->dx, at, w->ox),
-                                   fma(w->dy, at, w->oy),
-                                   fma(w->dz, at, w->oz),
-                                   w->dx,
-                                   w->dy,
-                                   w->dz};
-            const lane_int enters = go_inside(s->solids, number, &from, crossed);
-            keep_crossings(r, w, crossed, at,
-                           LANES_SELECT(enters, (lane_float)1.0f, (lane_float)-1.0f));
+/// Scans the `walking` lanes' voxels up to t_end. Lanes that reach an occupied voxel wait until no
+/// lane is walking; then the surfaces in those voxels are crossed together. `beginning` lanes set
+/// out from inside of the voxels: if among cubes, they have not crossed their surface.
+static inline void scan_way(const PyramidView* p, const SurfaceView* s, Walk* w, lane_float t_end,
+                            lane_int walking, lane_int beginning, ScanResult* r) {
+    lane_int in_cube = (lane_int)0;
+    while (lanes_any(walking)) {
+        lane_int waiting = (lane_int)0;
+        lane_uint leaf = (lane_uint)0u;
+        while (lanes_any(walking)) {
+            const CellState state = look_up(p, w->x, w->y, w->z, walking, &w->last);
+            const lane_int arrived = state.occupied & walking;
+            leaf = LANES_SELECT(arrived, state.leaf, leaf);
+            waiting |= arrived;
+            walking &= ~arrived;
+            beginning &= ~walking;
+            if (VXL_CUBES) {
+                if (!r->covers) keep_crossings(r, walking & in_cube, w->t, (lane_float)-1.0f);
+                in_cube &= ~walking;
+            }
+            advance(p, w, state.log2_size, walking);
+            walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
         }
-        t = LANES_SELECT(tested, at, t);
-    }
-}
-
-/// 1 where the line meets the front of the triangle, -1 where it meets its back.
-static inline lane_float triangle_inward(global const float* restrict triangles, lane_uint number,
-                                         const Walk* w) {
-    const float4 edge = (float4)(1.0f, 1.0f, 1.0f, 0.0f);
-    const Vector n = triangle_normal(triangles, number, edge);
-    const lane_float along = fma(n.x, w->dx, fma(n.y, w->dy, n.z * w->dz));
-    return LANES_SELECT(LANE_MASK(along < 0.0f), (lane_float)1.0f, (lane_float)-1.0f);
-}
-
-/// Keeps the crossings with the primitives that the voxel lists. What lies on a voxel's side may be
-/// kept for both voxels.
-static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                   lane_uint voxel, lane_int tested, ScanResult* r) {
-    const lane_float t_first = w->t - p->plane_bound, t_exit = exit_time(w) + p->plane_bound;
-    const RayShear shear = ray_shear(w);
-    lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
-    const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
-    lane_int listing = tested & LANE_MASK(next < end);
-    while (lanes_any(listing)) {
-        const lane_uint primitive =
-            LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) &
-            LANES_AS_UINT(listing);
-        const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
-        if (VXL_TRIANGLES) {
-            const lane_int triangle = listing & ~is_solid;
-            lane_float t = t_exit;
-            const lane_int crossed = hit_triangle(p, t_first, (lane_int)-1, s->triangles,
-                                                  primitive & LANES_AS_UINT(triangle), w, &shear,
-                                                  (lane_int)0, triangle, &t);
-            lane_float inward = (lane_float)0.0f;
-            if (r->covers)
-                inward = triangle_inward(s->triangles, primitive & LANES_AS_UINT(triangle), w);
-            keep_crossings(r, w, crossed, t, inward);
+        const lane_int cubes = scan_voxels(p, s, w, leaf, waiting, r);
+        if (VXL_CUBES) {
+            const lane_int counted = r->covers ? cubes : cubes ^ in_cube;
+            keep_crossings(
+                r, waiting & counted & ~(beginning & cubes), w->t,
+                LANES_SELECT(cubes, (lane_float)(r->covers ? 2.0f : 1.0f), (lane_float)-1.0f));
+            in_cube = LANES_SELECT(waiting, cubes, in_cube);
         }
-        if (VXL_SOLIDS)
-            scan_solid(p, s, w, primitive & ~VXL_SOLID_PRIMITIVE, listing & is_solid, t_first,
-                       t_exit, r);
-        next += 1u;
-        listing &= LANE_MASK(next < end);
+        beginning &= ~waiting;
+        walking = waiting;
+        advance(p, w, (lane_int)0, walking);
+        const lane_int going_on = LANE_MASK(w->t <= t_end);
+        const lane_int inside = in_grid(p, w);
+        if (VXL_CUBES && !r->covers)
+            keep_crossings(r, walking & going_on & ~inside & in_cube, w->t, (lane_float)-1.0f);
+        walking &= inside & going_on;
     }
 }
 
-/// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these.
-static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                   lane_uint leaf, lane_int tested, ScanResult* r) {
-    const lane_uint voxel =
-        voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
-        LANES_AS_UINT(tested);
-    const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
-    if (VXL_SMOOTH && lanes_any(kinds.smooth))
-        scan_smooth(s, w, voxel, kinds.smooth, kinds.lists, r);
-    if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(p, s, w, voxel, kinds.exact, r);
-    return kinds.cubes;
+/// Scans the voxels of instance `number` as far as the `active` lines pass through them before
+/// t_end.
+static inline void scan_instance(const WorldView* world, uint number, lane_float inverse_squared,
+                                 lane_float t_end, lane_int active, ScanResult* r) {
+    global const InstanceRecord* record = world->instances.records + number;
+    const lane_float zero = (lane_float)0.0f;
+    const BoxPassage way = pass_box(record, r->origin, r->way, inverse_squared, zero);
+    active &= way.met & LANE_MASK(way.base + way.from <= t_end);
+    if (!lanes_any(active)) return;
+    const TransformedRay c = transform_ray(record, &way);
+    const PyramidView p = instance_pyramid(&world->pyramid, record);
+    Walk w =
+        begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
+    w.axis = record->aligned ? (lane_int)3 : way.axis;
+    if (record->aligned) enter_box(&p, record, zero, &w);
+    r->into = c;
+    scan_way(&p, &world->surface, &w, transformed_t(&c, t_end), active & in_grid(&p, &w),
+             LANE_MASK(w.axis == 3), r);
 }
 
-/// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
-/// `counts` says how many there are, `crossings` has the lattice coordinate along the line of the
-/// first `slots`, `line_stride` apart. Arrays hold a multiple of 16 lines. With `covers` they
-/// are where a line enters each cube, otherwise where it enters or leaves a row of them, and their
-/// lowest bits are a VXL_CROSSES_*.
+/// Scans the voxels of all instances that the `active` lines come to, in the order of their tree.
+static inline void scan_instances(const WorldView* world, const Walk* line, lane_float t_end,
+                                  lane_int active, ScanResult* r) {
+    const InstanceView* v = &world->instances;
+    const SlabRay slab = slab_ray(line);
+    const lane_float inverse_squared = exact_reciprocal(dot_product(r->way, r->way));
+    uint nodes[VXL_INSTANCE_DEPTH];
+    lane_int masks[VXL_INSTANCE_DEPTH];
+    int waiting = 0;
+    nodes[waiting] = 0u, masks[waiting++] = active;
+    while (waiting > 0) {
+        const uint node = nodes[--waiting];
+        active = masks[waiting];
+        if (node & VXL_INSTANCE_LEAF) {
+            scan_instance(world, node & ~VXL_INSTANCE_LEAF, inverse_squared, t_end, active, r);
+            continue;
+        }
+        for (int child = 1; child >= 0; --child) {
+            lane_float t;
+            const lane_int met = meets_child(&slab, v->nodes + node, child, t_end, &t) & active;
+            if (!lanes_any(met)) continue;
+            nodes[waiting] = v->nodes[node].child[child], masks[waiting++] = met;
+        }
+    }
+}
+
+/// Finds the crossings of lines 0 .. count-1 with surfaces: `counts` says how many there are,
+/// `crossings` has the lattice coordinate along the line of the first `slots`, `line_stride` apart.
+/// Those with the world's voxels come first, then those with each instance's, each in their order
+/// along the line. Arrays hold a multiple of 16 lines. With `covers` they are where a line enters
+/// each cube, otherwise where it enters or leaves a row of them, and their lowest bits are a
+/// VXL_CROSSES_*.
 kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
                        uint count, uint stride, uint slots, uint line_stride, uint covers,
                        global uint* restrict counts, global float* restrict crossings) {
@@ -210,52 +109,26 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
     if (first >= count) return;
     const WorldView world = VXL_WORLD;
     const PyramidView p = world.pyramid;
-    const SurfaceView s = world.surface;
-    ScanResult r = {row, first, line_stride, slots, crossings, (lane_uint)0u, covers};
     Walk w = load_walk(rays, stride, first);
-    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    // A line that begins among cubes has not crossed their surface, unless it comes into the world.
+    const Vector origin = {w.ox, w.oy, w.oz}, way = {w.dx, w.dy, w.dz};
+    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+    const TransformedRay same = {origin, way, zero, zero, one};
+    ScanResult r = {row,    first,         line_stride, slots, crossings,
+                    covers, (lane_uint)0u, origin,      way,   same};
+    lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    // A line that comes into the world has crossed the surface of cubes at its side.
     const lane_int comes_in =
         (LANE_MASK(w.ox == 0.0f) & w.px & w.mx) | (LANE_MASK(w.oy == 0.0f) & w.py & w.my) |
         (LANE_MASK(w.oz == 0.0f) & w.pz & w.mz) | (LANE_MASK(w.ox == (float)shape.size_x) & ~w.px) |
         (LANE_MASK(w.oy == (float)shape.size_y) & ~w.py) |
         (LANE_MASK(w.oz == (float)shape.size_z) & ~w.pz);
-    lane_int beginning = ~comes_in;
-    lane_int in_cube = (lane_int)0;
-    lane_int walking = LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w);
-    while (lanes_any(walking)) {
-        lane_int waiting = (lane_int)0;
-        lane_uint leaf = (lane_uint)0u;
-        while (lanes_any(walking)) {
-            const CellState state = look_up(&p, w.x, w.y, w.z, walking, &w.last);
-            const lane_int arrived = state.occupied & walking;
-            leaf = LANES_SELECT(arrived, state.leaf, leaf);
-            waiting |= arrived;
-            walking &= ~arrived;
-            beginning &= ~walking;
-            if (VXL_CUBES) {
-                if (!covers) keep_crossings(&r, &w, walking & in_cube, w.t, (lane_float)-1.0f);
-                in_cube &= ~walking;
-            }
-            advance(&p, &w, state.log2_size, walking);
-            walking &= in_grid(&p, &w) & LANE_MASK(w.t <= t_end);
-        }
-        const lane_int cubes = scan_voxels(&p, &s, &w, leaf, waiting, &r);
-        if (VXL_CUBES) {
-            const lane_int counted = covers ? cubes : cubes ^ in_cube;
-            keep_crossings(
-                &r, &w, waiting & counted & ~(beginning & cubes), w.t,
-                LANES_SELECT(cubes, (lane_float)(covers ? 2.0f : 1.0f), (lane_float)-1.0f));
-            in_cube = LANES_SELECT(waiting, cubes, in_cube);
-        }
-        beginning &= ~waiting;
-        walking = waiting;
-        advance(&p, &w, (lane_int)0, walking);
-        const lane_int going_on = LANE_MASK(w.t <= t_end);
-        const lane_int inside = in_grid(&p, &w);
-        if (VXL_CUBES && !covers)
-            keep_crossings(&r, &w, walking & going_on & ~inside & in_cube, w.t, (lane_float)-1.0f);
-        walking &= inside & going_on;
+    const lane_int active = LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w);
+    const Walk line = w;
+    scan_way(&p, &world.surface, &w, t_end, active, ~comes_in, &r);
+    if (VXL_INSTANCES && lanes_any(active)) {
+        lane_float t_in = zero;  // beyond the world's bounds there is nothing
+        clip_to_world(origin, way, p.size_x, p.size_y, p.size_z, &t_in, &t_end);
+        scan_instances(&world, &line, t_end, active, &r);
     }
     LANES_STORE(r.count, counts, first);
 }

@@ -2,12 +2,13 @@
 // surface points of light paths -> the light that they add, and the next rays of the paths.
 //
 // Global light: an unbiased estimate of the light along each sight ray (Kajiya 1986). Lights are
-// sampled at every surface that a path meets; emission, the sky and the background are what its
-// rays run into. So no light is found in two ways.
+// sampled at every surface that a path meets; the sky and the background are what its rays run
+// into. Emission is found in both ways, which share it: lib/light/emission_share.h.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/child_rays.h"
 #include "lib/light/directions.h"
+#include "lib/light/emitters.h"
 #include "lib/light/layer.h"
 #include "lib/light/path_samples.h"
 #include "lib/light/paths.h"
@@ -23,7 +24,8 @@ typedef struct {
 typedef struct {
     lane_int diffuse, reflected, refracted, straight;
     lane_float throughput[3];
-    lane_float clear;  // in proportion to the straight way's throughput
+    lane_float clear;   // in proportion to the straight way's throughput
+    lane_float chance;  // of the diffuse way
 } Choice;
 
 /// Adds the light at the paths' surfaces to the light of their sight rays, whose sums the first
@@ -104,6 +106,7 @@ static inline Choice choose_way(const Lobes* l, const lane_float* throughput, Sq
     c.clear = all;
     const lane_float per_diffuse =
         exact_divide(all, LANES_SELECT(LANE_MASK(diffuse > 0.0f), diffuse, one));
+    c.chance = exact_divide(diffuse, LANES_SELECT(LANE_MASK(all > 0.0f), all, one));
     for (int i = 0; i < 3; ++i)
         c.throughput[i] = throughput[i] * LANES_SELECT(c.diffuse, l->diffuse[i] * per_diffuse, all);
     const lane_float brings = largest(c.throughput);
@@ -147,12 +150,15 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
 /// those that go on along the ray that met the surface.
-static inline void enter_media(const Surroundings* around, const ScatterPoint* p,
-                               const RayBatch* batch, uint first, const Choice* way, NewRays* r) {
+static inline void enter_media(PyramidShape shape, const Surroundings* around,
+                               const ScatterPoint* p, const RayBatch* batch, uint first,
+                               const Choice* way, NewRays* r) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     const lane_int across = way->refracted | way->straight;
-    const lane_int same = way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f));
+    const lane_int of_instance = are_of_instances(batch, first);
+    const lane_int same =
+        way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~of_instance);
     MediumSet passed = load_medium_set(batch->paths, stride, first, p->valid);
     passed = cross_counted(passed, p->packed, p->leaving, way->straight, around->medium_overflows);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
@@ -170,6 +176,7 @@ static inline void enter_media(const Surroundings* around, const ScatterPoint* p
     r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
+    begin_behind(shape, batch, first, way->straight & of_instance, r);
     if (!VXL_CUBE_BODIES) return;
     const lane_int in_cell = way->refracted | (p->leaving & ~across);
     r->flags |= joined_flag(&r->media, around->materials) |
@@ -185,18 +192,67 @@ static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* aroun
     r.flags = VXL_PATH_ON_SURFACE | (LANES_AS_UINT(within) & VXL_PATH_WITHIN_SOURCE);
     r.medium = (lane_uint)0;
     set_out_ways(shape, p, batch, first, way, at, &r);
-    if (VXL_TRANSMISSION) enter_media(around, p, batch, first, way, &r);
+    if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, &r);
     for (int c = 0; c < 3; ++c) r.throughput[c] = way->throughput[c];
     return r;
 }
 
+/// The queue for rays to emitters, which `bind` of a RayQueue sets as it does VXL_QUEUE_PARAMETERS.
+#define VXL_EMITTER_QUEUE_PARAMETERS                                    \
+    global float *restrict sent_rays, global uint *restrict sent_paths, \
+        global float *restrict sent_starts, global uint *restrict sent_inside, uint sent_stride
+
+/// The cosine of directions from surfaces, of which mask `above` tells those on the surfaces' side.
+static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch, uint first,
+                                   Vector direction, lane_int* above) {
+    Vector normal = p->normal;
+    if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
+    const lane_float cosine = dot_product(normal, direction);
+    *above = LANE_MASK(cosine > 0.0f) & LANE_MASK(dot_product(p->normal, direction) > 0.0f);
+    return fmax(cosine, 0.0f);
+}
+
+/// Sends a ray from each matt surface to an emitter. Its throughput is that of the path for light
+/// from there, times the share of what the path may run into itself.
+static inline void look_for_emitters(PyramidShape shape, const Surroundings* around,
+                                     const ScatterPoint* p, const RayBatch* batch, uint first,
+                                     const Lobes* lobes, const lane_float* throughput,
+                                     lane_float chance, const PathSamples* samples,
+                                     const Emitters* emitters, lane_int* wanted, NewRays* r) {
+    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+    const SquarePoint choice = path_point(samples, VXL_DECISION_EMITTER);
+    const SquarePoint place = path_point(samples, VXL_DECISION_EMITTER_POINT);
+    Choice way;
+    way.diffuse = p->hit & LANE_MASK(largest(lobes->diffuse) > 0.0f);
+    way.reflected = way.refracted = way.straight = (lane_int)0;
+    for (int c = 0; c < 3; ++c) way.throughput[c] = zero;
+    *r = next_rays_of(shape, around, p, batch, first, &way, place);
+    const EmitterRays s = choose_emitter(emitters, r->origin, shape.edge, choice, place);
+    lane_int above;
+    const lane_float cosine = cosine_at(p, batch, first, s.direction, &above) * 0.318309886f;
+    *wanted = way.diffuse & s.found & above;
+    lane_float density = s.density;
+    if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * cosine;
+    const lane_float weight = exact_divide(cosine, LANES_SELECT(*wanted, density, one));
+    for (int c = 0; c < 3; ++c)
+        r->throughput[c] = LANES_SELECT(*wanted, throughput[c] * lobes->diffuse[c] * weight, zero);
+    const Vector ahead = select_vector(*wanted, s.direction, p->normal);
+    set_out_child(r, shape,
+                  offset_origin(shape, p->position, p->normal, batch->hits, batch->stride, first),
+                  p->normal, ahead);
+    r->emitter = s.number;
+    r->clear = zero;
+}
+
 /// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
-/// and sends each path on along one way, unless it ends. `entries` of the batch name their sight
-/// ray in VXL_PATH_TARGET, whose light is kept in the nodes.
+/// and sends each path on along one way, unless it ends, and a ray to an emitter. `entries` of the
+/// batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
+/// emitters may be entries, too.
 kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                          global const uint* restrict colors, PathSampling sampling, uint is_first,
                          VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
-                         global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
+                         global uint* restrict counters, VXL_QUEUE_PARAMETERS,
+                         VXL_EMITTER_PARAMETERS, VXL_EMITTER_QUEUE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -229,6 +285,21 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     const Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
                                   LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
+    const lane_uint met = min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
+    if (VXL_EMITTERS && emitter_count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
+        const Emitters table = VXL_EMITTER_TABLE;
+        const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        lane_int wanted;
+        NewRays ray;
+        look_for_emitters(shape, &around, &p, &batch, first, &lobes, throughput, way.chance,
+                          &samples, &table, &wanted, &ray);
+        ray.target = target;
+        ray.state = met | (sampling.bounces << VXL_STATE_BOUNCE_SHIFT) | VXL_STATE_DIFFUSE |
+                    VXL_STATE_TO_EMITTER;
+        const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
+        put_rays(&sent, &ray, &slots);
+    }
+
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
     const lane_int goes_on = scattered | way.straight;
     if (!lanes_any(goes_on)) return;
@@ -236,10 +307,18 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                                path_point(&samples, VXL_DECISION_DIRECTION));
     ray.target = target;
     ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
-    const lane_uint met = min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
     ray.state = met | ((bounces + 1u) << VXL_STATE_BOUNCE_SHIFT) |
                 (LANES_AS_UINT(way.diffuse) & VXL_STATE_DIFFUSE);
     ray.state = LANES_SELECT(scattered, ray.state, met | (state & ~(lane_uint)VXL_STATE_MET));
+    if (VXL_EMITTERS) {
+        lane_int above;
+        const Vector direction = unit(scaled(ray.direction, shape.edge));
+        const lane_float density =
+            cosine_at(&p, &batch, first, direction, &above) * 0.318309886f * way.chance;
+        const lane_uint before = LANES_LOAD(paths, VXL_PATH_EMITTER * stride + first);
+        const lane_uint now = LANES_SELECT(way.diffuse, LANES_AS_UINT(density), (lane_uint)0);
+        ray.emitter = LANES_SELECT(scattered, now, before);
+    }
     const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
     put_rays(&queue, &ray, &slots);
 }

@@ -32,8 +32,9 @@ static inline uint base_attributes(const BrickGrid* grid, size_t voxel) {
     return VXL_BASE_ATTRIBUTES ? grid->attributes[voxel] : grid->attribute;
 }
 
-// Decides who gets the voxels that both cubes and fields are in: the first in the order of
-// priorities. Returns the voxels that stay cubes, and clears them in the fields' masks.
+// Decides which of the voxels that both cubes and fields are in stay cubes alone: those whose cube
+// comes before the fields in the order of priorities. Returns them, and clears them in the fields'
+// masks.
 static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulong both,
                                  global const uint* restrict ranks, uint begin, uint end,
                                  global const uint* restrict entries, global ulong* masks) {
@@ -51,18 +52,6 @@ static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulo
     for (uint e = begin; stay != 0 && e < end; ++e)
         masks[(size_t)entries[2 * e] * 64 + leaf] &= ~stay;
     return stay;
-}
-
-// The occupied voxels of a leaf whose kind is exact.
-static inline ulong exact_among(const BrickGrid* grid, uint slot, int leaf, ulong occupied) {
-    ulong exact = 0;
-    for (; occupied != 0; occupied &= occupied - 1) {
-        const int bit = lowest_bit(occupied);
-        const uint packed =
-            base_attributes(grid, (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit));
-        if (packed >> VXL_KIND_SHIFT == VXL_KIND_EXACT) exact |= 1ul << bit;
-    }
-    return exact;
 }
 
 // One brick of the world: the masks of its voxels, of those that list fields, and of those whose
@@ -93,15 +82,11 @@ kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
         }
         ulong base = 0;
         if (has_base) {
-            const ulong occupied =
-                grid.occupancy[(size_t)slot * 64 + leaf] & mask_within(room - leaf_origin(leaf));
-            const ulong both = occupied & some;
+            base = grid.occupancy[(size_t)slot * 64 + leaf] & mask_within(room - leaf_origin(leaf));
             const ulong stay =
-                settle_cubes(&grid, slot, leaf, both, ranks, begin, end, entries, masks);
-            const ulong exact = exact_among(&grid, slot, leaf, both);
-            base = (occupied & ~both) | stay | exact;
+                settle_cubes(&grid, slot, leaf, base & some, ranks, begin, end, entries, masks);
             some &= ~stay, several &= ~stay;
-            several |= exact & some;
+            several |= base & some;
         }
         const ulong all = some | base;
         united[(size_t)item * 64 + leaf] = all;
@@ -165,7 +150,10 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
             if (VXL_PRIMITIVES) voxel_primitive_first[number] = primitive;
             if (!is_base) continue;
             const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit);
-            voxel_attributes[number] = base_attributes(&grid, voxel);
+            uint packed = base_attributes(&grid, voxel);
+            if (fields > 0 && packed >> VXL_KIND_SHIFT == VXL_KIND_CUBES)
+                packed |= VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT;
+            voxel_attributes[number] = packed;
             if (VXL_COLORS && grid.colors) voxel_colors[number] = grid.colors[voxel];
             if (!VXL_PRIMITIVES) continue;
             for (uint i = grid.primitive_first[voxel]; i < grid.primitive_first[voxel + 1]; ++i)

@@ -25,6 +25,10 @@ static inline uint attributes_of_voxel(const SurfaceView* s, uint voxel) {
     return VXL_ATTRIBUTES ? s->attributes[voxel] : s->constant_attribute;
 }
 
+static inline bool is_cube_kind(uint kind) {
+    return kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
+}
+
 /// True if a cube fills the cell, or if the cell is outside of the world.
 static inline bool is_covered(const WorldView* world, bool is_model, int x, int y, int z) {
     const PyramidView* p = &world->pyramid;
@@ -41,7 +45,7 @@ static inline bool is_covered(const WorldView* world, bool is_model, int x, int 
     const uint in_leaf = (uint)((x & 3) | (y & 3) << 2 | (z & 3) << 4);
     if (!has_bit(low, high, in_leaf)) return false;
     const uint voxel = p->leaf_voxels[leaf] + bits_below(low, high, in_leaf);
-    return attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
+    return is_cube_kind(attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT);
 }
 
 /// The emissive surfaces to list, with a value per object and one per material. `found` counts all
@@ -50,6 +54,7 @@ typedef struct {
     global const uint* restrict emissive_objects;
     global const uint* restrict emissive_materials;
     uint capacity;
+    bool by_voxel;  // voxels with emissive surfaces are listed, and not their pieces
     bool is_model;  // the voxels are those of an instance's model, and not the world's
     global uint* restrict found;
     global uint4* restrict pieces;
@@ -69,15 +74,65 @@ static inline void list_piece(const EmissivePieces* g, int x, int y, int z, uint
         g->pieces[place] = (uint4)((uint)x | (uint)y << 16, (uint)z | form << 16, number, packed);
 }
 
-/// Lists the open faces of a cube.
-static inline void list_faces(const WorldView* world, const EmissivePieces* g, int x, int y, int z,
-                              uint voxel, uint packed) {
+/// The sides of a cube that no other cube covers, as bits.
+static inline uint open_sides(const WorldView* world, const EmissivePieces* g, int x, int y,
+                              int z) {
+    uint sides = 0;
     for (int face = 0; face < 6; ++face) {
         const int axis = face >> 1, step = (face & 1) * 2 - 1;
         if (!is_covered(world, g->is_model, x + (axis == 0 ? step : 0), y + (axis == 1 ? step : 0),
                         z + (axis == 2 ? step : 0)))
-            list_piece(g, x, y, z, (uint)face, voxel, packed);
+            sides |= 1u << face;
     }
+    return sides;
+}
+
+/// Lists the open faces of a cube.
+static inline void list_faces(const WorldView* world, const EmissivePieces* g, int x, int y, int z,
+                              uint voxel, uint packed) {
+    const uint sides = open_sides(world, g, x, y, z);
+    for (uint face = 0; face < 6; ++face)
+        if (sides >> face & 1u) list_piece(g, x, y, z, face, voxel, packed);
+}
+
+/// The first emissive surface among a voxel's triangles and solids, as packed attributes;
+/// VXL_NO_EMISSION if it has none.
+#define VXL_NO_EMISSION 0xFFFFFFFFu
+static inline uint first_emission(const SurfaceView* s, const EmissivePieces* g, uint voxel) {
+    for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
+        const uint number = s->primitives[i];
+        uint of = VXL_NO_EMISSION;
+        if (VXL_SOLIDS && number & VXL_SOLID_PRIMITIVE)
+            of = s->solids[number & ~VXL_SOLID_PRIMITIVE].attribute;
+        else if (VXL_TRIANGLES)
+            of = s->triangle_attributes[number];
+        if (of != VXL_NO_EMISSION && emits(g, of)) return of;
+    }
+    return VXL_NO_EMISSION;
+}
+
+/// Lists a voxel with emissive surfaces by the numbers that hits on these have: its own, once, and
+/// those of fields in its list.
+static inline void list_emitter(const WorldView* world, const EmissivePieces* g, int x, int y,
+                                int z, uint voxel, uint packed) {
+    const SurfaceView* s = &world->surface;
+    const uint kind = packed >> VXL_KIND_SHIFT;
+    if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed)) {
+        const uint sides = open_sides(world, g, x, y, z);
+        if (sides) list_piece(g, x, y, z, sides | VXL_EMITTER_OF_CUBES, voxel, packed);
+    }
+    if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
+        list_piece(g, x, y, z, VXL_EMITTER_SIDES_ALL, voxel, packed);
+    if (kind < VXL_KIND_EXACT) return;
+    if (VXL_FIELD_LISTS) {
+        const uint2 list = vload2(0, s->fields + (size_t)voxel * VXL_FIELD_WORDS);
+        for (uint field = list.x; field < list.x + list.y; ++field)
+            if (emits(g, s->attributes[field]))
+                list_piece(g, x, y, z, VXL_EMITTER_SIDES_ALL, field, s->attributes[field]);
+    }
+    uint of = VXL_EXACT ? first_emission(s, g, voxel) : VXL_NO_EMISSION;
+    if (VXL_CUBES && kind == VXL_KIND_EXACT_IN_CUBE && emits(g, packed)) of = packed;
+    if (of != VXL_NO_EMISSION) list_piece(g, x, y, z, VXL_EMITTER_SIDES_ALL, voxel, of);
 }
 
 /// Lists the emissive surfaces in one voxel.
@@ -86,17 +141,21 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
     const SurfaceView* s = &world->surface;
     const uint packed = attributes_of_voxel(s, voxel);
     const uint kind = packed >> VXL_KIND_SHIFT;
-    if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
+    if (g->by_voxel) {
+        list_emitter(world, g, x, y, z, voxel, packed);
+        return;
+    }
+    if (VXL_CUBES && is_cube_kind(kind) && emits(g, packed))
         list_faces(world, g, x, y, z, voxel, packed);
     if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
         list_piece(g, x, y, z, VXL_PIECE_FIELD, voxel, packed);
-    if (VXL_FIELD_LISTS && kind == VXL_KIND_EXACT) {
+    if (VXL_FIELD_LISTS && kind >= VXL_KIND_EXACT) {
         const uint2 list = vload2(0, s->fields + (size_t)voxel * VXL_FIELD_WORDS);
         for (uint field = list.x; field < list.x + list.y; ++field)
             if (emits(g, s->attributes[field]))
                 list_piece(g, x, y, z, VXL_PIECE_FIELD, field, s->attributes[field]);
     }
-    if (!VXL_SOLIDS || kind != VXL_KIND_EXACT) return;
+    if (!VXL_SOLIDS || kind < VXL_KIND_EXACT) return;
     for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
         if (!(s->primitives[i] & VXL_SOLID_PRIMITIVE)) continue;
         const uint solid = s->primitives[i] & ~VXL_SOLID_PRIMITIVE;
@@ -107,17 +166,24 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
 
 /// Lists the emissive surfaces in one brick: the open faces of cubes, smooth voxels, and solids in
 /// the voxels that list them. One work-item takes one of each sector's 64 bricks. The table of
-/// sectors begins at `first_sector`, which is 0 for the world's and more for a model's.
+/// sectors begins at `first_sector`, which is 0 for the world's and more for a model's. With
+/// `by_voxel` the voxels of these surfaces are listed.
 kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS, const uint first_sector,
                           global const uint* restrict emissive_objects,
-                          global const uint* restrict emissive_materials, const uint capacity,
-                          global uint* restrict found, global uint4* restrict pieces) {
+                          global const uint* restrict emissive_materials, const uint by_voxel,
+                          const uint capacity, global uint* restrict found,
+                          global uint4* restrict pieces) {
     const uint item = work_item();
     if (item >= count) return;
     WorldView world = VXL_WORLD;
     world.pyramid.sectors += first_sector;
-    const EmissivePieces asked = {
-        emissive_objects, emissive_materials, capacity, first_sector > 0u, found, pieces};
+    const EmissivePieces asked = {emissive_objects,
+                                  emissive_materials,
+                                  capacity,
+                                  by_voxel != 0u,
+                                  first_sector > 0u,
+                                  found,
+                                  pieces};
     const int sector = (int)(item >> 6), brick = (int)(item & 63u);
     const uint entry = world.pyramid.sectors[sector];
     if ((int)entry < 0) return;

@@ -10,6 +10,7 @@
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/density.h"
 #include "lib/traverse/ray_batch.h"
+#include "shared/paths.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 
@@ -74,6 +75,12 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
     if (VXL_TRANSMISSION && lanes_any(in_object))
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
     depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
+    lane_float shows = (lane_float)1.0f;  // the medium's own light
+    if (VXL_EMITTERS) {
+        const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
+        shows =
+            LANES_SELECT(LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u), (lane_float)0.0f, shows);
+    }
     const float absorption[3] = {environment.absorption.x, environment.absorption.y,
                                  environment.absorption.z};
     const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
@@ -81,6 +88,7 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
         lane_float shown = (lane_float)color[channel];
+        if (VXL_EMITTERS) shown *= shows;
         if (VXL_TRANSMISSION && lanes_any(in_object)) {
             const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
             const lane_uint from =

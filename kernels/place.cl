@@ -174,6 +174,15 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
     }
 }
 
+// The packed attributes of a voxel that held `before` and is painted `packed`: an exact object
+// leaves cubes where they are, behind its surface. Voxels with colours have one for all that they
+// hold, so there the cubes make way.
+static inline uint over_cubes(uint before, uint packed) {
+    const uint both = VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT, kind = before >> VXL_KIND_SHIFT;
+    const bool stays = kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
+    return stays && packed >> VXL_KIND_SHIFT == VXL_KIND_EXACT ? before | both : packed;
+}
+
 // One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
 // has one within the reach.
 kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PARAMETERS) {
@@ -197,12 +206,16 @@ kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PAR
             found = find_in_box(&object, object.occupancy, object.near,
                                 cells_around(&object, centre), &from);
         if (!found) continue;
+        const bool was_set = world.occupancy[leaf] >> i & 1;
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
-        if (VXL_ATTRIBUTES)
-            world.attributes[number] =
+        if (VXL_ATTRIBUTES) {
+            const uint packed =
                 attributes_of(object.attribute_map, object.materials, object.attributes, from);
+            world.attributes[number] =
+                was_set && !VXL_COLORS ? over_cubes(world.attributes[number], packed) : packed;
+        }
         if (VXL_COLORS) world.colors[number] = color_of(object.colors, from);
     }
     world.occupancy[leaf] |= set;

@@ -41,6 +41,8 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
                 VXL_PATH_TARGET * batch.stride + first);
     for (uint c = 0; c < 3; ++c)
         LANES_STORE(one, batch.paths, (VXL_PATH_THROUGHPUT + c) * batch.stride + first);
+    if (VXL_EMITTERS)
+        LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_EMITTER * batch.stride + first);
     if (!VXL_TRANSMISSION) return;
     LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_CELL * batch.stride + first);
     LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_CELL_Z * batch.stride + first);
@@ -67,10 +69,10 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
 /// Adds a layer's light to its nodes, whose sums the first layer begins, and sends on the rays that
 /// surfaces don't cover wholly. Writes to `node_weights` the weight that an entry's reflected and
 /// refracted light has in its node.
-kernel void pass_layer(VXL_SURROUNDINGS_PARAMETERS, global const uint* restrict colors,
-                       float min_weight, uint first_layer, VXL_BATCH_PARAMETERS, uint count,
-                       global float* restrict node_weights, VXL_NODE_PARAMETERS,
-                       global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
+kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
+                       global const uint* restrict colors, float min_weight, uint first_layer,
+                       VXL_BATCH_PARAMETERS, uint count, global float* restrict node_weights,
+                       VXL_NODE_PARAMETERS, global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -85,7 +87,7 @@ kernel void pass_layer(VXL_SURROUNDINGS_PARAMETERS, global const uint* restrict 
     const lane_int goes_on = through & LANE_MASK(on.weight * largest(on.throughput) >= min_weight);
     count_lanes(through & ~goes_on, counters + VXL_COUNT_ENDED);
     if (!lanes_any(goes_on)) return;
-    go_straight(&layer, &around, &batch, first, goes_on, &on);
+    go_straight(shape, &layer, &around, &batch, first, goes_on, &on);
     const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_LAYER);
     put_rays(&queue, &on, &slots);
 }

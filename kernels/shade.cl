@@ -3,6 +3,7 @@
 // without lights: ambient light and emission.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
+#include "lib/light/emission_share.h"
 #include "lib/light/medium_set.h"
 #include "lib/light/sky.h"
 #include "lib/solid/solid_surface.h"
@@ -12,6 +13,7 @@
 #include "lib/surface/surface_color.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/shaded_hit.h"
+#include "shared/paths.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
@@ -200,9 +202,9 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
 /// Starts the radiance of the rays.
 static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    Environment environment, global const SkyRecord* restrict sky,
-                                   Vector position, lane_float opacity, lane_uint material,
-                                   global const float* restrict materials, const RayBatch* batch,
-                                   uint first) {
+                                   const Emitters* emitters, Vector position, lane_float opacity,
+                                   lane_uint material, global const float* restrict materials,
+                                   const RayBatch* batch, uint first) {
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
     lane_float around[3] = {(lane_float)environment.background.x,
@@ -210,12 +212,23 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                             (lane_float)environment.background.z};
     if (VXL_SKY != VXL_SKY_NONE && lanes_any(~h->hit))
         see_sky(h->hit, h->world_way, world->shape.edge, sky, batch, first, around);
+    lane_float counts = (lane_float)1.0f;
+    lane_int looks = (lane_int)0;
+    if (VXL_EMITTERS) {
+        looks = looks_for_emitter(batch, first);
+        counts = emission_share(emitters, h, world->shape.edge, batch, first,
+                                looks | (h->hit & emits_light(materials, material)));
+    }
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color =
             surface_color(materials, place, world->surface.colors, h->voxel, channel);
-        const lane_float emission =
+        lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
+        if (VXL_EMITTERS) {
+            emission *= counts;
+            around[channel] = LANES_SELECT(looks, (lane_float)0.0f, around[channel]);
+        }
         const lane_float own = fma(color * diffuse, ambient[channel], emission) * opacity;
         LANES_STORE(LANES_SELECT(h->hit, own, around[channel]), batch->radiance,
                     (uint)channel * batch->stride + first);
@@ -225,7 +238,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 /// Writes what is asked for of every hit: its point, normal, packed attributes and `sides`, and in
 /// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
-                          global const SkyRecord* restrict sky,
+                          global const SkyRecord* restrict sky, VXL_EMITTER_PARAMETERS,
                           global const float* restrict materials, global const uint* restrict ranks,
                           VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
@@ -254,6 +267,7 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
         side = side_of(&h, &before, behind, material, materials, ranks, &opacity);
     }
     if (VXL_PATHS) LANES_STORE(side, sides, first);
-    store_own_light(&world, &h, environment, sky, position, opacity, material, materials, &batch,
-                    first);
+    const Emitters table = VXL_EMITTER_TABLE;
+    store_own_light(&world, &h, environment, sky, &table, position, opacity, material, materials,
+                    &batch, first);
 }

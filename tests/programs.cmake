@@ -50,6 +50,25 @@ function(finish_test name)
     set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
+# Tests whose kernels the OpenCL compiler optimizes, as it does for users: images' golden bits, device functions, the
+# program, the library, and what compares rays with exact answers. The optimizer changes no bit (golden_test,
+# matrix_test, determinism_test), and takes half of the time of most tests.
+set(optimized_tests golden_test shipped_scenes_test determinism_test all_features_test accuracy_test stress_again_test
+                    matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test api_tests
+                    api_compiling_test cli_tests)
+
+# add_run(NAME PROGRAM FILTER): tests of a program as one test of ctest. Where the optimizer is off by default,
+# optimized.NAME has it, with `ctest -C exhaustive` alone.
+function(add_run name program filter)
+    add_test(NAME ${name} COMMAND ${program} --gtest_filter=${filter})
+    finish_test(${name})
+    if(NOT name IN_LIST optimized_tests AND NOT name IN_LIST files_of_cli_tests)
+        set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION VOXELUME_BUILD_OPTIONS=set:-cl-opt-disable)
+        add_test(NAME optimized.${name} CONFIGURATIONS exhaustive COMMAND ${program} --gtest_filter=${filter})
+        finish_test(optimized.${name})
+    endif()
+endfunction()
+
 # add_variant(NAME FILES STEM... [COMMAND WORD...] [EXCEPT PATTERN] [LABELS LABEL] [ENVIRONMENT NAME=VALUE...]
 #             [EXHAUSTIVE]): the tests of some files once more, one test of ctest for each program that has some, named
 # NAME.PROGRAM. EXHAUSTIVE ones run with `ctest -C exhaustive` alone.

@@ -37,16 +37,24 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 //   bits 0..15   surfaces that the path has met, also those that it went straight through
 //   bits 16..23  times that it was scattered
 //   bit 24       the last time was a diffuse one
+//   bit 25       the ray looks for an emitter: it ends there, and what else it meets doesn't count
 #define VXL_PATH_STATE VXL_PATH_WEIGHT
 #define VXL_STATE_MET 0xFFFFu
 #define VXL_STATE_BOUNCE_SHIFT 16
 #define VXL_STATE_BOUNCES 0xFFu
 #define VXL_STATE_DIFFUSE 0x1000000u
+#define VXL_STATE_TO_EMITTER 0x2000000u
+// VXL_PATH_EMITTER, behind the set of media in the arrays of paths:
+//   of rays that look for an emitter, its number
+//   of other rays, float: the probability of their direction, per solid angle; 0 if no ray to an
+//   emitter could have had it, as behind mirrors
 
 // The decisions at a surface that a path meets, each with a point of the unit square.
-#define VXL_DECISION_LOBE 0u       // how the path goes on, and whether roulette ends it
-#define VXL_DECISION_DIRECTION 1u  // of diffuse light
-#define VXL_DECISION_LIGHT 2u      // and after it one for each light: where on it
+#define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
+#define VXL_DECISION_DIRECTION 1u           // of diffuse light
+#define VXL_DECISION_EMITTER 0xFFFEu        // which emitter a ray is sent to
+#define VXL_DECISION_EMITTER_POINT 0xFFFFu  // and where
+#define VXL_DECISION_LIGHT 2u               // and after it one for each light: where on it
 
 // The number of scatterings after which roulette may end a path.
 #define VXL_ROULETTE_BOUNCES 2u

@@ -7,7 +7,9 @@
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
 // kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel lists
-// primitives, which have attributes of their own, and fields, below.
+// primitives, which have attributes of their own, and fields, below. 3: an exact voxel that is a
+// cube besides, whose object, material and colour the voxel's own are: rays that meet nothing that
+// it lists meet the cube.
 // `material` and `object` index the scene's lists; in an object's own grid, before placement,
 // `material` is the mesh's face group.
 #define VXL_KIND_SHIFT 30
@@ -17,6 +19,7 @@
 #define VXL_KIND_CUBES 0u
 #define VXL_KIND_SMOOTH 1u
 #define VXL_KIND_EXACT 2u
+#define VXL_KIND_EXACT_IN_CUBE 3u
 
 // Colour word of a voxel: 0xTTBBGGRR, sRGB and the voxel's transparency, 0 opaque .. 255 clear.
 // Both multiply the material's.

@@ -30,9 +30,11 @@ int max_overlapping(const Scene& scene, const Pyramid& world, const Features& fe
     for (size_t i = 0; i < scene.objects.size(); ++i)
         if (may_transmit(scene, scene.objects[i], features)) objects.push_back(i);
     if (world.object_boxes.empty()) return int(objects.size());
+    // Instances move without a new build of the world, and so without new boxes.
+    const auto moves = [&](size_t i) { return is_instanced(scene, scene.objects[i]); };
     const auto overlapping = [&](size_t i) {
         return std::ranges::count_if(objects, [&](size_t j) {
-            return overlap(world.object_boxes[i], world.object_boxes[j]);
+            return moves(i) || moves(j) || overlap(world.object_boxes[i], world.object_boxes[j]);
         });
     };
     int64_t maximum = 0;
@@ -81,7 +83,8 @@ void add_medium_set(const Scene& scene, const Pyramid& world, Features& features
     const std::vector<uint32_t> hollow = hollow_objects(scene).flags;
     for (size_t i = 0; i < world.object_boxes.size(); ++i)
         features.observer_in_medium |=
-            hollow[i] == 1 && may_begin_in(world.object_boxes[i], scene, world.frame);
+            hollow[i] == 1 && (is_instanced(scene, scene.objects[i]) ||
+                               may_begin_in(world.object_boxes[i], scene, world.frame));
 }
 
 }  // namespace voxelume

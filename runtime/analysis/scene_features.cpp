@@ -9,6 +9,7 @@
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/light/sky_light.hpp"
@@ -105,6 +106,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
                 std::ranges::any_of(scene.lights, [](const Light& light) {
                     return shines(light) && has_area(light);
                 }));
+    if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
     features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);

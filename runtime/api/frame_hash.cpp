@@ -126,7 +126,8 @@ std::string hash_for_image(const std::string& hash, std::string_view ending,
     CacheKey key;
     key.add_text(hash);
     const v1::Channels& c = options.channels;
-    if (ending == ".png") key.add(options.exposure);
+    if (ending == ".png")
+        key.add(options.exposure).add(int(options.view_transform)).add(options.png_bits);
     if (ending == ".exr") {
         key.add(options.float_color);
         for (const v1::ChannelRow& row : v1::channel_table())

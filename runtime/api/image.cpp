@@ -80,6 +80,20 @@ api::Attributes attributes_for(const v1::Image::Implementation& image, std::stri
     return attributes;
 }
 
+ViewTransform transform_of(v1::ViewTransform transform) {
+    switch (transform) {
+        case v1::ViewTransform::none:
+            return ViewTransform::none;
+        case v1::ViewTransform::filmic:
+            return ViewTransform::filmic;
+        case v1::ViewTransform::agx:
+            return ViewTransform::agx;
+        case v1::ViewTransform::srgb:
+            break;
+    }
+    return ViewTransform::srgb;
+}
+
 PngOptions png_options(const v1::Image::Implementation& image,
                        const v1::ImageFileOptions& options) {
     PngOptions png;
@@ -87,6 +101,10 @@ PngOptions png_options(const v1::Image::Implementation& image,
     if (const auto stamp = attributes.find(api::kStamp); stamp != attributes.end())
         png.stamp = stamp->second;
     png.exposure = float(options.exposure);
+    png.view_transform = transform_of(options.view_transform);
+    if (options.png_bits != 8 && options.png_bits != 16)
+        throw Error(ErrorKind::usage, "a PNG has 8 or 16 bits a channel, not {}", options.png_bits);
+    png.bits = options.png_bits;
     return png;
 }
 

@@ -219,13 +219,25 @@ JsonValue tree(const v1::Animation& animation) {
     return object.put("tracks", list_of(std::move(tracks))).take();
 }
 
+const char* name_of(v1::LampSearch lamps) {
+    switch (lamps) {
+        case v1::LampSearch::paths:
+            return "paths";
+        case v1::LampSearch::rays:
+            return "rays";
+        case v1::LampSearch::both:
+            break;
+    }
+    return "both";
+}
+
 JsonValue tree(const v1::RenderSettings& render) {
     ObjectTree object;
     object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
     object.add("shadows", render.shadows);
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
     object.add("light", render.light == v1::LightMode::global ? "global" : "local");
-    object.add("bounces", render.bounces);
+    object.add("bounces", render.bounces).add("lamps", name_of(render.lamps));
     return object.add("least_weight", render.min_weight).take();
 }
 

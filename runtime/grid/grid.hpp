@@ -64,6 +64,7 @@ struct InstanceModel {
     GridFrame frame;
     uint32_t first_sector = 0;  ///< start of its table in Pyramid::sectors
     uint32_t first_triangle = 0, triangle_count = 0;
+    uint32_t first_solid = 0;    ///< record of Pyramid::solids
     glm::ivec3 low{0}, high{0};  ///< the box of its voxels; empty for a model without voxels
 };
 
@@ -80,6 +81,7 @@ struct InstanceSet {
     std::vector<InstanceModel> models;
     std::vector<Instance> list;
     float origin_offset = 0;  ///< PyramidShape::origin_offset
+    VoxelBox box;             ///< around all of them where they are now
     Buffer<InstanceRecord> records;
     Buffer<InstanceNode> nodes;  ///< the tree over their boxes; the root is the first node
     Buffer<uint32_t> materials;

@@ -2,9 +2,11 @@
 #include "runtime/memory/count_image.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/sector_table.hpp"
+#include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
 #include "runtime/stages/trace/sight.hpp"
@@ -49,6 +51,14 @@ DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& wo
     return dilated_occupancy;
 }
 
+/// The maximum that the emitters of a world may take: as if all of its voxels shone.
+Buffer<uint8_t> count_emitters(const Device& device, const Pyramid& world) {
+    const auto voxels = std::min<size_t>(world.voxel_count, kMaxEmitters);
+    const size_t bytes = voxels * sizeof(EmitterRecord) + std::bit_ceil(2 * voxels + 1) * 4 +
+                         (world.instances.list.size() + 1) * sizeof(EmitterFrame);
+    return {device, "emitters", bytes};
+}
+
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth) {
     const Features features = features_of(scene, world);
@@ -61,6 +71,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     ImageMemory memory;
     memory.rays = allocate_rays(device, features, counts);
     memory.tables = count_tables(device, scene);
+    if (features.emitters != VXL_EMITTERS_NONE) memory.emitters = count_emitters(device, world);
     if (const auto of = dilation_that_pays(features, world, rays, pixel)) {
         memory.dilated_occupancy = count_dilated_occupancy(device, world, *of);
         memory.beams = allocate_beams(device, counts.rays);

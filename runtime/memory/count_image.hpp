@@ -19,6 +19,7 @@ struct ImageMemory {
     std::vector<Buffer<float>> light_beams;
     DensityGrid density;
     Buffer<uint8_t> tables;  ///< of materials, objects and samples
+    Buffer<uint8_t> emitters;
     ImageArrays image;
     std::vector<MatteArrays> mattes;
 };

@@ -7,6 +7,7 @@
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 
@@ -50,12 +51,16 @@ Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features&
     return medium_overflows;
 }
 
-/// The numbers of the first records of the solids that let light through.
+/// The numbers of the first records of the solids that let light through, but for those of
+/// instances' models, which come after the world's.
 Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
                                      const Pyramid& world) {
     const std::vector<uint32_t> words = world.solids.read();
     std::vector<uint32_t> numbers;
-    for (uint32_t i = 0; i < words.size() / VXL_SOLID_WORDS; ++i) {
+    const std::vector<InstanceModel>& models = world.instances.models;
+    const auto end =
+        models.empty() ? uint32_t(words.size() / VXL_SOLID_WORDS) : models.front().first_solid;
+    for (uint32_t i = 0; i < end; ++i) {
         SolidShape shape;
         std::memcpy(&shape, &words[size_t(i) * VXL_SOLID_WORDS], sizeof shape);
         const uint32_t material = shape.attribute >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
@@ -113,6 +118,10 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.global) extend_.emplace(device, features, surroundings_);
     if (features.global && features.area_samples && !lights_.empty())
         area_lighting_.emplace(device, features, shade_.materials());
+    if (features.emitters != VXL_EMITTERS_NONE) {
+        emitters_ = build_emitters(device, features, scene, world);
+        shade_.set_emitters(emitters_);
+    }
     if (features.observer_in_medium) {
         hollow_ = hollow_objects(scene);
         hollow_flags_ =
@@ -198,6 +207,24 @@ void Illumination::bring_light(RayBatch& entries, uint32_t count) {
     if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
 }
 
+/// Follows the rays that paths have sent to emitters. They are apart from the paths' own rays, so
+/// that no two add to one sight ray at once.
+void Illumination::trace_to_emitters(PathDepth& depth, uint32_t count) {
+    NodeLight light = {depth.nodes.radiance, {}, depth.nodes.stride};
+    while (count > 0) {
+        secondary_rays_ += count;
+        std::swap(static_cast<RayQueue&>(depth.to_emitters), depth.next_to_emitters);
+        trace_.closest(world_, depth.to_emitters, count, true);
+        shade_.surface(world_, depth.to_emitters, count);
+        if (medium_) medium_->sight(world_, depth.to_emitters, count);
+        RayQueue none;
+        count = extend_
+                    ->paths(world_, sampling_, emitters_, depth.to_emitters, count, false, light,
+                            depth.next_to_emitters, none)
+                    .paths;
+    }
+}
+
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills
 /// their radiance and coverage.
 void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known) {
@@ -207,8 +234,11 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
         direct(*entries, count);
-        count =
-            extend_->paths(world_, sampling_, *entries, count, is_first, depth.nodes, depth.next);
+        const NextRays sent =
+            extend_->paths(world_, sampling_, emitters_, *entries, count, is_first, depth.nodes,
+                           depth.next, depth.next_to_emitters);
+        trace_to_emitters(depth, sent.to_emitters);
+        count = sent.paths;
         if (count > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;
         secondary_rays_ += count;

@@ -85,6 +85,7 @@ class Illumination {
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count);
     void bring_light(RayBatch& entries, uint32_t count);
+    void trace_to_emitters(PathDepth& depth, uint32_t count);
     void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});
@@ -95,6 +96,7 @@ class Illumination {
     Features features_;
     const Pyramid& world_;
     std::vector<PathLight> lights_;
+    EmitterTable emitters_;  ///< only for features with `emitters`
     PathSampling sampling_{};
     std::vector<LightBeams> beams_;  ///< those of each light; empty if no beams are sent
     uint32_t max_rays_;

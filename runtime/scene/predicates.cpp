@@ -13,13 +13,10 @@ namespace {
 
 /// Why an object can't be an instance; empty if it can.
 std::string refusal(const Scene& scene, const Object& object) {
-    if (transmits(scene, object))
-        return "a material of it lets light through, and rays go through objects in the world's "
-               "voxels only";
     const Model& model = scene.models[size_t(object.model)];
+    if (transmits(scene, object) && shows_voxels(model.surface))
+        return "a material of it lets light through, and rays go through cubes of the world only";
     if (model.solid && is_infinite(*model.solid)) return "its solid has no end";
-    if (scene.observer.display.layout == VolumeLayout::lattice)
-        return "the display's layout is \"lattice\", which shows the world's voxels";
     return "";
 }
 
@@ -103,12 +100,14 @@ HollowObjects hollow_objects(const Scene& scene) {
     bool has_smooth = false;
     for (const Object& object : scene.objects) {
         const Model& model = scene.models[size_t(object.model)];
-        const bool is_smooth = stores_distances(model.surface) && transmits(scene, object);
-        const bool is_mesh =
-            lists_primitives(model.surface) && !model.solid && transmits(scene, object);
-        hollow.flags.push_back(is_smooth || is_mesh);
-        hollow.maximum += is_mesh;
-        has_smooth |= is_smooth;
+        const bool has_form = model.solid.has_value() && lists_primitives(model.surface);
+        const bool is_apart = is_instanced(scene, object) && !shows_voxels(model.surface);
+        const bool is_hollow =
+            transmits(scene, object) && (is_apart || (!has_form && !shows_voxels(model.surface)));
+        const bool is_united = is_hollow && !is_apart && stores_distances(model.surface);
+        hollow.flags.push_back(is_hollow);
+        hollow.maximum += is_hollow && !is_united;
+        has_smooth |= is_united;
     }
     hollow.maximum += has_smooth;
     return hollow;

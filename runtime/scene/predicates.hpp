@@ -36,25 +36,23 @@ bool has_area(const Light& light);
 /// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
 bool shows_inside(const Scene& scene, const Object& object);
 
-/// Whether an object can be an instance: not one that lets light through, has no end or stands in a
-/// scene whose display is a lattice.
+/// Whether an object can be an instance: not cubes that let light through, nor what has no end.
 bool can_be_instance(const Scene& scene, const Object& object);
 
 /// True if rays are transformed into the object's space, instead of the object into the world's.
 ///
-/// `auto` is `world` for an object that stands still, and for one that can't be an instance: one
-/// that lets light through, or one in a scene whose display is a lattice (which shows the world's
-/// voxels).
+/// `auto` is `world` for an object that stands still, and for one that can't be an instance.
 bool is_instanced(const Scene& scene, const Object& object);
 
 /// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
 void check_placements(const Scene& scene);
 
-/// Objects that transmit light of which no formula tells whether a ray begins inside: smooth ones
-/// and exact meshes.
+/// Objects that transmit light of which no formula tells whether a ray begins inside: smooth ones,
+/// exact meshes and instances.
 struct HollowObjects {
     std::vector<uint32_t> flags;  ///< per object: 1 or 0
-    uint32_t maximum = 0;         ///< that a ray may be in at once: the smooth ones count as one
+    uint32_t maximum = 0;         ///< that a ray may be in at once: the smooth ones of the world's
+                                  ///< voxels count as one
 };
 HollowObjects hollow_objects(const Scene& scene);
 

@@ -54,6 +54,13 @@ enum class LightMode : uint8_t {
     global,  ///< all of it, along random paths from surface to surface: Kajiya 1986
 };
 
+/// How paths of global light find emissive surfaces.
+enum class LampSearch : uint8_t {
+    both,   ///< by rays to them and by running into them, each as far as it is the likelier way
+    paths,  ///< by running into them
+    rays,   ///< by rays to them, but for what mirrors and glass show
+};
+
 /// The part of a larger picture that an image is.
 struct ImageCrop {
     glm::ivec2 first{0};  ///< column and row of its first pixel
@@ -72,7 +79,8 @@ struct RenderSettings {
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
     double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
     LightMode light = LightMode::local;
-    int bounces = 8;         ///< global light: times that a path is scattered, 0..64
+    int bounces = 8;  ///< global light: times that a path is scattered, 0..64
+    LampSearch lamps = LampSearch::both;
     ImageChannels channels;  ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;

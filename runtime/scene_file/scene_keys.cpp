@@ -77,9 +77,9 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"track", {"target", "keys", "interpolation"}});
     tables.push_back({"key", {"frame", "time", "value"}});
-    tables.push_back(
-        {"render",
-         {"size", "samples", "depth", "shadows", "shadow", "least_weight", "light", "bounces"}});
+    tables.push_back({"render",
+                      {"size", "samples", "depth", "shadows", "shadow", "least_weight", "light",
+                       "bounces", "lamps"}});
     return tables;
 }
 

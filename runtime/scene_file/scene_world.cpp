@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kShadowNames = {"opaque", "filtered"};
 constexpr std::array<std::string_view, 2> kLightModes = {"local", "global"};
+constexpr std::array<std::string_view, 3> kLampSearches = {"both", "paths", "rays"};
 
 Bounds read_bounds(const SceneValue& value) {
     const SceneFields fields(value, "bounds");
@@ -103,6 +104,8 @@ RenderSettings read_render(const SceneValue& value) {
     if (const auto light = fields.find("light"))
         render.light = LightMode(light->choice(kLightModes));
     render.bounces = fields.integer("bounces", 0, 64, render.bounces);
+    if (const auto lamps = fields.find("lamps"))
+        render.lamps = LampSearch(lamps->choice(kLampSearches));
     render.min_weight = fields.number("least_weight", kRatio, render.min_weight);
     return render;
 }

@@ -33,6 +33,7 @@ struct Features {
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
+    int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
     int media = 0;                     ///< size of the sets of transmitting objects that rays are
                                        ///< inside of
@@ -76,6 +77,7 @@ struct Features {
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
                 {"VXL_GLOBAL", global},
+                {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},
                 {"VXL_MEDIA", media},
                 {"VXL_MEDIUM_SET_CAPPED", medium_set_capped},

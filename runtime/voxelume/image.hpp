@@ -58,9 +58,19 @@ inline constexpr Channels kNoChannels{false, false, false, false, false};
 /// Colour alone: what a picture shows.
 inline constexpr Channels kColorAlone{true, false, false, false, false};
 
+/// How light that is brighter than a screen becomes a colour of the screen.
+enum class ViewTransform {
+    srgb,    ///< as it is, cut off at 1
+    none,    ///< as it is, and stored linearly, for programs that expect light
+    filmic,  ///< by a curve like film's, each channel alone (Narkowicz 2015)
+    agx      ///< by a curve over 16.5 stops, after which bright colours are whiter (Sobotka 2022)
+};
+
 /// How an image becomes a file.
 struct ImageFileOptions {
-    double exposure = 0;       ///< PNG: stops; colours are multiplied by 2^exposure
+    double exposure = 0;  ///< PNG: stops; colours are multiplied by 2^exposure
+    ViewTransform view_transform = ViewTransform::srgb;  ///< PNG
+    int png_bits = 8;                                    ///< PNG: bits a channel, 8 or 16
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
     Channels channels{};       ///< OpenEXR: others that the image has aren't written
 };

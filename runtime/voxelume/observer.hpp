@@ -88,16 +88,24 @@ enum class LightMode {
     global  ///< all that arrives from surfaces, too
 };
 
+/// How paths of global light find emissive surfaces. The light is the same on average.
+enum class LampSearch {
+    both,   ///< by rays to them and by running into them: the least noise
+    paths,  ///< by running into them: for large lamps
+    rays    ///< by rays to them, but for what mirrors and glass show
+};
+
 /// The flat image.
 struct RenderSettings {
-    Size size{640, 480};                 ///< pixels, 1..kMaxImageSide each
-    int samples = 1;                     ///< sight rays a pixel, 1..4096
-    int depth = 5;                       ///< reflections and refractions in a row, 0..64
-    bool shadows = true;                 ///< whether lights cast shadows
-    bool filtered_shadows = false;       ///< refracting objects tint light instead of hiding it
-    double min_weight = 1.0 / 4096;      ///< paths that would add less of a pixel end
-    LightMode light = LightMode::local;  ///< what light reaches surfaces
-    int bounces = 8;                     ///< times that a path of global light is scattered, 0..64
+    Size size{640, 480};                  ///< pixels, 1..kMaxImageSide each
+    int samples = 1;                      ///< sight rays a pixel, 1..4096
+    int depth = 5;                        ///< reflections and refractions in a row, 0..64
+    bool shadows = true;                  ///< whether lights cast shadows
+    bool filtered_shadows = false;        ///< refracting objects tint light instead of hiding it
+    double min_weight = 1.0 / 4096;       ///< paths that would add less of a pixel end
+    LightMode light = LightMode::local;   ///< what light reaches surfaces
+    int bounces = 8;                      ///< times that a path of global light is scattered, 0..64
+    LampSearch lamps = LampSearch::both;  ///< of global light
 };
 
 }  // namespace voxelume::v1

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 class CliShardTest : public SceneProgramTest {
   protected:
     static constexpr const char* kImage =
-        "render scene.json -q -o p.exr -o p.png --size 21x37 --samples 2 --exposure 0.5 ";
+        "render scene.json -q -o p.exr -o p.png --size 21x37 --samples 2 --exposure 0.5 "
+        "--view-transform agx --png-bits 16 ";
     static constexpr const char* kFrames = "render moving.json -q -o f.##.exr -o f.##.png ";
 
     void SetUp() override {

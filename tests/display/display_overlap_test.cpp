@@ -16,6 +16,7 @@ Volume shown(Surface surface) {
     Scene scene = small_scene("turntable", {96, 72}, 80);
     scene.observer.display.voxels = {64, 44, 64};
     for (Model& model : scene.models) model.surface = surface;
+    for (Object& object : scene.objects) object.placement = Placement::world;
     RenderReport report;
     Volume volume = render_volume(test_device(), scene, report);
     EXPECT_EQ(report.not_finite, 0u);

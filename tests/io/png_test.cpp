@@ -82,6 +82,27 @@ TEST_F(PngTest, ExposureIsInStops) {
     EXPECT_EQ(written(pixel(0.125f, 0.25f, 0, 1), options), (Pixel{188, 255, 0, 255}));
 }
 
+TEST_F(PngTest, AViewTransformAppliesAfterTheExposure) {
+    PngOptions options;
+    options.exposure = 1.0f;
+    options.view_transform = ViewTransform::none;
+    EXPECT_EQ(written(pixel(0.1f, 0.25f, 1, 1), options), (Pixel{51, 128, 255, 255}));
+    options.view_transform = ViewTransform::filmic;
+    EXPECT_EQ(written(pixel(0.5f, 0, 50, 1), options), (Pixel{232, 0, 255, 255}));
+}
+
+TEST_F(PngTest, SixteenBitsAreWrittenHighByteFirst) {
+    PngOptions options;
+    options.bits = 16;
+    options.view_transform = ViewTransform::none;
+    // A reader of eight bits takes the high bytes: 0x4CCD of 0.3 is 0x4C there, and 0x4D at 8 bits.
+    EXPECT_EQ(written(pixel(0.3f, 0.5f, 1, 1), options), (Pixel{0x4C, 0x80, 255, 255}));
+    write_png(path(), small_image(), options);
+    EXPECT_EQ(bytes_of(path())[24], 16);
+    EXPECT_THAT(bytes_of(path()), HasSubstr("gAMA"));
+    EXPECT_THAT(bytes_of(path()), Not(HasSubstr("sRGB")));
+}
+
 TEST_F(PngTest, TheBackgroundFillsWhatColourLeavesOpen) {
     PngOptions options;
     options.background = {0.5f, 0.0f, 1.0f};

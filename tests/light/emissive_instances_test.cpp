@@ -96,6 +96,31 @@ TEST(EmissiveInstance, OfCubesHasTheFacesThatItHasInTheWorld) {
     EXPECT_LT(glm::length(instance.area_vector), 1e-9);
 }
 
+// Each model is searched twice, to count its pieces and to list them, for all of its instances.
+TEST(EmissiveInstance, ThatShowsAModelLikeAnotherAddsNoSearch) {
+    const auto searches = [](const std::string& objects) {
+        const Scene scene = floor_scene(
+            R"("lamp": {"shape": "box", "size": [0.1, 0.06, 0.04], "surface": "cubes",
+                        "voxel_size": 0.02},)",
+            objects, "");
+        DeviceCounters& counters = shared_device().counters();
+        const uint64_t before = counters.launches["list_emissive"];
+        const PiecesOfObjects found = all_pieces_of(scene);
+        for (const auto& [object, pieces] : found)
+            EXPECT_EQ(pieces.size(), found.at(0).size()) << object;
+        return counters.launches["list_emissive"] - before;
+    };
+    const std::string lamp = R"({"model": "lamp", "material": "glow", "placement": "instance",)";
+    EXPECT_EQ(searches(lamp + R"("position": [0, 0.2, 0]},)"), 2u);
+    EXPECT_EQ(searches(lamp + R"("position": [0, 0.2, 0]},)" + lamp +
+                       R"("position": [0.2, 0.3, 0], "turn": [0, 20, 0]},)" + lamp +
+                       R"("position": [-0.2, 0.3, 0.1]},)"),
+              2u);
+    EXPECT_EQ(searches(lamp + R"("position": [0, 0.2, 0]},)" + lamp +
+                       R"("position": [0.2, 0.3, 0], "spots": 20},)"),
+              4u);
+}
+
 class EmissiveInstanceOfAMesh : public FileTest {};
 
 // Object 0 is a lamp in the world, and the mesh of object 1, which isn't one, stands behind it in

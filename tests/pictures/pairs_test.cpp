@@ -14,25 +14,12 @@
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/verify/analytic/analytic_tracer.hpp"
+#include "tests/pictures/pair_scenes.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {
-
-constexpr glm::ivec2 kSize(80, 64);
-
-/// A scene of two objects without light, whose images say where surfaces are. Vectors are JSON.
-std::string pair_scene(double voxel, const std::string& models, const std::string& objects) {
-    return fmt::format(
-        R"({{"voxelume": 1,
-"world": {{"voxel_size": {}, "bounds": {{"min": [-1.3, -1.3, -1.3], "max": [1.3, 1.3, 1.3]}}}},
-"models": {{{}}}, "objects": [{}], "lights": [],
-"observer": {{"position": [0.9, 1.6, 3.4], "look_at": [0, 0, 0],
-              "display": {{"shape": "pyramid", "angle": 34}}}},
-"render": {{"size": [{}, {}]}}}})",
-        voxel, models, objects, kSize.x, kSize.y);
-}
 
 /// What an image shows that the solids' formulas don't.
 struct PairErrors {
@@ -43,22 +30,14 @@ struct PairErrors {
     double worst_beside = 0;
 };
 
-/// The unit vector through a pixel, (0.5, 0.5) being the middle of the first.
-glm::dvec3 direction_at(const Observer& observer, const glm::dvec2& pixel) {
-    const glm::dvec2 at = 2.0 * pixel / glm::dvec2(kSize) - 1.0;
-    const glm::dvec3 ray(-at.x * std::tan(observer.display.half_angles.x),
-                         -at.y * std::tan(observer.display.half_angles.y), 1);
-    return observer.world_from_observer * glm::normalize(ray);
-}
-
 class Truth {
   public:
     explicit Truth(const Scene& scene) : scene_(scene), tracer_(scene) {
-        for (int y = 0; y < kSize.y; ++y)
-            for (int x = 0; x < kSize.x; ++x) seen_.push_back(at({x + 0.5, y + 0.5}));
+        for (int y = 0; y < kPairSize.y; ++y)
+            for (int x = 0; x < kPairSize.x; ++x) seen_.push_back(at({x + 0.5, y + 0.5}));
     }
 
-    const oracle::Seen& at(int x, int y) const { return seen_[size_t(y) * kSize.x + x]; }
+    const oracle::Seen& at(int x, int y) const { return seen_[size_t(y) * kPairSize.x + x]; }
 
     oracle::Seen at(const glm::dvec2& pixel) const {
         return tracer_.trace(scene_.observer.position, direction_at(scene_.observer, pixel));
@@ -69,7 +48,7 @@ class Truth {
     bool sees_near(int x, int y, int object, double metres) const {
         const double t = std::min(at(x, y).t, glm::length(scene_.observer.position));
         const double pixels =
-            metres / t / (2 * std::tan(scene_.observer.display.half_angles.x)) * kSize.x;
+            metres / t / (2 * std::tan(scene_.observer.display.half_angles.x)) * kPairSize.x;
         for (int i = 0; i < 48; ++i) {
             const double angle = i * 6.2831853 / 16, radius = pixels * (1 + i / 16) / 3.0;
             const glm::dvec2 off(radius * std::cos(angle), radius * std::sin(angle));
@@ -79,8 +58,8 @@ class Truth {
     }
 
     bool is_at_border(int x, int y) const {
-        for (int j = std::max(y - 2, 0); j <= std::min(y + 2, kSize.y - 1); ++j)
-            for (int i = std::max(x - 2, 0); i <= std::min(x + 2, kSize.x - 1); ++i)
+        for (int j = std::max(y - 2, 0); j <= std::min(y + 2, kPairSize.y - 1); ++j)
+            for (int i = std::max(x - 2, 0); i <= std::min(x + 2, kPairSize.x - 1); ++i)
                 if (at(i, j).object != at(x, y).object) return true;
         return false;
     }
@@ -102,9 +81,9 @@ PairErrors errors_of(const Scene& scene, double slack) {
     double sum = 0, sum_beside = 0;
     size_t count = 0, count_beside = 0;
     const auto value = [&](const char* name, size_t i) { return double(image.planes.at(name)[i]); };
-    for (int y = 0; y < kSize.y; ++y)
-        for (int x = 0; x < kSize.x; ++x) {
-            const size_t i = size_t(y) * kSize.x + x;
+    for (int y = 0; y < kPairSize.y; ++y)
+        for (int x = 0; x < kPairSize.x; ++x) {
+            const size_t i = size_t(y) * kPairSize.x + x;
             const int object = int(image.id_planes.at("objectId")[i]) - 1;
             const oracle::Seen& seen = truth.at(x, y);
             errors.shown += object >= 0;
@@ -204,35 +183,6 @@ TEST(Pairs, SmoothOnesConvergeBesideTheirBorders) {
             before = metres;
         }
     }
-}
-
-/// A solid of a random kind and size, at a random place, turned and stretched.
-std::array<std::string, 2> random_solid(std::mt19937& random, const char* surface) {
-    const auto in = [&](double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random);
-    };
-    const std::string keys = [&]() -> std::string {
-        switch (random() % 5) {
-            case 0:
-                return fmt::format(R"("shape": "sphere", "radius": {})", in(.4, .7));
-            case 1:
-                return fmt::format(R"("shape": "box", "size": [{}, {}, {}])", in(.5, 1.2),
-                                   in(.5, 1.2), in(.5, 1.2));
-            case 2:
-                return fmt::format(R"("shape": "torus", "radius": {}, "tube": {})", in(.4, .7),
-                                   in(.15, .3));
-            case 3:
-                return fmt::format(R"("shape": "cylinder", "radius": {}, "height": {})", in(.3, .6),
-                                   in(.5, 1.2));
-            default:
-                return fmt::format(R"("shape": "ellipsoid", "radii": [{}, {}, {}])", in(.3, .7),
-                                   in(.3, .7), in(.3, .7));
-        }
-    }();
-    return {fmt::format(R"({{{}, "surface": "{}"}})", keys, surface),
-            fmt::format(R"("position": [{}, {}, {}], "turn": [{}, {}, {}], "scale": [{}, {}, {}])",
-                        in(-.3, .3), in(-.3, .3), in(-.3, .3), in(0, 360), in(0, 360), in(0, 360),
-                        in(.8, 1.2), in(.8, 1.2), in(.8, 1.2))};
 }
 
 TEST(Pairs, RandomOnesShowTheObjectThatIsThere) {

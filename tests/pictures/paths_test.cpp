@@ -22,15 +22,15 @@ using testing::Not;
 
 constexpr const char* kColors[] = {"R", "G", "B"};
 
-struct Rendered {
+struct PathImage {
     Image image;
     RenderReport report;
     DeviceCounters counters;
 };
 
-Rendered rendered(const Scene& scene, int lanes = 0) {
+PathImage path_image(const Scene& scene, int lanes = 0) {
     const Device device = test_device(lanes);
-    Rendered result;
+    PathImage result;
     result.image = render(device, scene, result.report);
     result.counters = device.counters();
     EXPECT_EQ(result.report.not_finite, 0u);
@@ -73,17 +73,18 @@ class AllSurfaces : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Paths, AllSurfaces, testing::Values("exact", "smooth"));
 
 TEST_P(AllSurfaces, O6ABallOfTheSpacesOwnIndexIsInvisibleToTheBit) {
-    const Rendered bare = rendered(scene_with(kGhost, "", R"(, "shadow": "filtered")", GetParam()));
-    const Rendered ghost =
-        rendered(scene_with(kGhost, kGhostBall, R"(, "shadow": "filtered")", GetParam()));
+    const PathImage bare =
+        path_image(scene_with(kGhost, "", R"(, "shadow": "filtered")", GetParam()));
+    const PathImage ghost =
+        path_image(scene_with(kGhost, kGhostBall, R"(, "shadow": "filtered")", GetParam()));
     EXPECT_GT(ghost.report.secondary_rays, 500u);
     for (const char* color : kColors)
         EXPECT_EQ(ghost.image.planes.at(color), bare.image.planes.at(color)) << color;
 }
 
 TEST_P(AllSurfaces, ABallOfNoOpacityIsInvisibleToTheBit) {
-    const Rendered bare = rendered(scene_with("", "", "", GetParam()));
-    const Rendered ghost = rendered(scene_with(
+    const PathImage bare = path_image(scene_with("", "", "", GetParam()));
+    const PathImage ghost = path_image(scene_with(
         R"("ghost": {"specular": 1, "reflection": 1, "opacity": 0})", kGhostBall, "", GetParam()));
     EXPECT_GT(ghost.report.secondary_rays, 500u);
     for (const char* plane : {"R", "G", "B", "A"})
@@ -94,8 +95,8 @@ TEST(Paths, AMirrorWithoutDepthReflectsNothing) {
     const std::string materials = R"("mirror": {"diffuse": 0, "reflection": 1})";
     const std::string objects =
         R"(, {"model": "block", "material": "mirror", "position": [0, 0, 0]})";
-    const Rendered flat = rendered(scene_with(materials, objects, R"(, "depth": 0)"));
-    const Rendered deep = rendered(scene_with(materials, objects, R"(, "depth": 1)"));
+    const PathImage flat = path_image(scene_with(materials, objects, R"(, "depth": 0)"));
+    const PathImage deep = path_image(scene_with(materials, objects, R"(, "depth": 1)"));
     EXPECT_EQ(flat.report.secondary_rays, 0u);
     EXPECT_THAT(flat.counters.launches, Not(Contains(Key(std::string("scatter_rays")))));
     EXPECT_GT(deep.report.secondary_rays, 100u);
@@ -127,7 +128,7 @@ TEST(Paths, PanesCoverWhatLiesBehindByTheirOpacity) {
                 color[c] = opacity * (c == channel ? 1 : 0) + (1 - opacity) * color[c];
             covered = opacity + (1 - opacity) * covered;
         }
-    const Rendered r = rendered(parse_scene(text, "test.json", {}));
+    const PathImage r = path_image(parse_scene(text, "test.json", {}));
     for (int c = 0; c < 3; ++c)
         for (const float value : r.image.planes.at(kColors[c])) EXPECT_NEAR(value, color[c], 1e-6);
     for (const float value : r.image.planes.at("A")) EXPECT_NEAR(value, covered, 1e-6);
@@ -135,10 +136,11 @@ TEST(Paths, PanesCoverWhatLiesBehindByTheirOpacity) {
 
 TEST_P(AllSurfaces, LanesDoNotChangeABit) {
     const Scene scene = leaky_room(GetParam(), 5);
-    const uint64_t expected = oracle::image_hash(rendered(scene, 1).image);
+    const uint64_t expected = oracle::image_hash(path_image(scene, 1).image);
     const size_t turn = GetParam() == std::string("exact") ? 1 : 2;
     for (const int lanes : in_turn<int>({4, 8, 16}, turn))
-        EXPECT_EQ(oracle::image_hash(rendered(scene, lanes).image), expected) << lanes << " lanes";
+        EXPECT_EQ(oracle::image_hash(path_image(scene, lanes).image), expected)
+            << lanes << " lanes";
 }
 
 TEST(Paths, AreCompactedWithoutChangingABit) {
@@ -185,7 +187,7 @@ TEST(Paths, MoreRaysThanPlacesAreFollowedInParts) {
 }
 
 TEST(Paths, AreNotThereInAnOpaqueScene) {
-    const Rendered plain = rendered(scene_with(kGhost, ""));  // nothing shows the material
+    const PathImage plain = path_image(scene_with(kGhost, ""));  // nothing shows the material
     for (const char* kernel : {"begin_paths", "pass_layer", "scatter_rays", "gather_light"})
         EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
     for (const char* buffer :
@@ -197,7 +199,7 @@ TEST(Paths, AreNotThereInAnOpaqueScene) {
     EXPECT_FALSE(f.paths || f.transmission || f.refracts || f.absorbs || f.filter ||
                  f.filtered_refraction);
 
-    const Rendered mirror = rendered(
+    const PathImage mirror = path_image(
         scene_with(R"("mirror": {"reflection": 1})",
                    R"(, {"model": "block", "material": "mirror", "position": [0, 0, 0]})"));
     EXPECT_THAT(mirror.counters.launches, Contains(Key(std::string("scatter_rays"))));
@@ -210,8 +212,8 @@ TEST(Paths, AreNotThereInAnOpaqueScene) {
 TEST(Paths, OfLittleWeightEndAndAreCounted) {
     const std::string materials = R"("dim": {"diffuse": 0, "reflection": 0.001})";
     const std::string objects = R"(, {"model": "block", "material": "dim", "position": [0, 0, 0]})";
-    const Rendered kept = rendered(scene_with(materials, objects, R"(, "least_weight": 0)"));
-    const Rendered ended = rendered(scene_with(materials, objects, R"(, "least_weight": 0.01)"));
+    const PathImage kept = path_image(scene_with(materials, objects, R"(, "least_weight": 0)"));
+    const PathImage ended = path_image(scene_with(materials, objects, R"(, "least_weight": 0.01)"));
     EXPECT_GT(kept.report.secondary_rays, 100u);
     EXPECT_EQ(kept.report.ended_paths, 0u);
     EXPECT_EQ(ended.report.secondary_rays, 0u);

@@ -89,7 +89,7 @@ TEST(PlaceExact, JoinsListsInTheOrderOfObjectsWithNewNumbersAndWords) {
     EXPECT_EQ(read.voxels().size(), 3u);
 }
 
-TEST(PlaceExact, AVoxelShowsCubesOrExactSurfacesAsPrioritiesSay) {
+TEST(PlaceExact, CubesHideExactSurfacesOrStandBehindThemAsPrioritiesSay) {
     const Device device = test_device();
     const GridFrame frame = frame_of({7, 5, 3});
     const BrickGrid exact = exact_grid(device, frame, {{{3, 2, 1}, {0}}, {{5, 4, 2}, {0}}}, 1);
@@ -102,11 +102,26 @@ TEST(PlaceExact, AVoxelShowsCubesOrExactSurfacesAsPrioritiesSay) {
             if (!exact_first) std::swap(objects[0], objects[1]);
             const ReadBricks read(place(device, objects, frame));
             const bool exact_wins = priority > 0 || (priority == 0 && exact_first);
-            EXPECT_EQ(read.word({3, 2, 1}), exact_wins ? 2u << 30 | 1 : 2u)
+            EXPECT_EQ(read.word({3, 2, 1}), exact_wins ? 3u << 30 | 2 : 2u)
                 << priority << exact_first;
             EXPECT_EQ(read.word({2, 2, 1}), 2u);
             EXPECT_EQ(read.word({5, 4, 2}), 2u << 30 | 1);
         }
+}
+
+TEST(PlaceExact, CubesWithColorsMakeWayForExactSurfaces) {
+    const Device device = test_device();
+    const GridFrame frame = frame_of({7, 5, 3});
+    const BrickGrid exact = exact_grid(device, frame, {{{3, 2, 1}, {0}}}, 1);
+    HostBricks bricks = occupied_bricks(frame, {{{3, 2, 1}, 0}, {{2, 2, 1}, 0}});
+    bricks.colors.assign(bricks.attributes.size(), 0x203040);
+    const BrickGrid cubes = bricks.upload(device);
+    const std::vector<PlacedObject> objects = {
+        {.grid = &exact, .object = 1, .in_world_frame = true},
+        {.grid = &cubes, .object = 2, .in_world_frame = true}};
+    const ReadBricks read(place(device, objects, frame));
+    EXPECT_EQ(read.word({3, 2, 1}), 2u << 30 | 1);
+    EXPECT_EQ(read.word({2, 2, 1}), 2u);
 }
 
 TEST(PlaceExact, RefusesToResampleAndForeignFrames) {

@@ -113,7 +113,7 @@ TEST(PlacedWorld, VoxelsListTheSurfacesThatPassThem) {
     EXPECT_EQ(other.listed_fields, pyramid.listed_fields);
 }
 
-TEST(PlacedWorld, BetweenCubesAndFieldsPrioritiesDecide) {
+TEST(PlacedWorld, CubesHideFieldsOrStandBehindThemAsPrioritiesSay) {
     const Device& device = shared_device();
     const BrickGrid sphere = sphere_bricks(1.0, kVoxelEdge).upload(device);
     VoxelMap slab;
@@ -130,8 +130,11 @@ TEST(PlacedWorld, BetweenCubesAndFieldsPrioritiesDecide) {
         const HostPyramid host(pyramid_of(objects, cubes.frame));
         int log2 = 0;
         // The sphere's surface passes through (25,15,15); (2,15,2) is far outside of it.
-        EXPECT_EQ(host.word(host.find({25, 15, 15}, log2).value()),
-                  priority > 0 ? 0x40140002u : 0x000A0001u);
+        const uint32_t shared = host.find({25, 15, 15}, log2).value();
+        EXPECT_EQ(host.word(shared), priority > 0 ? 0xC00A0001u : 0x000A0001u);
+        const std::vector<uint32_t> fields = host.fields_in(shared);
+        ASSERT_EQ(fields.size(), priority > 0 ? 1u : 0u);
+        for (const uint32_t field : fields) EXPECT_EQ(host.word(field), 0x40140002u);
         EXPECT_EQ(host.word(host.find({2, 15, 2}, log2).value()), 0x000A0001u);
         EXPECT_EQ(host.word(host.find({15, 25, 15}, log2).value()), 0x40140002u);
     }

@@ -38,6 +38,37 @@ static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, u
     return r;
 }
 
+/// Mask: the entries' surfaces are those of instances.
+static inline lane_int are_of_instances(const RayBatch* batch, uint first) {
+    if (!VXL_INSTANCES) return (lane_int)0;
+    return LANE_MASK(LANES_LOAD(batch->hits, VXL_HIT_INSTANCE * batch->stride + first) !=
+                     VXL_NO_INSTANCE);
+}
+
+/// Makes rays that go straight on, those `anew`, begin behind their surface. A ray that goes on
+/// from a surface of the world begins where it did before and skips what it has met already; from
+/// an instance's it can't, for no cell of the world is known in which to go on.
+static inline void begin_behind(PyramidShape shape, const RayBatch* batch, uint first,
+                                lane_int anew, NewRays* r) {
+    if (!VXL_INSTANCES) return;
+    global const uint* hits = batch->hits;
+    const uint stride = batch->stride;
+    const lane_float t = LANES_SELECT(
+        anew, LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first)), (lane_float)0.0f);
+    Vector into = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
+    if (VXL_NORMALS) into = opposite(load_vector(batch->normals, stride, first));
+    const Vector at =
+        offset_origin(shape, add_scaled(r->origin, r->direction, t), into, hits, stride, first);
+    const float one = shape.fixed_point;
+    const Vector begin = {clamp(snap_position(at.x, into.x, one), 0.0f, (float)shape.size_x),
+                          clamp(snap_position(at.y, into.y, one), 0.0f, (float)shape.size_y),
+                          clamp(snap_position(at.z, into.z, one), 0.0f, (float)shape.size_z)};
+    r->origin = select_vector(anew, begin, r->origin);
+    r->t_end = LANES_SELECT(anew, r->t_end - t, r->t_end);
+    r->start = LANES_SELECT(anew, (lane_float)0.0f, r->start);
+    r->flags &= ~(LANES_AS_UINT(anew) & (VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
+}
+
 /// Sets what all rays have in common that stay on the side of the surfaces from which they were
 /// met.
 static inline void stay_on_side(const Surroundings* around, const ScatterPoint* p,
@@ -82,7 +113,7 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
     const Vector bent = bent_direction(p, into);
     set_out_child(r, shape, offset_origin(shape, p->position, into, hits, stride, first), into,
                   bent);
-    const lane_int same = LANE_MASK(p->eta == 1.0f);
+    const lane_int same = LANE_MASK(p->eta == 1.0f) & ~are_of_instances(batch, first);
     const Vector o = load_vector(batch->rays, stride, first);
     const Vector d = load_vector(batch->rays + VXL_RAY_DX * stride, stride, first);
     const lane_float t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);

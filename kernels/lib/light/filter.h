@@ -123,9 +123,25 @@ static inline void tint_light(const WorldView* world, const Surroundings* around
     }
 }
 
+/// Makes rays begin anew that go on from the surfaces of instances, those `anew`.
+static inline void leave_instances(const PyramidView* p, lane_int anew, Packet* f, Filter* filter) {
+    RayState* ray_state = &f->ray_state;
+    const lane_float zero = (lane_float)0.0f;
+    const lane_float t = LANES_SELECT(anew, f->found.t, zero);
+    begin_anew(p, &f->walk, t, anew);
+    f->t_end -= t;
+    filter->t_out -= t;
+    ray_state->goes_on &= ~anew;
+    ray_state->asks_side &= ~anew;
+    ray_state->t_first = LANES_SELECT(anew, zero, ray_state->t_first);
+}
+
 /// Lets the `passing` rays go on from the surface that they have found, of these attributes.
-static inline void go_on(const SurfaceHit* found, lane_uint packed, lane_int leaving,
-                         lane_int passing, Walk* w, RayState* ray_state) {
+static inline void go_on(const PyramidView* p, lane_uint packed, lane_int leaving, lane_int passing,
+                         Packet* f, Filter* filter) {
+    const SurfaceHit* found = &f->found;
+    RayState* ray_state = &f->ray_state;
+    Walk* w = &f->walk;
     ray_state->goes_on |= passing;
     ray_state->on_surface |= passing;
     const lane_uint source = source_of_hit(found->primitive, found->voxel, packed);
@@ -135,14 +151,19 @@ static inline void go_on(const SurfaceHit* found, lane_uint packed, lane_int lea
     ray_state->t_first = LANES_SELECT(passing, found->t, ray_state->t_first);
     w->t = LANES_SELECT(passing, fmax(found->t, w->t), w->t);
     w->axis = LANES_SELECT(passing & ~found->exit, (lane_int)3, w->axis);
+    if (VXL_INSTANCES)
+        leave_instances(p, passing & LANE_MASK(found->instance != VXL_NO_INSTANCE), f, filter);
+    filter->t_last = ray_state->t_first;
 }
 
 /// Filters the light of the `ended` rays on their way to the surface that those of `hit` have
 /// found, or to their light, and lets it go on through that surface: the mask of rays that do. The
 /// surface numbered VXL_MAX_LAYERS ends a ray.
-static inline lane_int pass_surface(const WorldView* world, const Surroundings* around, Walk* w,
-                                    const SurfaceHit* found, lane_int ended, lane_int hit,
-                                    RayState* ray_state, Filter* filter) {
+static inline lane_int pass_surface(const WorldView* world, const Surroundings* around, Packet* f,
+                                    lane_int ended, lane_int hit, Filter* filter) {
+    const SurfaceHit* found = &f->found;
+    RayState* ray_state = &f->ray_state;
+    const Walk* w = &f->walk;
     global const float* materials = around->materials;
     // The way up to here, to the light or out of the world, inside of the object that counts.
     const lane_uint before = effective_medium(&ray_state->media, around->ranks);
@@ -167,8 +188,7 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
     tint_light(world, around, w, found->t, material, voxel, opacity, refraction, passing & ~hidden,
                filter);
     if (!VXL_FILTERED) passing &= hidden | LANE_MASK(1.0f - opacity > 0.0f);
-    go_on(found, packed, leaving, passing, w, ray_state);
-    filter->t_last = ray_state->t_first;
+    go_on(&world->pyramid, packed, leaving, passing, f, filter);
     return passing;
 }
 

@@ -4,6 +4,7 @@
 #ifndef VXL_LAYER_H
 #define VXL_LAYER_H
 
+#include "lib/light/child_rays.h"
 #include "lib/light/paths.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/ray_batch.h"
@@ -71,8 +72,8 @@ static inline void add_layer(const Layer* l, const RayBatch* batch, uint first, 
 }
 
 /// Completes rays that go straight on through the layer's surfaces.
-static inline void go_straight(const Layer* l, const Surroundings* around, const RayBatch* batch,
-                               uint first, lane_int goes_on, NewRays* on) {
+static inline void go_straight(PyramidShape shape, const Layer* l, const Surroundings* around,
+                               const RayBatch* batch, uint first, lane_int goes_on, NewRays* on) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     on->origin = load_vector(batch->rays, stride, first);
@@ -89,6 +90,7 @@ static inline void go_straight(const Layer* l, const Surroundings* around, const
     on->media = cross_counted(load_medium_set(batch->paths, stride, first, l->valid), l->packed,
                               l->leaving, goes_on, around->medium_overflows);
     if (VXL_CUBE_BODIES) on->flags |= joined_flag(&on->media, around->materials);
+    begin_behind(shape, batch, first, goes_on & are_of_instances(batch, first), on);
     on->medium = medium_inside(&on->media, around->ranks);
 }
 

@@ -13,6 +13,9 @@
 // The build constant VXL_MEDIA is the number of objects that a scene needs room for.
 #define VXL_MEDIUM_SET_SIZE (VXL_MEDIA > 0 ? VXL_MEDIA : 1)
 
+/// The place of VXL_PATH_EMITTER among the components of paths.
+#define VXL_PATH_EMITTER (VXL_PATH_INSIDE + (VXL_TRANSMISSION ? VXL_MEDIUM_SET_SIZE : 0))
+
 /// Packed attributes of the objects, VXL_NO_MEDIUM for none.
 typedef struct {
     lane_uint members[VXL_MEDIUM_SET_SIZE];

@@ -11,9 +11,10 @@
 #define VXL_NO_CHILD 0xFFFFFFFFu
 
 /// Numbers in `counters`.
-#define VXL_COUNT_LAYER 0u     // entries of the next layer
-#define VXL_COUNT_CHILDREN 1u  // nodes of the next depth
-#define VXL_COUNT_ENDED 2u     // paths that ended for their small weight
+#define VXL_COUNT_LAYER 0u        // entries of the next layer
+#define VXL_COUNT_CHILDREN 1u     // nodes of the next depth
+#define VXL_COUNT_TO_EMITTERS 0u  // in global light: rays to emitters
+#define VXL_COUNT_ENDED 2u        // paths that ended for their small weight
 
 /// The parameters that `bind` of NodeLight sets, in its order.
 #define VXL_NODE_PARAMETERS \

@@ -6,27 +6,37 @@
 #include "lib/lanes/vector.h"
 #include "lib/light/surroundings.h"
 #include "lib/surface/surface_color.h"
+#include "lib/traverse/instance_hit.h"
+#include "lib/traverse/instances.h"
 #include "lib/traverse/packet.h"
 
 /// Mask: rays have met their surfaces from behind, as each kind of surface tells.
-static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
+static inline lane_int meets_from_behind(const WorldView* world, const Walk* w,
                                          const SurfaceHit* found, lane_int smooth, lane_int hit) {
+    const SurfaceView* s = &world->surface;
     lane_int behind = smooth & found->within;
     if (!VXL_EXACT) return behind;
+    HitRay in;
+    in.origin.x = w->ox, in.origin.y = w->oy, in.origin.z = w->oz;
+    in.direction.x = w->dx, in.direction.y = w->dy, in.direction.z = w->dz;
+    in.t = LANES_SELECT(hit, found->t, (lane_float)0.0f);
+    if (VXL_INSTANCES)
+        in = transform_hits(world->instances.records, found->instance,
+                            hit & LANE_MASK(found->instance != VXL_NO_INSTANCE), in);
+    const Vector o = in.origin, d = in.direction;
     const lane_int exact = hit & LANE_MASK(found->primitive != VXL_NO_PRIMITIVE);
     const lane_int solid = exact & LANE_MASK((found->primitive & VXL_SOLID_PRIMITIVE) != 0u);
     if (VXL_TRIANGLES) {
         const lane_int triangle = exact & ~solid;
         const Vector n = triangle_normal(s->triangles, found->primitive & LANES_AS_UINT(triangle),
                                          (float4)(1.0f));
-        const Vector d = {w->dx, w->dy, w->dz};
         behind |= triangle & LANE_MASK(dot_product(n, d) > 0.0f);
     }
     if (VXL_SOLIDS && lanes_any(solid)) {
-        const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
+        const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
         const SolidPoint n =
             solid_normals(s->solids, found->primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid),
-                          &ray, found->t, solid);
+                          &ray, in.t, solid);
         behind |= solid & LANE_MASK(fma(n.x, ray.dx, fma(n.y, ray.dy, n.z * ray.dz)) > 0.0f);
     }
     return behind;
@@ -45,14 +55,18 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
     lane_int searching = active, count = (lane_int)0;
     for (int layer = 0; layer < VXL_MAX_LAYERS && lanes_any(searching); ++layer) {
         const SurfaceHit found =
-            find_first(&world->pyramid, s, w, (lane_float)INFINITY, searching, ray_state);
+            find_nearest(world, w, (lane_float)INFINITY, searching, false, ray_state);
         searching &= found.hit;
         if (!lanes_any(searching)) break;
         const lane_uint voxel = found.voxel & LANES_AS_UINT(searching);
-        const lane_uint packed =
-            attributes_of_hit(s, voxel, found.primitive, searching) & LANES_AS_UINT(searching);
+        const lane_int of_instance =
+            VXL_INSTANCES ? searching & LANE_MASK(found.instance != VXL_NO_INSTANCE) : (lane_int)0;
+        lane_uint packed = attributes_of_hit(s, voxel, found.primitive, searching);
+        if (VXL_INSTANCES)
+            packed = instance_attributes(&world->instances, found.instance, packed, of_instance);
+        packed &= LANES_AS_UINT(searching);
         const lane_int smooth = is_smooth(packed, found.primitive) & searching;
-        const lane_int leaving = meets_from_behind(s, w, &found, smooth, searching);
+        const lane_int leaving = meets_from_behind(world, w, &found, smooth, searching);
         const lane_int first = searching & ~medium_set_holds(&met, packed) &
                                LANE_MASK(LANES_GATHER_UINT(hollow, packed & VXL_OBJECT_MASK) != 0u);
         const lane_uint material = material_offset(packed);
@@ -69,13 +83,19 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
         searching &= LANE_MASK(count < (int)maximum);
 
         // A field's own sign tells where the ray is: sets have room for transmitting objects alone.
-        ray_state->unsure = (lane_int)-1;
+        ray_state->unsure = ray_state->guesses = (lane_int)-1;
         ray_state->goes_on = ray_state->on_surface = (lane_int)-1;
         ray_state->source = source_of_hit(found.primitive, found.voxel, packed);
         ray_state->within_source = ~leaving;
         ray_state->t_first = LANES_SELECT(searching, found.t, ray_state->t_first);
         w->t = LANES_SELECT(searching, fmax(found.t, w->t), w->t);
         w->axis = LANES_SELECT(searching, (lane_int)3, w->axis);
+        if (!VXL_INSTANCES) continue;
+        const lane_int anew = searching & of_instance;
+        ray_state->instance = LANES_SELECT(searching, found.instance, ray_state->instance);
+        begin_anew(&world->pyramid, w, found.t, anew);
+        ray_state->goes_on &= ~anew;
+        ray_state->t_first = LANES_SELECT(anew, (lane_float)0.0f, ray_state->t_first);
     }
     return began;
 }

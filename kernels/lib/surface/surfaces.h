@@ -28,6 +28,8 @@ typedef struct {
     lane_int asks_side;  // mask: within_source isn't known yet, an instance's space will tell
     lane_int on_cube;    // mask: cubes in the cell where it begins are behind it; of scenes with
                          // instances, elsewhere on_surface tells
+    lane_int guesses;    // mask: fields' signs tell on which side it is, even where it begins on
+                         // them; of scenes with instances
 } RayState;
 
 /// What a packet has found so far.
@@ -234,7 +236,8 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     if (VXL_CUBE_BODIES) {
         lane_int own = tested & LANE_MASK(ray_state->body != VXL_NO_MEDIUM);
         if (VXL_ATTRIBUTES)
-            own &= is_medium(ray_state->body, LANES_GATHER_UINT(s->attributes, voxel));
+            own &= is_medium(ray_state->body,
+                             attributes_of_cubes(LANES_GATHER_UINT(s->attributes, voxel)));
         left = tested & found->in_body & ~own;
         leave_body(found, w, left);
         tested &= ~left;
@@ -254,6 +257,11 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
         accepted |= hit_fields(p, s, w, voxel, smooth, kinds.lists, beginning, ray_state, found);
     if (VXL_EXACT && lanes_any(exact))
         accepted |= hit_exact(p, s, w, voxel, exact, ray_state, found);
+    if (VXL_SHARED_CUBES) {
+        const lane_int missed = kinds.behind & ~(on_cube | passed | accepted);
+        take_voxel_hit(found, w->t, missed);
+        accepted |= missed;
+    }
     return accepted;
 }
 

@@ -4,6 +4,7 @@
 #define VXL_HIT_ATTRIBUTES_H
 
 #include "lib/lanes/lanes.h"
+#include "lib/traverse/voxel_kinds.h"
 #include "lib/traverse/world.h"
 #include "shared/solid.h"
 #include "shared/trace.h"
@@ -19,7 +20,7 @@ static inline lane_uint solid_attributes(global const SolidShape* restrict solid
 static inline lane_uint attributes_of_hit(const SurfaceView* s, lane_uint voxel,
                                           lane_uint primitive, lane_int hit) {
     lane_uint packed = (lane_uint)s->constant_attribute;
-    if (VXL_ATTRIBUTES) packed = LANES_GATHER_UINT(s->attributes, voxel);
+    if (VXL_ATTRIBUTES) packed = attributes_of_cubes(LANES_GATHER_UINT(s->attributes, voxel));
     const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
     const lane_int solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u) & exact;
     const lane_int triangle = exact & ~solid;

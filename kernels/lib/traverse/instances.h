@@ -99,27 +99,34 @@ static inline PyramidView instance_pyramid(const PyramidView* world,
     return p;
 }
 
-/// The state with which rays begin in the space of instance `number`, or of the world.
+// The object of instances' surfaces, in their own attributes.
+#define VXL_OWN_OBJECT (VXL_KIND_SMOOTH << VXL_KIND_SHIFT)
+
+/// The state with which rays begin in the space of instance `number`, which shows `object`, or of
+/// the world.
 ///
 /// A ray that goes on from a surface at t_first has yet to meet surfaces at this very t in the
 /// spaces that come after that surface's: the world's is the first, then those of instances by
-/// number. The objects of its medium set are in the world.
-static inline RayState ray_state_in(const RayState* ray_state, lane_uint number, lane_int begins) {
+/// number. In an instance's space it is inside of the instance's object or of nothing.
+static inline RayState ray_state_in(const RayState* ray_state, lane_uint number, uint object,
+                                    lane_int begins) {
     RayState t = *ray_state;
     const lane_int own = LANE_MASK(ray_state->instance == number);
     t.on_surface &= own;
     t.on_cube = t.on_surface & LANE_MASK(number == VXL_NO_INSTANCE);
     t.within_source &= own;
     t.source = LANES_SELECT(own, t.source, (lane_uint)VXL_NO_PRIMITIVE);
-    t.unsure = begins & ~t.on_surface;
+    t.unsure = begins & (~t.on_surface | t.guesses);
     if (VXL_TRANSMISSION) {
         const lane_int ahead = ray_state->goes_on &
                                LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(ray_state->instance));
         t.t_first = LANES_SELECT(ahead, float_before(t.t_first), t.t_first);
         const lane_int of_world = LANE_MASK(number == VXL_NO_INSTANCE);
+        const lane_int within = medium_set_holds(&t.media, (lane_uint)object) & ~of_world;
         for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
             t.media.members[i] =
                 LANES_SELECT(of_world, t.media.members[i], (lane_uint)VXL_NO_MEDIUM);
+        t.media.members[0] = LANES_SELECT(within, (lane_uint)VXL_OWN_OBJECT, t.media.members[0]);
         t.body = LANES_SELECT(of_world, t.body, (lane_uint)VXL_NO_MEDIUM);
         t.joined &= of_world;
     }
@@ -144,7 +151,7 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
     if (r->aligned) enter_box(&p, r, ray_state->t_first, &w);
     RayState outside = *ray_state;
     if (!r->aligned) outside.t_first = (lane_float)0.0f;
-    RayState inside = ray_state_in(&outside, (lane_uint)number, LANE_MASK(w.axis == 3));
+    RayState inside = ray_state_in(&outside, (lane_uint)number, r->object, LANE_MASK(w.axis == 3));
     if (VXL_SOLIDS) {
         const lane_int asked = active & inside.asks_side & LANE_MASK(w.axis == 3) &
                                LANE_MASK(ray_state->instance == number);
@@ -229,6 +236,25 @@ static inline void meet_instances(const PyramidView* world, const SurfaceView* s
     }
 }
 
+/// Makes the walks of rays that go on from an instance's surface at t, those `anew`, begin there.
+static inline void begin_anew(const PyramidView* p, Walk* w, lane_float t, lane_int anew) {
+    const lane_float zero = (lane_float)0.0f, at = LANES_SELECT(anew, t, zero);
+    const float one = p->fixed_point;
+    const Walk from =
+        begin_walk(snap_position(clamp(fma(w->dx, at, w->ox), 0.0f, (float)p->size_x), zero, one),
+                   snap_position(clamp(fma(w->dy, at, w->oy), 0.0f, (float)p->size_y), zero, one),
+                   snap_position(clamp(fma(w->dz, at, w->oz), 0.0f, (float)p->size_z), zero, one),
+                   w->dx, w->dy, w->dz);
+    w->ox = LANES_SELECT(anew, from.ox, w->ox);
+    w->oy = LANES_SELECT(anew, from.oy, w->oy);
+    w->oz = LANES_SELECT(anew, from.oz, w->oz);
+    w->x = LANES_SELECT(anew, from.x, w->x);
+    w->y = LANES_SELECT(anew, from.y, w->y);
+    w->z = LANES_SELECT(anew, from.z, w->z);
+    w->t = LANES_SELECT(anew, from.t, w->t);
+    w->axis = LANES_SELECT(anew, from.axis, w->axis);
+}
+
 /// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.
 /// The walk ends in the cell of the surface, in the instance's voxels if it is one's.
 static inline SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_float t_end,
@@ -237,7 +263,7 @@ static inline SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_floa
     const SurfaceView* s = &world->surface;
     if (!VXL_INSTANCES) return find_first(p, s, w, t_end, active, ray_state);
     const RayState in_world =
-        ray_state_in(ray_state, (lane_uint)VXL_NO_INSTANCE, LANE_MASK(w->axis == 3));
+        ray_state_in(ray_state, (lane_uint)VXL_NO_INSTANCE, 0u, LANE_MASK(w->axis == 3));
     const Walk ray = *w;
     SurfaceHit found = find_first(p, s, w, t_end, active, &in_world);
     found.instance = (lane_uint)VXL_NO_INSTANCE;

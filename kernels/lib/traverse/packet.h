@@ -125,6 +125,7 @@ static inline RayState sight_ray_state(void) {
                                 (lane_int)0,
                                 (lane_uint)VXL_NO_INSTANCE,
                                 (lane_int)0,
+                                (lane_int)0,
                                 (lane_int)0};
     return ray_state;
 }

@@ -154,9 +154,7 @@ static inline void trace_refilled_shadows(const WorldView* world, const Surround
         const lane_int ended = held & ~walking;
         const lane_int hit = is_hit(&packet->found, packet->t_end) & ended;
         lane_int passing = (lane_int)0;
-        if (VXL_FILTER)
-            passing = pass_surface(world, around, &packet->walk, &packet->found, ended, hit,
-                                   &packet->ray_state, &f.filter);
+        if (VXL_FILTER) passing = pass_surface(world, around, packet, ended, hit, &f.filter);
         if (lanes_any(ended & ~hit)) bring_light(q, &f, held, ended & ~hit);
         held &= walking | passing;
         if (VXL_FILTER) {
@@ -189,8 +187,7 @@ static inline lane_int find_lights(const WorldView* world, const Surroundings* a
         const lane_int hit = packet->found.hit & passing;
         arrived |= passing & ~hit;
         if (!VXL_FILTER) break;
-        passing = pass_surface(world, around, &packet->walk, &packet->found, passing, hit,
-                               &packet->ray_state, &f->filter);
+        passing = pass_surface(world, around, packet, passing, hit, &f->filter);
     }
     return arrived;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -18,19 +19,6 @@ namespace voxelume {
 namespace {
 
 using Context = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
-
-double linear_from_srgb(double code) {
-    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-}
-
-/// Returns thresholds[k], the linear value at which code k ends and k + 1 begins.
-std::array<float, 255> make_thresholds() {
-    std::array<float, 255> thresholds{};
-    for (size_t k = 0; k < thresholds.size(); ++k)
-        thresholds[k] =
-            static_cast<float>(linear_from_srgb((static_cast<double>(k) + 0.5) / 255.0));
-    return thresholds;
-}
 
 /// The planes that a picture needs, with defaults for missing ones.
 struct ColorPlanes {
@@ -56,15 +44,13 @@ ColorPlanes find_planes(ByteSink& file, const Image& image) {
             has_alpha ? &alpha->second : nullptr};
 }
 
-uint8_t alpha_code(float alpha) {
-    return static_cast<uint8_t>(std::lround(std::clamp(alpha, 0.0f, 1.0f) * 255.0f));
-}
-
-Picture develop(const Image& image, const ColorPlanes& planes, const PngOptions& options) {
+/// The codes of a picture's channels, `channels` to a pixel.
+std::vector<uint16_t> develop(const ColorPlanes& planes, const PngOptions& options) {
     const float gain = std::exp2(options.exposure);
-    Picture picture{image.width, image.height, {}};
-    picture.pixels.resize(planes.red.size());
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    const ColorCodes codes(options.view_transform, options.bits);
+    std::vector<uint16_t> values;
+    values.reserve(planes.red.size() * (options.keep_alpha ? 4 : 3));
+    for (size_t i = 0; i < planes.red.size(); ++i) {
         const float raw = planes.alpha ? (*planes.alpha)[i] : 1.0f;
         const float alpha = std::isnan(raw) ? 1.0f : raw;
         glm::vec3 color = planes.color(i);
@@ -72,20 +58,19 @@ Picture develop(const Image& image, const ColorPlanes& planes, const PngOptions&
             color += (1.0f - alpha) * options.background;
         else if (alpha > 0.0f)
             color /= alpha;
-        color *= gain;
-        picture.pixels[i] = {srgb_code(color.r), srgb_code(color.g), srgb_code(color.b),
-                             options.keep_alpha ? alpha_code(alpha) : uint8_t{255}};
+        for (const uint16_t code : codes(color * gain)) values.push_back(code);
+        if (!options.keep_alpha) continue;
+        const float maximum = codes.maximum();
+        values.push_back(uint16_t(std::lround(std::clamp(alpha, 0.0f, 1.0f) * maximum)));
     }
-    return picture;
+    return values;
 }
 
-/// The picture's bytes as PNG stores them: four a pixel, or three without alpha.
-std::vector<uint8_t> pack_pixels(const Picture& picture, bool with_alpha) {
-    const size_t channels = with_alpha ? 4 : 3;
-    std::vector<uint8_t> bytes;
-    bytes.reserve(picture.pixels.size() * channels);
-    for (const std::array<uint8_t, 4>& pixel : picture.pixels)
-        bytes.insert(bytes.end(), pixel.begin(), pixel.begin() + static_cast<long>(channels));
+/// The bytes of codes, in this machine's order where they have two.
+std::vector<uint8_t> bytes_of(const std::vector<uint16_t>& codes, int bits) {
+    if (bits == 8) return {codes.begin(), codes.end()};
+    std::vector<uint8_t> bytes(codes.size() * 2);
+    std::memcpy(bytes.data(), codes.data(), bytes.size());
     return bytes;
 }
 
@@ -105,19 +90,28 @@ void put_stamp(ByteSink& file, spng_ctx* context, std::string& stamp) {
     check_encoding(file, spng_set_text(context, &text, 1));
 }
 
-void encode(ByteSink& file, const Picture& picture, const PngOptions& options) {
+/// Says what the codes stand for: sRGB, or with a gamma of 1 light itself.
+void put_meaning(ByteSink& file, spng_ctx* context, ViewTransform transform) {
+    constexpr uint8_t kPerceptual = 0;
+    if (transform == ViewTransform::none)
+        check_encoding(file, spng_set_gama(context, 1.0));
+    else
+        check_encoding(file, spng_set_srgb(context, kPerceptual));
+}
+
+void encode(ByteSink& file, const Image& image, const PngOptions& options) {
     const bool with_alpha = options.keep_alpha;
-    const std::vector<uint8_t> bytes = pack_pixels(picture, with_alpha);
+    const std::vector<uint8_t> bytes =
+        bytes_of(develop(find_planes(file, image), options), options.bits);
     const Context context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
     check_encoding(file, spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
     spng_ihdr header{};
-    header.width = static_cast<uint32_t>(picture.width);
-    header.height = static_cast<uint32_t>(picture.height);
-    header.bit_depth = 8;
+    header.width = static_cast<uint32_t>(image.width);
+    header.height = static_cast<uint32_t>(image.height);
+    header.bit_depth = static_cast<uint8_t>(options.bits);
     header.color_type = with_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
     check_encoding(file, spng_set_ihdr(context.get(), &header));
-    constexpr uint8_t kPerceptual = 0;
-    check_encoding(file, spng_set_srgb(context.get(), kPerceptual));
+    put_meaning(file, context.get(), options.view_transform);
     std::string stamp = options.stamp;
     put_stamp(file, context.get(), stamp);
     check_encoding(file, spng_encode_image(context.get(), bytes.data(), bytes.size(), SPNG_FMT_PNG,
@@ -130,17 +124,12 @@ void encode(ByteSink& file, const Picture& picture, const PngOptions& options) {
     file.write(png.get(), size);
 }
 
-void encode(ByteSink& file, const Image& image, const PngOptions& options) {
-    const ColorPlanes planes = find_planes(file, image);
-    encode(file, develop(image, planes, options), options);
-}
-
 }  // namespace
 
 uint8_t srgb_code(float linear) {
     // A search in the thresholds rounds exactly, and gives equal codes on every machine; pow at
     // each pixel does neither.
-    static const std::array<float, 255> thresholds = make_thresholds();
+    static const std::vector<float> thresholds = srgb_thresholds(255);
     if (std::isnan(linear)) return 0;
     return static_cast<uint8_t>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -
                                 thresholds.begin());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image -> 8-bit sRGB PNG, and PNG -> 8-bit picture.
+// Image -> PNG for a screen, and PNG -> 8-bit picture.
 #pragma once
 
 #include <array>
@@ -11,12 +11,15 @@
 #include <vector>
 
 #include "runtime/image/image.hpp"
+#include "runtime/image/view_transform.hpp"
 
 namespace voxelume {
 
 /// The conversion of linear light to a picture for a screen.
 struct PngOptions {
-    float exposure = 0.0f;       ///< stops: colours are multiplied by 2^exposure
+    float exposure = 0.0f;  ///< stops: colours are multiplied by 2^exposure
+    ViewTransform view_transform = ViewTransform::srgb;
+    int bits = 8;                ///< a channel: 8 or 16
     bool keep_alpha = false;     ///< if false, the background shows through where alpha is below 1
     glm::vec3 background{0.0f};  ///< linear Rec. 709, exposed like the image
     std::string stamp = {};      ///< of the file, as a text chunk; empty for none

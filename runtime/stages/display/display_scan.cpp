@@ -43,6 +43,11 @@ VoxelBox box_of_objects(const Pyramid& world) {
         if (is_empty(box)) continue;
         all = {glm::min(all.low, box.low - kInfluence), glm::max(all.high, box.high + kInfluence)};
     }
+    if (world.instances.empty()) return all;
+    // Instances move without a new build of the world, after which the boxes above are old.
+    const VoxelBox bounds = box_of(world.frame), &own = world.instances.box;
+    const VoxelBox seen{glm::max(own.low, bounds.low), glm::min(own.high, bounds.high)};
+    if (!is_empty(seen)) all = {glm::min(all.low, seen.low), glm::max(all.high, seen.high)};
     return all;
 }
 

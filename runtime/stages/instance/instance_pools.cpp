@@ -134,6 +134,7 @@ class Joiner {
                                             .first_sector = uint32_t(full_.sectors),
                                             .first_triangle = uint32_t(full_.triangles),
                                             .triangle_count = uint32_t(triangles),
+                                            .first_solid = uint32_t(full_.solids),
                                             .low = model.low,
                                             .high = model.high});
         append(model.pyramid);

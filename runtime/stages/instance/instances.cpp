@@ -171,17 +171,20 @@ void place_instances(const Device& device, std::span<const glm::dmat4> world_fro
     records.reserve(set.list.size());
     boxes.reserve(set.list.size());
     double origin_offset = 0;
+    VoxelBox all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (const Instance& instance : set.list) {
         const Placed placed = place_instance(instance, set.models[instance.model], pyramid.frame,
                                              world, world_from_object[instance.object]);
         records.push_back(placed.record);
         boxes.push_back(placed.box);
+        all = {glm::min(all.low, placed.box.low), glm::max(all.high, placed.box.high)};
         origin_offset = std::max(origin_offset, placed.origin_offset);
     }
     // Slab tests place planes with an error of at most plane_bound, for transformed rays, too.
     const std::vector<InstanceNode> nodes =
         build_instance_tree(boxes, 4 * double(world.plane_bound) + origin_offset);
     set.origin_offset = float(origin_offset);
+    set.box = all;
     set.records = Buffer<InstanceRecord>(device, "instances", records);
     set.nodes = Buffer<InstanceNode>(device, "instance tree", nodes);
 }

@@ -4,6 +4,9 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <map>
+#include <optional>
+#include <span>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/stages/light/emissive_pieces.hpp"
@@ -26,30 +29,50 @@ EmissivePiece placed(EmissivePiece piece, const glm::dmat4& world_from_object,
 
 }  // namespace
 
-std::vector<EmissivePiece> instance_pieces(const Device& device, const Features& features,
-                                           const Scene& scene, const Pyramid& world,
-                                           const Instance& instance) {
-    const InstanceModel& model = world.instances.models[instance.model];
-    const Object& object = scene.objects[instance.object];
+ModelUse model_use(const Scene& scene, const Instance& instance,
+                   std::span<const uint32_t> materials) {
+    const auto own = materials.subspan(instance.first_material, instance.material_count);
+    return {instance.model, scene.objects[instance.object].light_samples, {own.begin(), own.end()}};
+}
+
+EmissiveSource model_source(const Scene& scene, const Pyramid& world, const ModelUse& use) {
+    const InstanceModel& model = world.instances.models[use.model];
     EmissiveSource source{.pyramid = world,
                           .first_sector = model.first_sector,
                           .first_triangle = model.first_triangle,
                           .triangle_count = model.triangle_count,
                           .is_emissive = {1},
-                          .light_samples = {object.light_samples}};
+                          .light_samples = {use.light_samples}};
     source.pyramid.frame = model.frame;
-    // Packed attributes of models hold numbers of groups; the last material is that of all further
-    // ones.
-    const std::vector<uint32_t> materials =
-        world.instances.materials.read(instance.first_material, instance.material_count);
+    // Packed attributes of models hold numbers of groups.
     for (size_t group = 0; group <= VXL_MATERIAL_MASK; ++group)
         source.emission.push_back(
-            scene.materials[materials[std::min(group, materials.size() - 1)]].emission);
-    PiecesOfObjects found = pieces_of_source(device, features, source);
-    std::vector<EmissivePiece> pieces = std::move(found[0]);
-    for (EmissivePiece& piece : pieces)
-        piece = placed(piece, object.world_from_object, model.frame.origin, world.frame.origin);
-    return pieces;
+            scene.materials[use.materials[std::min(group, use.materials.size() - 1)]].emission);
+    return source;
+}
+
+void add_instance_pieces(const Device& device, const Features& features, const Scene& scene,
+                         const Pyramid& world, const std::vector<uint32_t>& is_emissive,
+                         PiecesOfObjects& pieces) {
+    const InstanceSet& instances = world.instances;
+    if (instances.empty()) return;
+    const std::vector<uint32_t> materials = instances.materials.read();
+    std::map<ModelUse, std::vector<EmissivePiece>> known;
+    for (const Instance& instance : instances.list) {
+        if (is_emissive[instance.object] == 0) continue;
+        const Object& object = scene.objects[instance.object];
+        const InstanceModel& model = instances.models[instance.model];
+        const ModelUse use = model_use(scene, instance, materials);
+        auto found = known.find(use);
+        if (found == known.end()) {
+            const EmissiveSource source = model_source(scene, world, use);
+            found = known.emplace(use, pieces_of_source(device, features, source)[0]).first;
+        }
+        std::vector<EmissivePiece>& added = pieces[instance.object];
+        for (const EmissivePiece& piece : found->second)
+            added.push_back(
+                placed(piece, object.world_from_object, model.frame.origin, world.frame.origin));
+    }
 }
 
 }  // namespace voxelume

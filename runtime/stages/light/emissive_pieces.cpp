@@ -19,9 +19,6 @@ namespace {
 /// A point farther than this from the surface, in voxels, only serves to estimate the area.
 constexpr double kOnSurface = 1.0 / 256;
 
-/// A piece as kernels list it, see shared/light_samples.h.
-using ListedPiece = std::array<uint32_t, 4>;
-
 std::vector<uint32_t> emissive_materials_of(const EmissiveSource& source) {
     std::vector<uint32_t> emissive_materials;
     for (const glm::vec3& emission : source.emission)
@@ -49,15 +46,19 @@ class PieceFinder {
 
     /// The pieces, sorted by form, z, y and x.
     std::vector<ListedPiece> pieces() {
-        const Buffer<ListedPiece> none;
-        const uint32_t count = list(0, none);
-        const Buffer<ListedPiece> places(device_, "emissive surface", count);
-        list(count, places);
-        std::vector<ListedPiece> pieces = places.read();
+        std::vector<ListedPiece> pieces = list_all(false);
         std::ranges::sort(pieces, {}, [](const ListedPiece& p) {
             return std::array{p[1], p[0] >> 16, p[0] & 0xFFFFu, p[2]};
         });
         return pieces;
+    }
+
+    std::vector<ListedPiece> voxels() {
+        std::vector<ListedPiece> voxels = list_all(true);
+        std::ranges::sort(voxels, {}, [](const ListedPiece& p) {
+            return std::array{p[1] & 0xFFFFu, p[0] >> 16, p[0] & 0xFFFFu, p[2]};
+        });
+        return voxels;
     }
 
     std::vector<VoxelSurface> surfaces(const std::vector<ListedPiece>& pieces) {
@@ -80,14 +81,23 @@ class PieceFinder {
     }
 
   private:
-    /// Counts the pieces, and lists the first `capacity` of them. Returns their number.
-    uint32_t list(uint32_t capacity, const Buffer<ListedPiece>& places) {
+    std::vector<ListedPiece> list_all(bool by_voxel) {
+        const uint32_t count = list(by_voxel, 0, {});
+        if (count == 0) return {};
+        const Buffer<ListedPiece> places(device_, "emissive surface", count);
+        list(by_voxel, count, places);
+        return places.read();
+    }
+
+    /// Counts the pieces or voxels, and lists the first `capacity` of them. Returns their number.
+    uint32_t list(bool by_voxel, uint32_t capacity, const Buffer<ListedPiece>& places) {
         const glm::ivec3 sectors = source_.pyramid.frame.sectors();
         const uint32_t bricks = uint32_t(sectors.x * sectors.y * sectors.z) * 64;
         Buffer<uint32_t> found(device_, "emissive surface", 1);
         found.fill(0);
         list_.launch(WorkItem::light, bricks, bricks, source_.pyramid, source_.first_sector,
-                     emissive_objects_, emissive_materials_, capacity, found, places);
+                     emissive_objects_, emissive_materials_, uint32_t(by_voxel), capacity, found,
+                     places);
         return found.read_one(0);
     }
 
@@ -178,17 +188,13 @@ PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
     return found;
 }
 
-PiecesOfObjects emissive_pieces(const Device& device, const Features& features, const Scene& scene,
-                                const Pyramid& world, const std::vector<uint32_t>& is_emissive) {
-    PiecesOfObjects found;
-    if (world.voxel_count == 0) return found;
+EmissiveSource world_source(const Scene& scene, const Pyramid& world,
+                            const std::vector<uint32_t>& is_emissive) {
     const InstanceSet& instances = world.instances;
     EmissiveSource source{.pyramid = world, .is_emissive = is_emissive};
-    bool has_placed = false;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         if (is_instanced(scene, object)) source.is_emissive[i] = 0;
-        has_placed |= source.is_emissive[i] != 0;
         source.light_samples.push_back(object.light_samples);
     }
     for (const Material& material : scene.materials) source.emission.push_back(material.emission);
@@ -196,10 +202,22 @@ PiecesOfObjects emissive_pieces(const Device& device, const Features& features, 
     source.triangle_count = instances.models.empty()
                                 ? uint32_t(world.triangles.size() / kFloatsPerTriangle)
                                 : instances.models.front().first_triangle;
-    if (has_placed) found = pieces_of_source(device, features, source);
-    for (const Instance& instance : instances.list)
-        if (is_emissive[instance.object] != 0)
-            found[instance.object] = instance_pieces(device, features, scene, world, instance);
+    return source;
+}
+
+std::vector<ListedPiece> emissive_voxels(const Device& device, const Features& features,
+                                         const EmissiveSource& source) {
+    return PieceFinder(device, features, source).voxels();
+}
+
+PiecesOfObjects emissive_pieces(const Device& device, const Features& features, const Scene& scene,
+                                const Pyramid& world, const std::vector<uint32_t>& is_emissive) {
+    PiecesOfObjects found;
+    if (world.voxel_count == 0) return found;
+    const EmissiveSource source = world_source(scene, world, is_emissive);
+    if (std::ranges::any_of(source.is_emissive, [](uint32_t is) { return is != 0; }))
+        found = pieces_of_source(device, features, source);
+    add_instance_pieces(device, features, scene, world, is_emissive, found);
     return found;
 }
 

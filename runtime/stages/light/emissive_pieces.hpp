@@ -2,8 +2,11 @@
 // a world's emissive objects -> the pieces of surface that emit their light.
 #pragma once
 
+#include <array>
+#include <compare>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
@@ -29,6 +32,33 @@ struct EmissiveSource {
     std::vector<glm::vec3> emission{};  ///< by materials' numbers in packed attributes
 };
 
+/// A piece as kernels list it, see shared/light_samples.h.
+using ListedPiece = std::array<uint32_t, 4>;
+
+/// The world's own voxels. `is_emissive` has a value per object; those of instances become 0.
+EmissiveSource world_source(const Scene& scene, const Pyramid& world,
+                            const std::vector<uint32_t>& is_emissive);
+
+/// A model as instances show it that differ in their places alone.
+struct ModelUse {
+    uint32_t model = 0;
+    std::optional<int> light_samples;
+    std::vector<uint32_t> materials;  ///< of its groups; the last is that of all further ones
+
+    friend auto operator<=>(const ModelUse&, const ModelUse&) = default;
+};
+
+/// `materials` are all of InstanceSet::materials.
+ModelUse model_use(const Scene& scene, const Instance& instance,
+                   std::span<const uint32_t> materials);
+
+EmissiveSource model_source(const Scene& scene, const Pyramid& world, const ModelUse& use);
+
+/// The voxels with emissive surfaces of any kind, sorted by z, y and x: in the place of the form
+/// the sides through which these are met.
+std::vector<ListedPiece> emissive_voxels(const Device& device, const Features& features,
+                                         const EmissiveSource& source);
+
 /// By objects' numbers.
 using PiecesOfObjects = std::map<uint32_t, std::vector<EmissivePiece>>;
 
@@ -45,10 +75,11 @@ PiecesOfObjects emissive_pieces(const Device& device, const Features& features, 
 PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
                                  const EmissiveSource& source);
 
-/// The pieces of one instance, in the world.
-std::vector<EmissivePiece> instance_pieces(const Device& device, const Features& features,
-                                           const Scene& scene, const Pyramid& world,
-                                           const Instance& instance);
+/// Adds the pieces of emissive instances, in the world. Those of a model are found once for all
+/// instances that show it in the same materials.
+void add_instance_pieces(const Device& device, const Features& features, const Scene& scene,
+                         const Pyramid& world, const std::vector<uint32_t>& is_emissive,
+                         PiecesOfObjects& pieces);
 
 /// Adds only the triangles of the emissive objects.
 void add_emissive_triangles(const EmissiveSource& source, PiecesOfObjects& pieces);

@@ -91,7 +91,8 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 }
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    surface_.launch_packets(count, pyramid, environment_, sky_, materials_, ranks_, batch, count);
+    surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, materials_, ranks_,
+                            batch, count);
 }
 
 }  // namespace voxelume

@@ -7,6 +7,7 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/scene/scene.hpp"
+#include "runtime/stages/emitter_table.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
@@ -28,6 +29,9 @@ class ShadeStage {
     /// radiance.
     void surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
+    /// Says which emitters paths look for. Needed for features with `emitters` only.
+    void set_emitters(EmitterTable emitters) { emitters_ = std::move(emitters); }
+
     const Environment& environment() const { return environment_; }
     const Buffer<MaterialRecord>& materials() const { return materials_; }
     /// One record; empty in a world without a sky.
@@ -40,6 +44,7 @@ class ShadeStage {
     Buffer<MaterialRecord> materials_;
     Buffer<uint32_t> ranks_;
     Buffer<SkyRecord> sky_;
+    EmitterTable emitters_;
     Program program_;
     Kernel surface_;
 };

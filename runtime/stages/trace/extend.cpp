@@ -11,12 +11,16 @@ ExtendStage::ExtendStage(const Device& device, const Features& features, Surroun
       program_(device, "extend.cl", features.defines(device)),
       extend_(program_.kernel("extend_paths")) {}
 
-uint32_t ExtendStage::paths(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& entries,
-                            uint32_t count, bool is_first, NodeLight& nodes, RayQueue& next) {
+NextRays ExtendStage::paths(const Pyramid& pyramid, const PathSampling& sampling,
+                            const EmitterTable& emitters, RayBatch& entries, uint32_t count,
+                            bool is_first, NodeLight& nodes, RayQueue& next,
+                            RayQueue& to_emitters) {
     counters_.fill(0);
     extend_.launch_packets(count, shape_of(pyramid), surroundings_, pyramid.colors, sampling,
-                           uint32_t(is_first), entries, count, nodes, counters_, next);
-    return counters_.read()[kCountChildren];
+                           uint32_t(is_first), entries, count, nodes, counters_, next, emitters,
+                           to_emitters);
+    const std::vector<uint32_t> counts = counters_.read();
+    return {counts[kCountChildren], counts[kCountToEmitters]};
 }
 
 }  // namespace voxelume

@@ -5,12 +5,18 @@
 #include "kernels/shared/paths.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/emitter_table.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/stages/trace/scatter.hpp"
 #include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
+
+/// Numbers of rays that paths have sent on.
+struct NextRays {
+    uint32_t paths = 0, to_emitters = 0;
+};
 
 /// The kernel of extend.cl for one feature set: global light.
 class ExtendStage {
@@ -19,9 +25,11 @@ class ExtendStage {
 
     /// Adds the light of entries 0 .. count-1 to the nodes of their sight rays, whose sums the
     /// first surfaces begin, and writes the next rays of their paths to `next`, which has room for
-    /// as many. Returns the number of these rays.
-    uint32_t paths(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& entries,
-                   uint32_t count, bool is_first, NodeLight& nodes, RayQueue& next);
+    /// as many.
+    /// Where paths look for emitters, rays to these go to `to_emitters`, which has as much room.
+    NextRays paths(const Pyramid& pyramid, const PathSampling& sampling,
+                   const EmitterTable& emitters, RayBatch& entries, uint32_t count, bool is_first,
+                   NodeLight& nodes, RayQueue& next, RayQueue& to_emitters);
 
   private:
     Surroundings surroundings_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kernels/shared/emitters.h"
+
 namespace voxelume {
 namespace {
 
@@ -30,8 +32,10 @@ class ArrayMaker {
 };
 
 size_t path_components(const Features& features) {
-    if (features.transmission) return VXL_PATH_INSIDE + size_t(std::max(features.media, 1));
-    return features.instances || features.global ? VXL_PATH_INSIDE : VXL_PATH_CELL;
+    const size_t emitter = features.emitters != VXL_EMITTERS_NONE ? 1 : 0;
+    if (features.transmission)
+        return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter;
+    return (features.instances || features.global ? VXL_PATH_INSIDE : VXL_PATH_CELL) + emitter;
 }
 
 size_t hit_components(const Features& features) {
@@ -79,6 +83,10 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
     if (has_nodes) {
         make_queue(features, maker, depth.next);
         maker.make(depth.nodes.radiance, "node light", 3);
+    }
+    if (features.emitters != VXL_EMITTERS_NONE) {
+        make_batch(features, maker, depth.to_emitters);
+        make_queue(features, maker, depth.next_to_emitters);
     }
     if (features.transmission && is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
     if (features.global) return;
@@ -134,6 +142,7 @@ PathDepth allocate_depth(const Device& device, const Features& features, bool is
     ArrayMaker maker(device, slots);
     make_depth(features, is_first, maker, depth);
     depth.entries.stride = depth.next.stride = depth.nodes.stride = slots;
+    depth.to_emitters.stride = depth.next_to_emitters.stride = slots;
     return depth;
 }
 

@@ -15,7 +15,9 @@ namespace voxelume {
 /// The arrays of one depth of paths.
 struct PathDepth {
     RayBatch entries;
-    RayQueue next;  ///< the rays of the layer behind them
+    RayQueue next;              ///< the rays of the layer behind them
+    RayBatch to_emitters;       ///< rays that paths send to emitters, where they do
+    RayQueue next_to_emitters;  ///< those that go on straight through surfaces
     Children children;
     NodeLight nodes;
 };

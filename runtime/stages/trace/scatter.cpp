@@ -38,8 +38,9 @@ uint32_t ScatterStage::layer(const Pyramid& pyramid, RayBatch& entries, uint32_t
                              bool first_layer, Children& children, NodeLight& nodes,
                              RayQueue& next) {
     counters_.fill(0);
-    layer_.launch_packets(count, surroundings_, pyramid.colors, min_weight_, uint32_t(first_layer),
-                          entries, count, children.node_weights, nodes, counters_, next);
+    layer_.launch_packets(count, shape_of(pyramid), surroundings_, pyramid.colors, min_weight_,
+                          uint32_t(first_layer), entries, count, children.node_weights, nodes,
+                          counters_, next);
     return take(kCountLayer);
 }
 

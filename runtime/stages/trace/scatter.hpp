@@ -15,6 +15,7 @@ namespace voxelume {
 
 /// The counters of kernels that send rays on, as in kernels/lib/light/paths.h.
 inline constexpr uint32_t kCountLayer = 0, kCountChildren = 1, kCountEnded = 2, kPathCounters = 3;
+inline constexpr uint32_t kCountToEmitters = kCountLayer;  ///< global light has no layers
 
 /// The reflected and refracted rays of a batch: their node numbers in the next depth.
 struct Children {

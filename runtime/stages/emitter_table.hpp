@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The emissive voxels of a scene, as stages exchange them.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/shared/emitters.h"
+#include "runtime/opencl/buffer.hpp"
+#include "runtime/opencl/program.hpp"
+
+namespace voxelume {
+
+/// The emitters of a scene; no records if paths look for none.
+struct EmitterTable {
+    uint32_t count = 0;
+    Buffer<EmitterRecord> records;
+    uint32_t slots = 0;           ///< of `table`: a power of two
+    Buffer<uint32_t> table;       ///< emitters' numbers by their voxels' hash
+    Buffer<EmitterFrame> frames;  ///< only in scenes with instances
+    float volume = 0;             ///< of the world's voxels, cubic metres
+};
+
+/// VXL_EMITTER_PARAMETERS of kernels.
+void bind(KernelArguments& to, const EmitterTable& emitters);
+
+}  // namespace voxelume

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// emissive voxels -> a table by which light paths choose one, and find those that they have met.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/device.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/emitter_table.hpp"
+#include "runtime/stages/features.hpp"
+
+namespace voxelume {
+
+/// The maximum number of emitters. Of more voxels those are listed that shine most; paths find the
+/// others by running into them.
+inline constexpr size_t kMaxEmitters = size_t{1} << 20;
+
+/// The value of VXL_EMITTERS that a scene's settings ask for, if it has emissive objects.
+int emitter_feature(const RenderSettings& render);
+
+/// Lists the voxels of all objects that emit light and have light samples, in the world and in
+/// instances. The probability of one is in proportion to the luminance of its emission and to the
+/// area of its open sides, or of one of its sides where it holds no cube. The table is equal on
+/// every device. Throws Error::limit if the device's memory doesn't suffice.
+EmitterTable build_emitters(const Device& device, const Features& features, const Scene& scene,
+                            const Pyramid& world);
+
+}  // namespace voxelume
