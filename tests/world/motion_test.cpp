@@ -48,8 +48,7 @@ constexpr const char* kSlide = R"({"target": "objects.a.position", "interpolatio
 constexpr const char* kPyramid = R"({"shape": "pyramid", "angles": [90, 60], "far": 9})";
 
 TEST(Motion, OfASlidingBoxIsItsShareOfTheDisplay) {
-    const Scene scene =
-        moving_scene(R"({"shape": "box", "size": [4, 2, 8], "near": 0})", kSlide);
+    const Scene scene = moving_scene(R"({"shape": "box", "size": [4, 2, 8], "near": 0})", kSlide);
     // 0.1 m a frame towards +X, which is left for an observer who looks along +Z: 200 pixels are 4
     // m.
     const Motion m = motion_of(scene, 3, 1, {0.5f, 0.3f, -0.1f});
