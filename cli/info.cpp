@@ -34,12 +34,28 @@ Report report_of(const Facts& facts) {
     return report;
 }
 
+void check_integrity(const std::string& path) {
+    const auto refuse = [&](const char* reason) {
+        throw Error(ErrorKind::input, path + ": " + reason, {path});
+    };
+    switch (verify_file(path)) {
+        case FileIntegrity::whole:
+            return;
+        case FileIntegrity::damaged:
+            refuse("is damaged: its bytes aren't those that were written");
+        case FileIntegrity::unknown:
+            refuse(
+                "has no checksum; .exr, .png, .nrrd, .vdb and .ply files that `render` writes "
+                "have one, and .vxm files");
+    }
+}
+
 }  // namespace
 
 Action add_info(CLI::App& app) {
     struct Options {
         std::string path;
-        bool json = false;
+        bool json = false, verify = false;
     };
     auto options = std::make_shared<Options>();
     app.add_option(
@@ -49,7 +65,9 @@ Action add_info(CLI::App& app) {
            "another voxel editor or game, or mesh")
         ->required();
     app.add_flag("--json", options->json, "print the result as JSON");
+    app.add_flag("--verify", options->verify, "compare all of FILE with the checksum in it");
     return [options] {
+        if (options->verify) check_integrity(options->path);
         print_report(report_of(describe_file(options->path)), options->json);
         return 0;
     };

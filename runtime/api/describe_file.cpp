@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "runtime/api/describe.hpp"
 #include "runtime/api/guarded.hpp"
@@ -10,6 +11,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/exr.hpp"
@@ -115,6 +117,15 @@ Report describe_model(const fs::path& path) {
     return report;
 }
 
+/// Whether all of a voxelized model is as its checksums have it.
+bool is_model_whole(const fs::path& path) try {
+    read_model_file(path);
+    return true;
+} catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return false;
+}
+
 /// A volumetric image of ours, or what is in a file of an array.
 Report describe_voxel_file(const fs::path& path) {
     if (is_volume_nrrd(path)) return describe_volume(path, "NRRD volume");
@@ -183,6 +194,16 @@ Facts describe_file(const std::filesystem::path& file) {
         report.update(api::find_description(file)(file));
         report["bytes"] = std::filesystem::file_size(file);
         return api::facts_of(report, {});
+    });
+}
+
+FileIntegrity verify_file(const std::filesystem::path& file) {
+    return api::guarded([&] {
+        const bool is_model = api::find_description(file) == api::describe_model;
+        const std::optional<bool> as_written =
+            is_model ? api::is_model_whole(file) : is_as_written(file);
+        if (!as_written) return FileIntegrity::unknown;
+        return *as_written ? FileIntegrity::whole : FileIntegrity::damaged;
     });
 }
 

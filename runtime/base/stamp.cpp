@@ -125,6 +125,44 @@ void put_check(std::string& header, const StampPlace& place, const std::string& 
     for (size_t i = 0; i < 4; ++i) header[end + i] = char(sum >> (24 - 8 * i));
 }
 
+/// A file to read, and the stamp near its start.
+class StampedFile {
+  public:
+    explicit StampedFile(const std::filesystem::path& path)
+        : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)),
+          is_missing_(descriptor_ < 0 && errno == ENOENT),
+          rest_(descriptor_) {
+        struct stat status {};
+        if (descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
+            rest_.read(header_, kStampHeader))
+            place_ = find_stamp(header_);
+    }
+    ~StampedFile() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+    StampedFile(const StampedFile&) = delete;
+    StampedFile& operator=(const StampedFile&) = delete;
+
+    bool is_missing() const { return is_missing_; }
+    bool has_stamp() const { return place_.has_value(); }
+    std::string_view hash() const {
+        return std::string_view(header_).substr(place_->hash, kHashDigits);
+    }
+    /// Reads all of the file, once.
+    bool is_whole() {
+        const std::string_view check =
+            std::string_view(header_).substr(place_->check, kCheckDigits);
+        return check_of(header_, *place_, rest_) == check;
+    }
+
+  private:
+    int descriptor_;
+    bool is_missing_;
+    StampReader rest_;
+    std::string header_;
+    std::optional<StampPlace> place_;
+};
+
 }  // namespace
 
 std::string stamp_of(std::string_view hash) {
@@ -164,25 +202,16 @@ bool seal(int descriptor) noexcept try {
 }
 
 StampState check_stamp(const std::filesystem::path& file, std::string_view hash) {
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return errno == ENOENT ? StampState::missing : StampState::damaged;
-    struct stat status {};
-    StampState state = StampState::damaged;
-    if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) {
-        StampReader reader(descriptor);
-        std::string header;
-        const std::optional<StampPlace> place =
-            reader.read(header, kStampHeader) ? find_stamp(header) : std::nullopt;
-        if (place) {
-            const std::string_view text = header;
-            if (text.substr(place->hash, kHashDigits) != hash)
-                state = StampState::stale;
-            else if (check_of(header, *place, reader) == text.substr(place->check, kCheckDigits))
-                state = StampState::current;
-        }
-    }
-    close(descriptor);
-    return state;
+    StampedFile stamped(file);
+    if (stamped.is_missing()) return StampState::missing;
+    if (!stamped.has_stamp()) return StampState::damaged;
+    if (stamped.hash() != hash) return StampState::stale;
+    return stamped.is_whole() ? StampState::current : StampState::damaged;
+}
+
+std::optional<bool> is_as_written(const std::filesystem::path& file) {
+    StampedFile stamped(file);
+    return stamped.has_stamp() ? std::optional(stamped.is_whole()) : std::nullopt;
 }
 
 }  // namespace voxelume

@@ -7,6 +7,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/image/srgb.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -77,17 +79,6 @@ float filmic(float x) {
 }
 
 }  // namespace
-
-std::vector<float> srgb_thresholds(uint16_t codes) {
-    std::vector<float> thresholds;
-    thresholds.reserve(codes);
-    for (uint16_t k = 0; k < codes; ++k) {
-        const double code = (double(k) + 0.5) / double(codes);
-        thresholds.push_back(
-            float(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4)));
-    }
-    return thresholds;
-}
 
 double agx_curve(double position) {
     constexpr double kSlope = 2.4, kPower = 1.5;

@@ -38,10 +38,6 @@ class ColorCodes {
     std::vector<float> thresholds_;
 };
 
-/// [k]: the linear value at which code k of sRGB (IEC 61966-2-1) ends and k + 1 begins, with
-/// `codes` the one of 1.
-std::vector<float> srgb_thresholds(uint16_t codes);
-
 /// Where AgX's curve, of contrast 2.4 around middle grey, puts a position between its darkest and
 /// brightest light, 0 to 1 in stops.
 double agx_curve(double position);

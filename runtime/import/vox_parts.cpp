@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "runtime/image/srgb.hpp"
 #include "runtime/import/gloss.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 
@@ -12,8 +13,7 @@ namespace voxelume {
 namespace {
 
 double linear_of(uint32_t level) {
-    const double srgb = level / 255.0;
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+    return srgb_to_linear(level / 255.0);
 }
 
 glm::dvec3 linear_color(uint32_t color) {

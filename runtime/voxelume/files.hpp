@@ -76,6 +76,17 @@ struct Facts {
 /// Throws Error::input.
 Facts describe_file(const std::filesystem::path& file);
 
+/// What the checksums in a file say of it.
+enum class FileIntegrity {
+    unknown,  ///< there are none: another program wrote it, or its format has no room for them
+    whole,    ///< it has the bytes that were written
+    damaged   ///< it has others
+};
+
+/// Reads all of a file of render_frames or of a .vxm and compares it with its checksums. Throws
+/// Error::input for a file that can't be read.
+FileIntegrity verify_file(const std::filesystem::path& file);
+
 /// The frames of a list like "1-10,20,30-60x5", in its order. Throws Error::usage.
 std::vector<int> parse_frame_list(const std::string& list);
 

@@ -33,6 +33,18 @@ TEST_F(StampTest, AFileThatWasWrittenIsCurrentForItsHashAndStaleForOthers) {
     EXPECT_EQ(check_stamp(path(), kOther), StampState::stale);
 }
 
+TEST_F(StampTest, AFileIsAsWrittenWhateverItWasMadeFrom) {
+    EXPECT_EQ(is_as_written(path()), std::nullopt);
+    write_file();
+    EXPECT_EQ(is_as_written(path()), true);
+    std::string bytes = bytes_of(path());
+    bytes.back() ^= 1;
+    put_bytes(path(), bytes);
+    EXPECT_EQ(is_as_written(path()), false);
+    put_bytes(path(), "another program's");
+    EXPECT_EQ(is_as_written(path()), std::nullopt);
+}
+
 TEST_F(StampTest, AnyChangedByteOrLengthIsDamage) {
     write_file();
     const std::string bytes = bytes_of(path());

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/stamp.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
@@ -91,6 +92,30 @@ TEST_F(CliTest, InfoDescribesAnExr) {
     EXPECT_EQ(report["channels"][0]["min"], 0.25);
     EXPECT_EQ(report["channels"][3]["max"], 9);
     EXPECT_THAT(run("info a.exr").out, HasSubstr("compression     ZIP\n"));
+}
+
+TEST_F(CliTest, InfoVerifiesFilesByTheChecksumsInThem) {
+    Image image = grey_row(0.25f);
+    write_png(folder / "without.png", image);
+    EXPECT_THAT(run("info without.png --verify").err, HasSubstr("without.png: has no checksum"));
+    image.attributes["frame"] = stamp_of("0123456789abcdef0123456789abcdef");
+    write_exr(folder / "a.exr", image);
+    ModelFile model;
+    model.arrays["masks"] = std::vector<uint64_t>{1, 2, 3};
+    write_model_file(folder / "a.vxm", model);
+    for (const std::string name : {"a.exr", "a.vxm"}) {
+        const ProgramResult whole = run("info " + name + " --verify");
+        EXPECT_EQ(whole.exit_code, 0) << whole.err;
+        EXPECT_THAT(whole.out, HasSubstr("kind"));
+        std::string bytes = bytes_of(folder / name);
+        bytes[bytes.size() - 20] ^= 4;
+        put_bytes(folder / name, bytes);
+        const ProgramResult damaged = run("info " + name + " --verify");
+        EXPECT_EQ(damaged.exit_code, 4);
+        EXPECT_THAT(damaged.err, HasSubstr(name + ": is damaged"));
+        EXPECT_EQ(damaged.out, "");
+    }
+    EXPECT_EQ(run("info none.exr --verify").exit_code, 4);
 }
 
 TEST_F(CliTest, InfoDescribesPngModelVolumeAndMesh) {

@@ -13,6 +13,7 @@
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/input_file.hpp"
 #include "runtime/base/stamp.hpp"
+#include "runtime/image/srgb.hpp"
 
 namespace voxelume {
 

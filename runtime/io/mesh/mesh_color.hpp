@@ -4,14 +4,13 @@
 
 #include <glm/vec3.hpp>
 
-#include <cmath>
+#include "runtime/image/srgb.hpp"
 
 namespace voxelume {
 
 /// The linear value of an sRGB value in [0, 1] (IEC 61966-2-1), rounded once from double.
 inline float linear_from_srgb(double value) {
-    return static_cast<float>(value <= 0.04045 ? value / 12.92
-                                               : std::pow((value + 0.055) / 1.055, 2.4));
+    return static_cast<float>(srgb_to_linear(value));
 }
 
 /// The linear Rec. 709 colour of an sRGB colour. Mesh formats don't say what their colours mean.

@@ -31,23 +31,13 @@ std::vector<Cover> covers(int from, int to) {
     return all;
 }
 
-const std::array<float, 256>& linear_levels() {
-    static const std::array<float, 256> levels = [] {
-        std::array<float, 256> values{};
-        for (size_t code = 0; code < values.size(); ++code)
-            values[code] = linear_from_srgb(double(code) / 255);
-        return values;
-    }();
-    return levels;
-}
-
 /// Sums of linear colours and of weights.
 struct TexelSum {
     glm::vec4 weighted{0};  ///< colours times alpha, and alpha
     glm::vec3 plain{0};
 
     void add(uint32_t texel, float weight) {
-        const std::array<float, 256>& linear = linear_levels();
+        static const std::vector<float> linear = srgb_levels();
         const glm::vec3 color(linear[texel & 255], linear[texel >> 8 & 255],
                               linear[texel >> 16 & 255]);
         const float alpha = float(texel >> 24) / 255 * weight;

@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesh groups and colours -> the packed attributes and colours of voxels.
 #include <algorithm>
-#include <cmath>
 
+#include "runtime/image/srgb.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 #include "runtime/stages/voxelize/voxelize_textures.hpp"
 
 namespace voxelume {
 namespace {
-
-double linear_from_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
-/// The linear value of each sRGB code.
-std::vector<float> linear_levels() {
-    std::vector<float> levels;
-    for (int code = 0; code <= 255; ++code)
-        levels.push_back(static_cast<float>(linear_from_srgb(code / 255.0)));
-    return levels;
-}
-
-/// For each sRGB code above 0, the smallest linear value that rounds to it.
-std::vector<float> srgb_thresholds() {
-    std::vector<float> thresholds;
-    for (int code = 1; code <= 255; ++code) {
-        thresholds.push_back(static_cast<float>(linear_from_srgb((code - 0.5) / 255)));
-    }
-    return thresholds;
-}
 
 /// The distance, in shortest edges, within which a surface concerns a voxel's centre. A surface
 /// concerns a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a
@@ -55,7 +34,7 @@ Buffer<float> floats_of(const Device& device, const char* name,
 void color_voxels(VoxelizeJob& job, const Program& label, const Mesh& mesh,
                   const Buffer<uint32_t>& nearest) {
     const size_t voxels = size_t(4096) * job.bins.stored;
-    const std::vector<float> thresholds = srgb_thresholds(), levels = linear_levels();
+    const std::vector<float> thresholds = srgb_thresholds(255), levels = srgb_levels();
     const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds)),
         linear(job.device, "linear levels", std::span(levels));
     const DeviceTextures textures = upload_textures(job, mesh);
