@@ -111,8 +111,9 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_flag("--float", command.float_color,
                  "write the colours of .exr files as 32-bit floats, not halves");
     app.add_option("--channels", command.channels,
-                   "channels of .exr files: some of RGBA,Z,distance,P,N,objectId,materialId,"
-                   "CryptoObject,CryptoMaterial; without RGBA nothing is lit");
+                   "channels of .exr files, with commas between them: RGBA Z distance P N objectId "
+                   "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "
+                   "motion; without RGBA and light's parts nothing is lit");
     app.add_option("--stats-json", command.stats,
                    "write counts, times and memory to this file, JSON (see cli/STATISTICS.md)");
     app.add_flag("--dry-run", command.plan_only,

@@ -27,7 +27,9 @@ Warn = Callable[[str, str, str], object]
 #: Takes a frame's number, and its image and volume where they were asked for.
 Deliver = Callable[[int, Union[Image, None], Union[Volume, None]], object]
 
-Channel = Literal["color", "depth", "position", "normal", "object"]
+Channel = Literal["color", "depth", "position", "normal", "object", "distance", "materialId",
+                  "CryptoObject", "CryptoMaterial", "albedo", "direct", "indirect", "shadow",
+                  "lights", "motion"]
 ALL_CHANNELS: tuple[Channel, ...] = ("color", "depth", "position", "normal", "object")
 
 _usual_devices: list[Device] = []

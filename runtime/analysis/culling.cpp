@@ -21,10 +21,16 @@ namespace {
 /// The relative error of rays' coordinates in float: some hundred roundings.
 constexpr double kRounding = 0x1p-17;
 
+/// True if some channel of the image shows light, or a part of it.
+bool traces_light(const Scene& scene) {
+    const ImageChannels& c = scene.render.channels;
+    return c.color || c.albedo || c.direct || c.indirect || c.shadow || c.light_groups;
+}
+
 /// True if rays continue from surfaces of the object. Voxels in a file that isn't read (`reads` is
 /// false) count as if rays continued from them.
 bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
-    if (!scene.render.channels.color) return false;
+    if (!traces_light(scene)) return false;
     if (scene.render.light == LightMode::global && scene.render.bounces > 0) return true;
     // Rays to the sky and to points of the sun go on any way.
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
@@ -46,7 +52,7 @@ class RayHull {
     RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects, double lift) {
         const GridFrame world = world_frame(scene.world);
         hull_ = hull_of_sight_rays(scene.observer, world);
-        if (scene.render.shadows && scene.render.channels.color)
+        if (scene.render.shadows && traces_light(scene))
             add_shadow_rays(scene, emissive_objects, world, hull_);
         const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
         double largest = 0;
@@ -99,7 +105,7 @@ double lift_of(const Scene& scene, const Object& object, AssetStore& meshes, boo
 /// The largest of all objects; those `unread` have files that aren't read.
 double max_lift(const Scene& scene, AssetStore& meshes, const std::vector<bool>& unread) {
     double lift = 0;
-    if (scene.render.shadows && scene.render.channels.color)
+    if (scene.render.shadows && traces_light(scene))
         for (size_t i = 0; i < scene.objects.size(); ++i)
             lift = std::max(lift, lift_of(scene, scene.objects[i], meshes, !unread[i]));
     return lift;
@@ -119,7 +125,7 @@ void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<
 
     std::vector<VoxelBox> emissive_objects;
     for (size_t i = 0; i < objects.size(); ++i)
-        if (scene.render.channels.color && is_emissive(scene, objects[i]) && !is_empty(boxes[i]))
+        if (traces_light(scene) && is_emissive(scene, objects[i]) && !is_empty(boxes[i]))
             emissive_objects.push_back(boxes[i]);
     const RayHull hull(scene, emissive_objects, is_bounded ? lift : 0);
     std::vector<bool> met = potentially_visible;

@@ -175,11 +175,14 @@ std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
     std::vector<PathLight> lights;
     if (has_sun(scene.world)) {
         const Sky& sky = *scene.world.sky;
-        lights.push_back({sun_light_record(sky, world), sun_area_record(sky, world)});
+        lights.push_back({sun_light_record(sky, world), sun_area_record(sky, world), 0});
     }
+    uint32_t number = scene.world.sky && scene.world.sky->kind == SkyKind::sun ? 1 : 0;
     for (const Light& light : scene.lights) {
+        const uint32_t own_number = number++;
         if (!shines(light)) continue;
-        PathLight& added = lights.emplace_back(PathLight{light_record(light, world), {}});
+        PathLight& added =
+            lights.emplace_back(PathLight{light_record(light, world), {}, own_number});
         if (has_area(light)) added.area = light_area_record(light, world);
     }
     return lights;

@@ -23,7 +23,14 @@ constexpr std::array kMaterialMatte = {
     "CryptoMaterial01.R", "CryptoMaterial01.G", "CryptoMaterial01.B", "CryptoMaterial01.A",
     "CryptoMaterial02.R", "CryptoMaterial02.G", "CryptoMaterial02.B", "CryptoMaterial02.A"};
 
-constexpr std::array<ChannelRow, 9> kTable = {
+constexpr std::array kAlbedo = {"albedo.R", "albedo.G", "albedo.B"};
+constexpr std::array kDirect = {"direct.R", "direct.G", "direct.B"};
+constexpr std::array kIndirect = {"indirect.R", "indirect.G", "indirect.B"};
+constexpr std::array kShadow = {"shadow.R", "shadow.G", "shadow.B"};
+constexpr std::array kLights = {"light_"};
+constexpr std::array kMotion = {"forward.u", "forward.v", "backward.u", "backward.v"};
+
+constexpr std::array<ChannelRow, 15> kTable = {
     {{"RGBA", &Channels::color, kColor},
      {"Z", &Channels::depth, kDepth},
      {"distance", &Channels::distance, kDistance},
@@ -32,7 +39,13 @@ constexpr std::array<ChannelRow, 9> kTable = {
      {"objectId", &Channels::object, kObject},
      {"materialId", &Channels::material, kMaterial},
      {"CryptoObject", &Channels::object_matte, kObjectMatte},
-     {"CryptoMaterial", &Channels::material_matte, kMaterialMatte}}};
+     {"CryptoMaterial", &Channels::material_matte, kMaterialMatte},
+     {"albedo", &Channels::albedo, kAlbedo},
+     {"direct", &Channels::direct, kDirect},
+     {"indirect", &Channels::indirect, kIndirect},
+     {"shadow", &Channels::shadow, kShadow},
+     {"lights", &Channels::light_groups, kLights},
+     {"motion", &Channels::motion, kMotion}}};
 
 }  // namespace
 

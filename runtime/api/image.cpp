@@ -57,13 +57,18 @@ std::span<const uint32_t> ids_of(const Image& image, const char* plane) {
     return {found->second.data(), found->second.size()};
 }
 
-/// The names of the planes that an OpenEXR file leaves out.
-std::vector<const char*> left_out(const v1::Channels& channels) {
-    std::vector<const char*> names;
-    for (const v1::ChannelRow& row : v1::channel_table())
-        if (!(channels.*row.member))
-            names.insert(names.end(), row.planes.begin(), row.planes.end());
-    return names;
+/// Whether a channel is among those of a row.
+bool is_of(const std::string& channel, const v1::ChannelRow& row) {
+    return std::ranges::any_of(row.planes, [&](const std::string_view plane) {
+        return plane.ends_with('_') ? channel.starts_with(plane) : channel == plane;
+    });
+}
+
+/// Whether an OpenEXR file leaves a channel out.
+bool is_left_out(const std::string& channel, const v1::Channels& channels) {
+    return std::ranges::any_of(v1::channel_table(), [&](const v1::ChannelRow& row) {
+        return !(channels.*row.member) && is_of(channel, row);
+    });
 }
 
 /// The texts for the header of a file: the frame's hash becomes the file's stamp.
@@ -108,13 +113,15 @@ template <class Write>
 auto with_channels(const v1::Image::Implementation& image, const v1::ImageFileOptions& options,
                    const Write& write) {
     const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
-    std::vector<const char*> names = left_out(options.channels);
-    std::erase_if(names, [&](const char* name) {
-        return !image.image->planes.contains(name) && !image.image->id_planes.contains(name);
-    });
-    if (names.empty()) return write(*image.image, depth);
+    const auto is_extra = [&](const auto& plane) {
+        return is_left_out(plane.first, options.channels);
+    };
+    if (std::ranges::none_of(image.image->planes, is_extra) &&
+        std::ranges::none_of(image.image->id_planes, is_extra))
+        return write(*image.image, depth);
     Image shown = *image.image;
-    for (const char* name : names) shown.planes.erase(name), shown.id_planes.erase(name);
+    std::erase_if(shown.planes, is_extra);
+    std::erase_if(shown.id_planes, is_extra);
     return write(shown, depth);
 }
 

@@ -15,6 +15,7 @@
 #include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
+#include "runtime/render/motion_vectors.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
@@ -157,7 +158,7 @@ class Run {
         if (result.image) {
             api::Attributes all = attributes;
             all[api::kFrameHash] = hashes_.of(files.frame);
-            rendered.image = api::handle_of(result.image, std::move(all));
+            rendered.image = api::handle_of(with_motion(result.image, files.frame), std::move(all));
         }
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
@@ -169,6 +170,19 @@ class Run {
         if (!job_.deliver_images) rendered.image.reset();
         if (!job_.deliver_volumes) rendered.volume.reset();
         if (job_.deliver) api::callback(job_.deliver)(rendered);
+    }
+
+    /// The image, with its motion where that is asked for, and without what only that needed.
+    std::shared_ptr<const Image> with_motion(const std::shared_ptr<const Image>& image,
+                                             int frame) const {
+        const v1::Channels& channels = wanted_.channels;
+        if (!channels.motion) return image;
+        const auto moving = std::make_shared<Image>(*image);
+        add_motion(scene_, frame, *moving);
+        if (!channels.object) moving->id_planes.erase("objectId");
+        for (const char* plane : {"P.X", "P.Y", "P.Z"})
+            if (!channels.position) moving->planes.erase(plane);
+        return moving;
     }
 
     void write(const v1::RenderedFrame& rendered, const v1::FrameFiles& files) {

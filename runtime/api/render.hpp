@@ -12,10 +12,22 @@
 
 namespace voxelume::api {
 
+/// What is rendered for the channels; motion is found from points and objects.
 inline ImageChannels inside(const v1::Channels& channels) {
-    return {channels.color,    channels.depth,        channels.position,
-            channels.normal,   channels.object,       channels.distance,
-            channels.material, channels.object_matte, channels.material_matte};
+    return {.color = channels.color,
+            .depth = channels.depth,
+            .position = channels.position || channels.motion,
+            .normal = channels.normal,
+            .object = channels.object || channels.motion,
+            .distance = channels.distance,
+            .material = channels.material,
+            .object_matte = channels.object_matte,
+            .material_matte = channels.material_matte,
+            .albedo = channels.albedo,
+            .direct = channels.direct,
+            .indirect = channels.indirect,
+            .shadow = channels.shadow,
+            .light_groups = channels.light_groups};
 }
 
 /// What one frame took.

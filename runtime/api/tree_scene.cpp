@@ -199,7 +199,7 @@ JsonValue tree(const v1::Material& material) {
 
 JsonValue tree(const v1::Light& light) {
     ObjectTree object;
-    object.add_text("name", light.name);
+    object.add_text("name", light.name).add_text("group", light.group);
     std::visit([&object](const auto& source) { add_source(source, object); }, light.source);
     return object.add("color", light.color).add("intensity", light.intensity).take();
 }

@@ -23,7 +23,7 @@ std::vector<PathLight> lights_by_samples(const Device& device, const Features& f
                           std::back_inserter(records));
     std::vector<PathLight> lights;
     lights.reserve(records.size());
-    for (const LightRecord& record : records) lights.push_back({record, {}});
+    for (const LightRecord& record : records) lights.push_back({record, {}, 0});
     return lights;
 }
 
@@ -186,7 +186,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
     for (size_t i = 0; i < lights_.size(); ++i) {
         const PathLight& light = lights_[i];
         if (light.area)
-            area_lighting_->add(world_, light.record, *light.area, sampling_, uint32_t(i), entries,
+            area_lighting_->add(world_, light.record, *light.area, sampling_, light.number, entries,
                                 count, queue_);
         else
             lighting_->add(world_, light.record, entries, count, queue_);

@@ -9,6 +9,7 @@
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/render/light_passes.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/resolve/matte.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
@@ -130,8 +131,30 @@ Image Renderer::new_image(const Scene& scene, const BuiltWorld& world, RenderRep
 Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                               const Tiles& tiles) {
     const glm::ivec2& size = scene.render.size;
-    return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y),
-                          [&] { return image_of_tiles(scene, world, report, tiles); });
+    return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
+        Image image = image_of_tiles(scene, world, report, tiles);
+        add_passes(scene, world, tiles, report, image);
+        return image;
+    });
+}
+
+/// Adds the channels that show parts of the light, of the tiles that were rendered.
+void Renderer::add_passes(const Scene& scene, const BuiltWorld& world, const Tiles& tiles,
+                          RenderReport& report, Image& image) const {
+    const std::vector<LightPass> passes = light_passes(scene);
+    for (const LightPass& pass : passes) {
+        RenderReport of_pass;
+        TileShare share(tiles.share, tiles.taken);
+        std::vector<TileRange> taken;
+        Image light =
+            Renderer(device_, false).image_of_tiles(pass.scene, world, of_pass, {share, taken});
+        for (const char* color : {"R", "G", "B"})
+            image.planes[fmt::format("{}.{}", pass.name, color)] =
+                std::move(light.planes.at(color));
+        add_counts(of_pass, report);
+        report.image_seconds += of_pass.image_seconds;
+    }
+    if (!passes.empty()) finish_passes(scene, image);
 }
 
 /// Tells whoever shares or watches the tiles that these are done.

@@ -101,6 +101,8 @@ class Renderer {
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
+    void add_passes(const Scene& scene, const BuiltWorld& world, const Tiles& tiles,
+                    RenderReport& report, Image& image) const;
 
     Device device_;
     bool follows_;

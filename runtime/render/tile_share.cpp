@@ -7,7 +7,16 @@ namespace voxelume {
 
 std::optional<TileRange> TileShare::take(uint32_t count) {
     const std::lock_guard lock(mutex_);
-    if (is_closed_ || next_ >= tiles_) return std::nullopt;
+    if (is_closed()) return std::nullopt;
+    if (whole_) {
+        if (ranges_.empty()) return std::nullopt;
+        TileRange& next = ranges_.front();
+        const TileRange range{next.first, std::min(count, next.count)};
+        next = {next.first + range.count, next.count - range.count};
+        if (next.count == 0) ranges_.erase(ranges_.begin());
+        return range;
+    }
+    if (next_ >= tiles_) return std::nullopt;
     const TileRange range{next_, std::min({count, maximum_, tiles_ - next_})};
     next_ += range.count;
     return range;

@@ -29,12 +29,17 @@ class TileShare {
     explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
         : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
+    /// Hands out these tiles of another's, which ends both when it is closed.
+    TileShare(const TileShare& whole, std::vector<TileRange> ranges)
+        : tiles_(whole.tiles_), maximum_(UINT32_MAX), whole_(&whole), ranges_(std::move(ranges)) {}
+
     /// The next tiles, at most `count`; empty if all were handed out.
     std::optional<TileRange> take(uint32_t count);
     /// Reports to the progress callback that these tiles are done.
     void done(const TileRange& range);
     /// Ends the work: no more tiles are handed out.
     void close() { is_closed_ = true; }
+    bool is_closed() const { return is_closed_ || (whole_ && whole_->is_closed()); }
 
     uint32_t tiles() const { return tiles_; }
     uint32_t maximum() const { return std::min(maximum_, tiles_); }  ///< maximum at a time
@@ -48,6 +53,8 @@ class TileShare {
     uint32_t next_ = 0;
     uint32_t done_ = 0;
     FrameProgress progress_;
+    const TileShare* whole_ = nullptr;
+    std::vector<TileRange> ranges_;  ///< those left, of another's tiles
     std::atomic<bool> is_closed_ = false;
 };
 

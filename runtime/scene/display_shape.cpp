@@ -68,6 +68,11 @@ glm::dvec3 point_on_pyramid_ray(const Display& display, glm::dvec2 uv, double de
     return glm::dvec3(-uv * pyramid_half_extent(display), 1.0) * depth;
 }
 
+std::optional<glm::dvec2> pyramid_ray_through(const Display& display, const glm::dvec3& p) {
+    if (p.z <= 0) return {};
+    return glm::dvec2(-p.x, -p.y) / p.z / pyramid_half_extent(display);
+}
+
 double pyramid_start_radius(const Display& display) {
     const glm::dvec2 half = pyramid_half_extent(display);
     return display.near * std::sqrt(1 + glm::dot(half, half));
@@ -90,6 +95,7 @@ constexpr DisplayShapeRow kPyramid = {.shape = DisplayShape::pyramid,
                                       .half_extent = pyramid_half_extent,
                                       .bounds = pyramid_bounds,
                                       .point_on_ray = point_on_pyramid_ray,
+                                      .ray_through = pyramid_ray_through,
                                       .looks_ahead = always_looks_ahead,
                                       .start_radius = pyramid_start_radius,
                                       .clip_slopes = pyramid_half_extent,
@@ -121,6 +127,12 @@ glm::dvec3 point_on_sector_ray(const Display& display, glm::dvec2 uv, double dep
     return glm::dvec3(-uv * share, std::cos(angle)) * depth;
 }
 
+std::optional<glm::dvec2> sector_ray_through(const Display& display, const glm::dvec3& p) {
+    const double across = std::hypot(p.x, p.y);
+    if (across == 0) return glm::dvec2(0);
+    return glm::dvec2(-p.x, -p.y) / across * std::atan2(across, p.z) / sector_half_extent(display);
+}
+
 glm::dvec2 sector_slopes(const Display& display) {
     return {std::cos(display.half_angles.x), 0};
 }
@@ -148,6 +160,7 @@ constexpr DisplayShapeRow kSector = {.shape = DisplayShape::sector,
                                      .half_extent = sector_half_extent,
                                      .bounds = sector_bounds,
                                      .point_on_ray = point_on_sector_ray,
+                                     .ray_through = sector_ray_through,
                                      .looks_ahead = sector_looks_ahead,
                                      .start_radius = near_surface,
                                      .clip_slopes = sector_slopes,
@@ -175,6 +188,11 @@ glm::dvec3 point_on_ball_ray(const Display& display, glm::dvec2 uv, double depth
            depth;
 }
 
+std::optional<glm::dvec2> ball_ray_through(const Display& display, const glm::dvec3& p) {
+    const glm::dvec2 angles(std::atan2(p.x, p.z), std::atan2(p.y, std::hypot(p.x, p.z)));
+    return -angles / ball_half_extent(display);
+}
+
 bool ball_looks_ahead(const Display&) {
     return false;
 }
@@ -196,6 +214,7 @@ constexpr DisplayShapeRow kBall = {.shape = DisplayShape::ball,
                                    .half_extent = ball_half_extent,
                                    .bounds = ball_bounds,
                                    .point_on_ray = point_on_ball_ray,
+                                   .ray_through = ball_ray_through,
                                    .looks_ahead = ball_looks_ahead,
                                    .start_radius = near_surface,
                                    .clip_slopes = no_slopes,
@@ -223,6 +242,10 @@ glm::dvec3 point_on_box_ray(const Display& display, glm::dvec2 uv, double depth)
     return {-uv * display.half_size, depth};
 }
 
+std::optional<glm::dvec2> box_ray_through(const Display& display, const glm::dvec3& p) {
+    return glm::dvec2(-p.x, -p.y) / box_half_extent(display);
+}
+
 double box_start_radius(const Display& display) {
     const glm::dvec2 half = display.half_size;
     return std::sqrt(display.near * display.near + glm::dot(half, half));
@@ -245,6 +268,7 @@ constexpr DisplayShapeRow kBox = {.shape = DisplayShape::box,
                                   .half_extent = box_half_extent,
                                   .bounds = box_bounds,
                                   .point_on_ray = point_on_box_ray,
+                                  .ray_through = box_ray_through,
                                   .looks_ahead = always_looks_ahead,
                                   .start_radius = box_start_radius,
                                   .clip_slopes = no_slopes,

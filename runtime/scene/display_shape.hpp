@@ -115,6 +115,8 @@ struct DisplayShapeRow {
     /// The point at `depth` of the sight ray at (u, v) in [-1, 1], u to the right (-X_E) and v down
     /// (-Y_E).
     glm::dvec3 (*point_on_ray)(const Display& display, glm::dvec2 uv, double depth);
+    /// The (u, v) of the sight ray through a point; nothing where there is none.
+    std::optional<glm::dvec2> (*ray_through)(const Display& display, const glm::dvec3& point);
     /// True if every sight ray leads ahead, so that Z in image files can be the depth along Z_E.
     bool (*looks_ahead)(const Display& display);
     /// The distance from the observer within which sight rays begin.

@@ -38,6 +38,7 @@ struct Light {
     glm::dvec3 axis_x{0};         ///< unit vector across `direction`; disk and rectangle
     int light_samples = 64;       ///< disk and rectangle: points that they shine from
     SourcePlace where;
+    std::string group;  ///< of lights whose part of an image is a channel; empty: none
 
     friend bool operator==(const Light&, const Light&) = default;
 };

@@ -39,6 +39,11 @@ struct ImageChannels {
     bool material = false;        ///< materialId
     bool object_matte = false;    ///< CryptoObject00 to CryptoObject02
     bool material_matte = false;  ///< CryptoMaterial00 to CryptoMaterial02
+    bool albedo = false;          ///< albedo.R, albedo.G, albedo.B
+    bool direct = false;          ///< direct.R ...: light that comes straight to the first surface
+    bool indirect = false;        ///< indirect.R ...: all other light
+    bool shadow = false;          ///< shadow.R ...: the part of the direct light that is hidden
+    bool light_groups = false;    ///< light_GROUP.R ... of each group, and light_rest.R ...
 
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
 };

@@ -70,7 +70,7 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",
                                      "placement", "visible"} +
                                     placement});
-    add_kinds("light", {"name", "type", "color", "intensity"}, light_types(), {}, tables);
+    add_kinds("light", {"name", "type", "group", "color", "intensity"}, light_types(), {}, tables);
     tables.push_back({"observer", keys_of(observer_rows()) + Keys{"display"}});
     add_kinds("display", {"shape", "voxels", "layout", "visibility", "seen_along", "clip"},
               display_shapes(), {}, tables);

@@ -2,6 +2,10 @@
 // The lights of a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
+#include "runtime/base/text.hpp"
 #include "runtime/scene/light.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
@@ -27,12 +31,26 @@ LightParameters read_light_parameters(const SceneValue& value) {
     return parameters;
 }
 
+/// A name that a channel may have.
+std::string channel_name(const SceneValue& value) {
+    const std::string& name = value.text();
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-';
+    };
+    if (!std::ranges::all_of(name, is_plain))
+        value.fail(fmt::format("{} isn't a name for channels: letters, digits, - and _ make one",
+                               quote(name)));
+    if (name == "rest") value.fail("\"rest\" is what lights without a group are in");
+    return name;
+}
+
 Light read_light(const SceneValue& value, size_t number) {
     const SceneFields fields = light_fields(value);
     const auto name = fields.find("name");
     Light light;
     light.where = value.where();
     light.name = name ? name->text() : fmt::format("lights[{}]", number);
+    if (const auto group = fields.find("group")) light.group = channel_name(*group);
     set_light(light_type(value), read_light_parameters(value), fields.refusal(), light);
     return light;
 }

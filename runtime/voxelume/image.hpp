@@ -27,15 +27,26 @@ struct Channels {
     bool material = false;        ///< materialId
     bool object_matte = false;    ///< Cryptomatte of the objects: CryptoObject00 to CryptoObject02
     bool material_matte = false;  ///< ... of the materials: CryptoMaterial00 to CryptoMaterial02
+    // Each of these is traced once more, or several times:
+    bool albedo = false;        ///< albedo.R ...: the surface's own colour
+    bool direct = false;        ///< direct.R ...: light that comes straight to the first surface
+    bool indirect = false;      ///< indirect.R ...: all other light
+    bool shadow = false;        ///< shadow.R ...: the part of the direct light that is hidden
+    bool light_groups = false;  ///< light_GROUP.R ... of each group of lights, and light_rest.R ...
+    /// forward.u, forward.v: where what a pixel shows goes until the next frame, in pixels to the
+    /// right and up; backward.u, backward.v: where it was a frame before.
+    bool motion = false;
 
+    /// True if both have the same.
     friend bool operator==(const Channels&, const Channels&) = default;
 };
 
 /// A group of channels that is asked for together.
 struct ChannelRow {
-    std::string_view name;                ///< of the group: "RGBA", "CryptoObject"
-    bool Channels::*member;               ///< that asks for it
-    std::span<const char* const> planes;  ///< their names in files
+    std::string_view name;   ///< of the group: "RGBA", "CryptoObject"
+    bool Channels::*member;  ///< that asks for it
+    std::span<const char* const>
+        planes;  ///< their names in files; one that ends in _ begins others
 };
 
 /// All groups of channels, in the order in which people read them.

@@ -55,6 +55,7 @@ struct Light {
         source{};          ///< its type, with what that type needs
     Color color{1, 1, 1};  ///< linear Rec. 709; the intensity multiplies it
     double intensity = 1;  ///< at 1 m, falling with the square; of a directional light everywhere
+    std::string group{};   ///< whose part of an image Channels::light_groups shows; empty: none
 };
 
 }  // namespace voxelume::v1

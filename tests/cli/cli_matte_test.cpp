@@ -97,6 +97,39 @@ TEST_F(CliMatteTest, AFileWithoutThemHasNoManifest) {
                 HasSubstr("did you mean \"CryptoObject\"?"));
 }
 
+TEST_F(CliMatteTest, PartsOfTheLightHaveTheBytesOfTheWholeToo) {
+    write_scene([](Json& scene) {
+        scene["lights"][0]["group"] = "key";
+        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [{
+            "target": "objects.thing.turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                     {"frame": 2, "value": [0, 9, 0]}]}]})");
+    });
+    const std::string line =
+        "render scene.json -q -o l.exr --frames 1 --channels motion,albedo,indirect,shadow,lights ";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const Image image = read_exr(folder / "l0001.exr");
+    std::string names;
+    for (const auto& [name, plane] : image.planes)
+        if (name.ends_with(".R") || name.ends_with(".u")) names += name + " ";
+    EXPECT_EQ(names, "albedo.R backward.u forward.u indirect.R light_key.R light_rest.R shadow.R ");
+    EXPECT_EQ(image.planes.size(), 5u * 3 + 4);
+    EXPECT_TRUE(image.id_planes.empty());
+    const std::string whole = bytes_of(folder / "l0001.exr");
+    std::filesystem::remove(folder / "l0001.exr");
+    for (const char* shard : {"1/2", "2/2"}) ASSERT_EQ(run(line + "--shard " + shard).exit_code, 0);
+    ASSERT_EQ(run("merge l.exr.*.shard").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "l0001.exr"), whole);
+    ASSERT_EQ(run(line + "--device all/2").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "l0001.exr"), whole);
+}
+
+TEST_F(CliMatteTest, AGroupsNameIsThatOfAChannel) {
+    for (const char* name : {"a.b", "rest", "k ey"}) {
+        write_scene([&](Json& scene) { scene["lights"][0]["group"] = name; });
+        EXPECT_THAT(expect_render_failure(3), HasSubstr("scene.json:")) << name;
+    }
+}
+
 TEST_F(CliMatteTest, OtherProgramsFindTheMatteOfACrop) {
     if (run_line("oiiotool --version").exit_code != 0) GTEST_SKIP() << "there is no oiiotool";
     ASSERT_EQ(run(std::string(kMattes) + "--crop 2,3,15,8").exit_code, 0);

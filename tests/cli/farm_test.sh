@@ -42,7 +42,10 @@ cat >scene.json <<'END'
      "keys": [{"frame": 1, "value": [0, 0, 0]}, {"frame": 24, "value": [90, 200, 40]}]}]}}
 END
 seconds() { date +%s.%N; }
-told() { printf '%s: %.1f s\n' "$1" "$(echo "$(seconds) - $2" | bc)"; }
+told() {
+    awk -v what="$1" -v from="$2" -v to="$(seconds)" \
+        'BEGIN { printf "%s: %.1f s\n", what, to - from }'
+}
 
 render_whole() {
     local start
@@ -137,7 +140,7 @@ requeue_first() {
 }
 
 run_slurm() {
-    need slurmctld slurmd sbatch bc
+    need slurmctld slurmd sbatch
     render_whole
     start_slurm
     local start jobs
@@ -160,7 +163,7 @@ run_slurm() {
 }
 
 run_parallel() {
-    need parallel bc
+    need parallel
     render_whole
     local start
     start=$(seconds)
@@ -172,7 +175,7 @@ run_parallel() {
 }
 
 run_openjd() {
-    need openjd bc
+    need openjd
     openjd check "$farm/openjd.yaml"
     render_whole
     local parameters=(--job-param "Scene=$folder/scene.json" --job-param "Folder=$folder/parts"

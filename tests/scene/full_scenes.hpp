@@ -37,7 +37,7 @@ inline std::vector<nlohmann::json> full_scenes() {
                         {"model": "box", "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}],
             "lights": [{"name": "p", "type": "point", "position": [1, 2, 3], "color": [1, 1, 1], "intensity": 2},
                        {"type": "spot", "position": [1, 2, 3], "direction": [0, -1, 2], "angle": 50,
-                        "inner_angle": 20},
+                        "inner_angle": 20, "group": "warm"},
                        {"type": "spot", "position": [1, 2, 3], "look_at": [0, 0, 9]},
                        {"type": "directional", "direction": [1, 2, 3]},
                        {"type": "disk", "position": [1, 2, 3], "direction": [0, -1, 0], "radius": 2, "spots": 9},

@@ -29,7 +29,7 @@ constexpr const char* kCachedScene = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 30}},
 "render": {"size": [48, 36]}})";
 
-constexpr const char* kMesh =
+constexpr const char* kCachedMesh =
     "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// A text in the scene, and the text that replaces it.
@@ -55,7 +55,7 @@ class WorldCacheFiles : public FileTest {
   protected:
     void SetUp() override {
         FileTest::SetUp();
-        put_bytes(folder / "m.obj", kMesh);
+        put_bytes(folder / "m.obj", kCachedMesh);
     }
 
     Scene scene(const std::string& surface, const Change& change = {}) const {
@@ -121,7 +121,7 @@ TEST_F(WorldCacheFiles, WhatTheVoxelsAreMadeOfIsAnotherWorld) {
             EXPECT_EQ(outcome.hash, show(changed).hash) << surface << ": " << change.to;
         }
     }
-    put_bytes(folder / "m.obj", text_with(kMesh, "0.7", "0.6"));
+    put_bytes(folder / "m.obj", text_with(kCachedMesh, "0.7", "0.6"));
     EXPECT_FALSE(show(scene("smooth")).world.is_from_cache) << "other bytes of the mesh";
 }
 
@@ -152,7 +152,7 @@ class MovingWorldFiles : public WorldCacheFiles {
     Scene moving_scene(const Motion& motion) const {
         std::string text = text_with(kCachedScene, "SURFACE", "smooth");
         text = text_with(text, "\"name\": \"b\"",
-                        fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
+                         fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
         const std::string animation = fmt::format(
             R"("animation": {{"frames": 3, "tracks": [{{"target": "{}", "keys": [
                 {{"frame": 1, "value": {}}}, {{"frame": 3, "value": {}}}]}}]}}, "render":)",

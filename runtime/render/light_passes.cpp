@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/render/light_passes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kColors[] = {"R", "G", "B"};
+// Passes that no file has, from which others follow.
+constexpr const char* kWhole = "all light";
+constexpr const char* kWithShadows = "with shadows";
+constexpr const char* kWithoutShadows = "without shadows";
+
+std::string plane_name(std::string_view pass, const char* color) {
+    return fmt::format("{}.{}", pass, color);
+}
+
+/// The scene with its colours alone.
+Scene colors_of(const Scene& scene) {
+    Scene result = scene;
+    result.render.channels = {true, false, false, false, false};
+    return result;
+}
+
+/// Leaves lights alone of all that shines.
+void darken_all_but_lights(Scene& scene) {
+    scene.world.background = scene.world.ambient = scene.world.medium.color = glm::vec3(0);
+    if (scene.world.sky) scene.world.sky->strength = scene.world.sky->intensity = 0;
+    if (scene.world.sky) scene.world.sky->samples = 0;
+    for (Material& material : scene.materials) material.emission = glm::vec3(0);
+}
+
+/// What the lights of a group bring; of the empty name, all that no group does.
+Scene group_alone(const Scene& scene, const std::string& group) {
+    Scene result = colors_of(scene);
+    for (Light& light : result.lights)
+        if (light.group != group) light.intensity = glm::vec3(0);
+    if (!group.empty()) darken_all_but_lights(result);
+    return result;
+}
+
+/// Surfaces that scatter the light that comes to them, of their own colours, and nothing more.
+void make_matt(Scene& scene) {
+    for (Material& m : scene.materials) {
+        m.diffuse = 1;
+        m.specular = m.reflection = m.refraction = 0;
+        m.fresnel = false;
+    }
+    scene.world.medium = {};
+    scene.render.light = LightMode::local;
+    scene.render.depth = 0;
+}
+
+/// Each surface's own colour: what it shows in even white light.
+Scene albedo_of(const Scene& scene) {
+    Scene result = colors_of(scene);
+    darken_all_but_lights(result);
+    make_matt(result);
+    result.lights.clear();
+    result.world.ambient = glm::vec3(1);
+    return result;
+}
+
+/// White surfaces in the scene's lights.
+Scene white_surfaces(const Scene& scene, bool with_shadows) {
+    Scene result = colors_of(scene);
+    darken_all_but_lights(result);
+    make_matt(result);
+    for (Material& material : result.materials) {
+        material.color = glm::vec3(1);
+        material.checker.reset();
+    }
+    result.render.shadows = with_shadows;
+    return result;
+}
+
+/// The light that comes to the first surface without another one on its way.
+Scene direct_light_of(const Scene& scene) {
+    Scene result = colors_of(scene);
+    result.render.depth = result.render.bounces = 0;
+    return result;
+}
+
+/// The names of the groups of lights, and the empty one for the rest.
+std::set<std::string> groups_of(const Scene& scene) {
+    std::set<std::string> groups{""};
+    for (const Light& light : scene.lights) groups.insert(light.group);
+    return groups;
+}
+
+}  // namespace
+
+std::vector<LightPass> light_passes(const Scene& scene) {
+    const ImageChannels& channels = scene.render.channels;
+    std::vector<LightPass> passes;
+    if (channels.albedo) passes.push_back({"albedo", albedo_of(scene)});
+    if (channels.direct || channels.indirect) passes.push_back({"direct", direct_light_of(scene)});
+    if (channels.indirect && !channels.color) passes.push_back({kWhole, colors_of(scene)});
+    if (channels.shadow) {
+        passes.push_back({kWithShadows, white_surfaces(scene, true)});
+        passes.push_back({kWithoutShadows, white_surfaces(scene, false)});
+    }
+    if (channels.light_groups)
+        for (const std::string& group : groups_of(scene))
+            passes.push_back(
+                {group.empty() ? "light_rest" : "light_" + group, group_alone(scene, group)});
+    return passes;
+}
+
+void finish_passes(const Scene& scene, Image& image) {
+    const ImageChannels& channels = scene.render.channels;
+    for (const char* color : kColors) {
+        const auto plane = [&](std::string_view pass) -> Plane<float>& {
+            return image.planes.at(plane_name(pass, color));
+        };
+        if (channels.indirect) {
+            Plane<float> rest = channels.color ? image.planes.at(color) : plane(kWhole);
+            const Plane<float>& direct = plane("direct");
+            for (size_t i = 0; i < rest.size(); ++i) rest[i] -= direct[i];
+            image.planes[plane_name("indirect", color)] = std::move(rest);
+        }
+        if (channels.shadow) {
+            Plane<float> shadow = plane(kWithShadows);
+            const Plane<float>& all = plane(kWithoutShadows);
+            for (size_t i = 0; i < shadow.size(); ++i)
+                shadow[i] = all[i] > 0 ? std::max(1 - shadow[i] / all[i], 0.0f) : 0.0f;
+            image.planes[plane_name("shadow", color)] = std::move(shadow);
+        }
+        for (const char* pass : {kWhole, kWithShadows, kWithoutShadows})
+            image.planes.erase(plane_name(pass, color));
+        if (!channels.direct) image.planes.erase(plane_name("direct", color));
+    }
+}
+
+}  // namespace voxelume

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene -> scenes that show parts of its light: what channels beside the colour are made of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/image/image.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// A scene in the same world, whose colours become the channels NAME.R, NAME.G and NAME.B.
+struct LightPass {
+    std::string name;
+    Scene scene;
+};
+
+/// The passes that the channels of a scene ask for. Light adds up, so that a pass is the scene with
+/// a part of what shines; no kernel knows of passes.
+std::vector<LightPass> light_passes(const Scene& scene);
+
+/// Makes of an image with the planes of all passes the one that was asked for: what is left of the
+/// colour without the direct light, and what shadows take away.
+void finish_passes(const Scene& scene, Image& image);
+
+}  // namespace voxelume

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/render/motion_vectors.hpp"
+
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "runtime/scene/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The maps that carry each object's points from where they are to where they will be.
+std::vector<glm::dmat4> movements(const Scene& now, const Scene& then) {
+    std::vector<glm::dmat4> maps;
+    for (size_t i = 0; i < now.objects.size(); ++i)
+        maps.push_back(then.objects[i].world_from_object *
+                       glm::inverse(now.objects[i].world_from_object));
+    return maps;
+}
+
+/// Adds the two planes of a direction of time.
+void add_movement(const Scene& now, const Scene& then, const std::string& name, Image& image) {
+    const std::vector<glm::dmat4> maps = movements(now, then);
+    const Plane<uint32_t>& objects = image.id_planes.at("objectId");
+    const Plane<float>&x = image.planes.at("P.X"), &y = image.planes.at("P.Y"),
+          &z = image.planes.at("P.Z");
+    std::vector<float> right(objects.size(), 0.0f), up = right;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        if (objects[i] == 0) continue;
+        const glm::dvec3 point(x[i], y[i], z[i]);
+        const glm::dvec3 moved(maps[objects[i] - 1] * glm::dvec4(point, 1));
+        const auto from = place_in_picture(now, point), to = place_in_picture(then, moved);
+        if (!from || !to) continue;
+        right[i] = float(to->x - from->x);
+        up[i] = float(from->y - to->y);
+    }
+    image.planes[name + ".u"] = std::move(right);
+    image.planes[name + ".v"] = std::move(up);
+}
+
+}  // namespace
+
+std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3& point) {
+    const Observer& observer = scene.observer;
+    const glm::dvec3 p = glm::transpose(observer.world_from_observer) * (point - observer.position);
+    const std::optional<glm::dvec2> place =
+        shape_row(observer.display).ray_through(observer.display, p);
+    if (!place) return {};
+    return (*place + 1.0) / 2.0 * glm::dvec2(frame_size(scene.render));
+}
+
+void add_motion(const Scene& scene, int frame, Image& image) {
+    const Scene now = scene_at(scene, frame);
+    add_movement(now, scene_at(scene, frame + 1), "forward", image);
+    add_movement(now, scene_at(scene, frame - 1), "backward", image);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// image + tracks -> where what each pixel shows was a frame before, and where it is a frame later.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "runtime/image/image.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// The place of a world's point in a scene's whole picture: columns from the left and rows from the
+/// top, in pixels. Nothing for points that no sight ray leads to, such as those behind a pyramid.
+std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3& point);
+
+/// Adds the planes forward.u, forward.v, backward.u and backward.v to an image with P and objectId
+/// of a frame of `scene`: pixels to the right and up, as compositors count. They follow the tracks
+/// of the observer and of objects' placements; shapes that change count as if they stood still.
+/// Pixels that show nothing have 0.
+void add_motion(const Scene& scene, int frame, Image& image);
+
+}  // namespace voxelume
