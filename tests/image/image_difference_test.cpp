@@ -58,7 +58,9 @@ TEST(ImageDifference, IdsAreOnlyCounted) {
 
 TEST(ImageDifference, IdsOfCryptomatteAreOnlyCountedToo) {
     const auto image = [](float id) {
-        Image made{2, 1, {{"Matte00.R", {id, 2}}, {"Matte00.G", {0.5f, 1}}, {"Matte.R", {id, 2}}}};
+        Image made{2, 1, {}, {}, {}};
+        made.planes["Matte.R"] = made.planes["Matte00.R"] = std::vector<float>{id, 2};
+        made.planes["Matte00.G"] = std::vector<float>{0.5f, 1};
         made.attributes["cryptomatte/1234567/name"] = "Matte";
         return made;
     };
