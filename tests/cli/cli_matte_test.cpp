@@ -11,6 +11,7 @@ namespace voxelume {
 namespace {
 
 using testing::HasSubstr;
+using namespace std::string_literals;
 
 class CliMatteTest : public SceneProgramTest {
   protected:
@@ -95,6 +96,10 @@ TEST_F(CliMatteTest, AFileWithoutThemHasNoManifest) {
         EXPECT_FALSE(key.starts_with("crypto")) << key;
     EXPECT_THAT(expect_failure(2, "render scene.json -o x.exr --channels cryptoobject"),
                 HasSubstr("did you mean \"CryptoObject\"?"));
+    for (const auto& [channel, group] : {std::pair("R", "RGBA"), std::pair("N.X", "N")})
+        EXPECT_THAT(
+            expect_failure(2, fmt::format("render scene.json -o x.exr --channels {}", channel)),
+            HasSubstr(fmt::format("ask for {}", group)));
 }
 
 TEST_F(CliMatteTest, PartsOfTheLightHaveTheBytesOfTheWholeToo) {
@@ -167,9 +172,15 @@ TEST_F(CliMatteTest, AFileIsTheSameWhicheverOthersAreWritten) {
 }
 
 TEST_F(CliMatteTest, AGroupsNameIsThatOfAChannel) {
-    for (const char* name : {"a.b", "rest", "k ey"}) {
+    for (const std::string& name : {"a.b"s, "rest"s, "k ey"s, std::string(201, 'x')}) {
         write_scene([&](Json& scene) { scene["lights"][0]["group"] = name; });
         EXPECT_THAT(expect_render_failure(3), HasSubstr("scene.json:")) << name;
+    }
+    for (const size_t length : {26u, 200u}) {
+        const std::string name(length, 'x');
+        write_scene([&](Json& scene) { scene["lights"][0]["group"] = name; });
+        ASSERT_EQ(run("render scene.json -q -o g.exr --channels lights").exit_code, 0);
+        EXPECT_TRUE(read_exr(folder / "g.exr").planes.contains("light_" + name + ".R"));
     }
 }
 
