@@ -205,7 +205,7 @@ TEST_F(CliResumeTest, NeverKeepsVolumesOfSeveralFilesOnlyIfTheyAreWhole) {
 
 TEST_F(CliResumeTest, NeverKeepsFilesThatBecameNoVolume) {
     write_scene([](Json&) {});
-    for (const char* name : {"ct.raw", "s.0007.png", "p.planes"}) {
+    for (const char* name : {"ct.raw", "s.0007.png"}) {
         put_bytes(folder / name, "mine");
         const std::string volume = name[0] == 's' ? "s.####.png" : name;
         EXPECT_THAT(expect_failure(5, "render scene.json --overwrite never --volume " + volume),

@@ -190,7 +190,8 @@ run_openjd() {
     openjd check "$farm/openjd.yaml"
     render_whole
     # shellcheck disable=SC2016 # nothing is to expand it
-    local name hostile='a "$(touch ../owned parts/owned owned)" b.####.exr'
+    local name hostile='a "$(touch $OWNED)" b.####.exr'
+    export OWNED=$folder/owned
     for name in 'f.####.exr' "$hostile"; do
         local parameters=(--job-param "Scene=$folder/scene.json" --job-param "Folder=$folder/parts"
             --job-param "Output=$name" --job-param Parts=3)
@@ -200,8 +201,8 @@ run_openjd() {
         done
     done
     compare 'f.*.exr' 24
-    cmp "whole/f.0002.exr" "parts/${hostile/####/0002}"
-    [ -z "$(find . -name owned)" ] || { echo "a name of files was run"; exit 1; }
+    cmp "whole/f.0002.exr" "parts/${hostile/\#\#\#\#/0002}"
+    [ ! -e "$OWNED" ] || { echo "a name of files was run"; exit 1; }
 }
 
 "run_$recipe"
