@@ -179,6 +179,17 @@ static inline lane_uint met_after(lane_uint state) {
     return min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
 }
 
+/// Puts rays to emitters, which end where they are scattered, into their queue.
+static inline void send_to_emitters(const RayQueue* sent, lane_int wanted, lane_uint target,
+                                    lane_uint state, uint bounces, NewRays* r,
+                                    global uint* counters) {
+    r->target = target;
+    r->state = met_after(state) | (bounces << VXL_STATE_BOUNCE_SHIFT) | VXL_STATE_DIFFUSE |
+               VXL_STATE_TO_EMITTER;
+    const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
+    put_rays(sent, r, &slots);
+}
+
 /// The states of paths that the surfaces have scattered, or let pass straight.
 static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_uint state) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
@@ -238,17 +249,14 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     const Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
                                   LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
-    if (VXL_EMITTERS && emitter_count) {
+    // Misses, last bounces and the rays sent themselves scatter nothing.
+    if (VXL_EMITTERS && emitter_count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const Emitters table = VXL_EMITTER_TABLE;
-        NewRays ray;
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        NewRays ray;
         const lane_int wanted = look_for_emitters(shape, &around, &p, &batch, first, &lobes,
                                                   throughput, way.chance, &samples, &table, &ray);
-        ray.target = target;
-        ray.state = met_after(state) | (sampling.bounces << VXL_STATE_BOUNCE_SHIFT) |
-                    VXL_STATE_DIFFUSE | VXL_STATE_TO_EMITTER;
-        const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
-        put_rays(&sent, &ray, &slots);
+        send_to_emitters(&sent, wanted, target, state, sampling.bounces, &ray, counters);
     }
 
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
