@@ -139,6 +139,12 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
     begin_behind(shape, batch, first, way->straight & of_instance, r);
+    if (VXL_TRAVELS) {
+        const lane_float before = path_float(batch->paths, VXL_PATH_TRAVELLED, stride, first);
+        const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+        const lane_float now = LANES_SELECT(of_instance, before + t, before);
+        r->travelled = LANES_SELECT(way->straight, now, (lane_float)0.0f);
+    }
     if (!VXL_CUBE_BODIES) return;
     const lane_int in_cell = way->refracted | (p->leaving & ~across);
     r->flags |= joined_flag(&r->media, around->materials) |
