@@ -50,20 +50,53 @@ static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_in
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
 }
 
+/// The least cosine with its surface of a way on which a matt one scatters light: where normals
+/// are smoothed, ways that come closer to the surface are moved up to there.
+static inline lane_float least_cosine(const ScatterPoint* p) {
+    const lane_float zero = (lane_float)0.0f;
+    if (!VXL_SHADING_NORMALS) return zero;
+    return LANES_SELECT(p->curved, (lane_float)(1.0f / 4096.0f), zero);
+}
+
+/// The cosine of directions from surfaces, of which mask `above` tells those on the surfaces' side.
+static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch, uint first,
+                                   Vector direction, lane_int* above) {
+    Vector normal = p->normal;
+    if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
+    const lane_float cosine = dot_product(normal, direction);
+    *above =
+        LANE_MASK(cosine > 0.0f) & LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
+    return fmax(cosine, 0.0f);
+}
+
+/// VXL_PATH_EMITTER of rays that surfaces have scattered: 0 for those `moved`, which all lie on one
+/// cone that no ray to an emitter can be on.
+static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch, uint first,
+                                   const Choice* way, lane_int moved, const NewRays* r,
+                                   float4 edge) {
+    lane_int above;
+    const Vector direction = unit(scaled(r->direction, edge));
+    const lane_float density =
+        cosine_at(p, batch, first, direction, &above) * 0.318309886f * way->chance;
+    return LANES_SELECT(way->diffuse & ~moved, LANES_AS_UINT(density), (lane_uint)0);
+}
+
 /// Directions and sides of the rays that leave surfaces: where matt ones scatter light by `at`,
 /// where mirrors reflect and glass refracts it.
 static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const RayBatch* batch,
                                 uint first, const Choice* way, SquarePoint at, NewRays* r) {
     Vector side = p->normal;
     Vector ahead = mirrored_direction(p);
+    lane_int moved = (lane_int)0;
     if (lanes_any(way->diffuse)) {
         Vector normal = p->normal;
         if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
         Vector scattered = cosine_direction(normal, at);
-        if (VXL_SHADING_NORMALS)
-            scattered = select_vector(
-                p->curved, keep_on_side(scattered, p->normal, (lane_float)(1.0f / 4096.0f)),
-                scattered);
+        if (VXL_SHADING_NORMALS) {
+            const lane_float least = least_cosine(p);
+            moved = p->curved & LANE_MASK(dot_product(scattered, p->normal) < least);
+            scattered = select_vector(moved, keep_on_side(scattered, p->normal, least), scattered);
+        }
         ahead = select_vector(way->diffuse, scattered, ahead);
     }
     if (VXL_REFRACTS) {
@@ -74,6 +107,7 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
     set_out_child(r, shape,
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
+    if (VXL_EMITTERS) r->emitter = density_of(p, batch, first, way, moved, r, shape.edge);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
@@ -105,6 +139,12 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
     begin_behind(shape, batch, first, way->straight & of_instance, r);
+    if (VXL_TRAVELS) {
+        const lane_float before = path_float(batch->paths, VXL_PATH_TRAVELLED, stride, first);
+        const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+        const lane_float now = LANES_SELECT(of_instance, before + t, before);
+        r->travelled = LANES_SELECT(way->straight, now, (lane_float)0.0f);
+    }
     if (!VXL_CUBE_BODIES) return;
     const lane_int in_cell = way->refracted | (p->leaving & ~across);
     r->flags |= joined_flag(&r->media, around->materials) |
@@ -130,16 +170,6 @@ static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* aroun
     global float *restrict sent_rays, global uint *restrict sent_paths, \
         global float *restrict sent_starts, global uint *restrict sent_inside, uint sent_stride
 
-/// The cosine of directions from surfaces, of which mask `above` tells those on the surfaces' side.
-static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   Vector direction, lane_int* above) {
-    Vector normal = p->normal;
-    if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
-    const lane_float cosine = dot_product(normal, direction);
-    *above = LANE_MASK(cosine > 0.0f) & LANE_MASK(dot_product(p->normal, direction) > 0.0f);
-    return fmax(cosine, 0.0f);
-}
-
 /// Fills rays from matt surfaces to emitters, but for their state and target. Their throughput is
 /// that of the path for light from there, times the share of it that falls to these rays.
 /// Returns the mask of rays to send.
@@ -155,6 +185,7 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
     way.diffuse = p->hit & LANE_MASK(largest(lobes->diffuse) > 0.0f);
     way.reflected = way.refracted = way.straight = (lane_int)0;
     for (int c = 0; c < 3; ++c) way.throughput[c] = zero;
+    way.chance = zero;
     *r = next_rays_of(shape, around, p, batch, first, &way, place);
     const EmitterRays s = choose_emitter(emitters, r->origin, shape.edge, choice, place);
     lane_int above;
@@ -179,22 +210,23 @@ static inline lane_uint met_after(lane_uint state) {
     return min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
 }
 
+/// Puts rays to emitters, which end where they are scattered, into their queue.
+static inline void send_to_emitters(const RayQueue* sent, lane_int wanted, lane_uint target,
+                                    lane_uint state, uint bounces, NewRays* r,
+                                    global uint* counters) {
+    r->target = target;
+    r->state = met_after(state) | (bounces << VXL_STATE_BOUNCE_SHIFT) | VXL_STATE_DIFFUSE |
+               VXL_STATE_TO_EMITTER;
+    const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
+    put_rays(sent, r, &slots);
+}
+
 /// The states of paths that the surfaces have scattered, or let pass straight.
 static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_uint state) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     const lane_uint next = ((bounces + 1u) << VXL_STATE_BOUNCE_SHIFT) |
                            (LANES_AS_UINT(way->diffuse) & VXL_STATE_DIFFUSE);
     return met_after(state) | LANES_SELECT(scattered, next, state & ~(lane_uint)VXL_STATE_MET);
-}
-
-/// VXL_PATH_EMITTER of rays that surfaces have scattered.
-static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   const Choice* way, const NewRays* r, float4 edge) {
-    lane_int above;
-    const Vector direction = unit(scaled(r->direction, edge));
-    const lane_float density =
-        cosine_at(p, batch, first, direction, &above) * 0.318309886f * way->chance;
-    return LANES_SELECT(way->diffuse, LANES_AS_UINT(density), (lane_uint)0);
 }
 
 /// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
@@ -238,17 +270,14 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     const Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
                                   LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
-    if (VXL_EMITTERS && emitter_count) {
+    // Misses, last bounces and the rays sent themselves scatter nothing.
+    if (VXL_EMITTERS && emitter_count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const Emitters table = VXL_EMITTER_TABLE;
-        NewRays ray;
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        NewRays ray;
         const lane_int wanted = look_for_emitters(shape, &around, &p, &batch, first, &lobes,
                                                   throughput, way.chance, &samples, &table, &ray);
-        ray.target = target;
-        ray.state = met_after(state) | (sampling.bounces << VXL_STATE_BOUNCE_SHIFT) |
-                    VXL_STATE_DIFFUSE | VXL_STATE_TO_EMITTER;
-        const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
-        put_rays(&sent, &ray, &slots);
+        send_to_emitters(&sent, wanted, target, state, sampling.bounces, &ray, counters);
     }
 
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
@@ -260,7 +289,7 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
     ray.state = state_after(&way, scattered, state);
     if (VXL_EMITTERS)
-        ray.emitter = LANES_SELECT(scattered, density_of(&p, &batch, first, &way, &ray, shape.edge),
+        ray.emitter = LANES_SELECT(scattered, ray.emitter,
                                    LANES_LOAD(paths, VXL_PATH_EMITTER * stride + first));
     const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
     put_rays(&queue, &ray, &slots);

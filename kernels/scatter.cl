@@ -43,6 +43,8 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
         LANES_STORE(one, batch.paths, (VXL_PATH_THROUGHPUT + c) * batch.stride + first);
     if (VXL_EMITTERS)
         LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_EMITTER * batch.stride + first);
+    if (VXL_TRAVELS)
+        LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_TRAVELLED * batch.stride + first);
     if (!VXL_TRANSMISSION) return;
     LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_CELL * batch.stride + first);
     LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_CELL_Z * batch.stride + first);

@@ -48,6 +48,8 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 //   of rays that look for an emitter, its number
 //   of other rays, float: the probability of their direction, per solid angle; 0 if no ray to an
 //   emitter could have had it, as behind mirrors
+// VXL_PATH_TRAVELLED: float, as the ray's t: how far before its origin the path was scattered last.
+// Rays that go straight on begin anew behind surfaces of instances.
 
 // The decisions at a surface that a path meets, each with a point of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it

@@ -92,8 +92,9 @@
 //   VXL_PATH_CLEAR   float: what the surfaces passed leave uncovered
 //   VXL_PATH_THROUGHPUT  3 floats: what is left of the light on its way to the node
 //   VXL_PATH_INSIDE  VXL_MEDIUM_SET_SIZE packed attributes: the objects that the ray is inside of
-// The last exists where paths look for emitters:
-//   VXL_PATH_EMITTER  see shared/paths.h; behind all others
+// The last exist where paths look for emitters, see shared/paths.h; behind all others:
+//   VXL_PATH_EMITTER
+//   VXL_PATH_TRAVELLED  in scenes with instances and transmitting objects only
 // This one exists in scenes with instances only:
 //   VXL_PATH_INSTANCE  the instance that the ray begins on, VXL_NO_INSTANCE for the world
 #define VXL_PATH_SOURCE 0

@@ -89,6 +89,12 @@ const std::vector<LampRoom> kRooms = {
          add_thing(s, {{"shape", "sphere"}, {"radius", 0.1}, {"surface", "exact"}}, "glass",
                    {0.2, -0.2, 0});
      }},
+    {"a lamp behind an instanced veil",
+     [](Json& s) {
+         add_thing(s, small_box("exact"), "lamp", {0.15, 0, 0.1});
+         add_thing(s, {{"shape", "box"}, {"size", {0.6, 0.02, 0.6}}, {"surface", "exact"}}, "veil",
+                   {0.15, -0.06, 0.1}, {{"placement", "instance"}});
+     }},
     {"a lamp in a coloured medium", [](Json& s) {
          s["world"]["medium"] = {{"absorption", {0.5, 1, 2}}, {"color", {0.1, 0.2, 0.3}}};
          add_thing(s, small_box("exact"), "lamp", {0.15, 0.2, 0.1});

@@ -40,7 +40,16 @@ static inline lane_float emission_share(const Emitters* e, const ShadedHit* h, f
     if (VXL_INSTANCES) instance = LANES_LOAD(batch->hits, VXL_HIT_INSTANCE * stride + first);
     const lane_uint number = emitter_at(e, h->voxel, instance, h->hit & (ran_in | looks));
     const lane_int known = h->hit & ran_in & LANE_MASK(number != VXL_NO_EMITTER);
-    const BoxView box = view_box(e, number & LANES_AS_UINT(known), h->world_origin);
+    // A ray that was sent chose its emitter where the path was scattered.
+    Vector from = h->world_origin;
+    if (VXL_TRAVELS) {
+        const lane_float travelled =
+            LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_TRAVELLED * stride + first));
+        from.x = fma(h->world_way.x, -travelled, from.x);
+        from.y = fma(h->world_way.y, -travelled, from.y);
+        from.z = fma(h->world_way.z, -travelled, from.z);
+    }
+    const BoxView box = view_box(e, number & LANES_AS_UINT(known), from);
     const Vector metric = scaled(h->world_way, edge);
     const lane_float sent =
         emitter_density(e, &box, h->world_way, exact_sqrt(dot_product(metric, metric)));

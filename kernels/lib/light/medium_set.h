@@ -15,6 +15,9 @@
 
 /// The place of VXL_PATH_EMITTER among the components of paths.
 #define VXL_PATH_EMITTER (VXL_PATH_INSIDE + (VXL_TRANSMISSION ? VXL_MEDIUM_SET_SIZE : 0))
+/// That of VXL_PATH_TRAVELLED, and whether there is one.
+#define VXL_PATH_TRAVELLED (VXL_PATH_EMITTER + 1)
+#define VXL_TRAVELS (VXL_EMITTERS && VXL_INSTANCES && VXL_TRANSMISSION)
 
 /// Packed attributes of the objects, VXL_NO_MEDIUM for none.
 typedef struct {

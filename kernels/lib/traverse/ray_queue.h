@@ -18,7 +18,8 @@ typedef struct {
     // of scenes with transmitting objects or in global light
     lane_uint target;
     lane_float throughput[3];
-    lane_uint emitter;  // where paths look for emitters: VXL_PATH_EMITTER
+    lane_uint emitter;     // where paths look for emitters: VXL_PATH_EMITTER
+    lane_float travelled;  // where there is one: VXL_PATH_TRAVELLED
     // of scenes with transmitting objects
     lane_uint cell_xy, cell_z, medium;  // medium: RayBatch::inside
     lane_float start, clear;
@@ -97,6 +98,8 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, const Slots* sl
     for (uint c = 0; c < 3; ++c)
         put_uint(q->paths + (VXL_PATH_THROUGHPUT + c) * n, LANES_AS_UINT(r->throughput[c]), slots);
     if (VXL_EMITTERS) put_uint(q->paths + VXL_PATH_EMITTER * n, r->emitter, slots);
+    if (VXL_TRAVELS)
+        put_uint(q->paths + VXL_PATH_TRAVELLED * n, LANES_AS_UINT(r->travelled), slots);
     if (!VXL_TRANSMISSION) return;
     put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, slots);
     put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, slots);

@@ -33,8 +33,9 @@ class ArrayMaker {
 
 size_t path_components(const Features& features) {
     const size_t emitter = features.emitters != VXL_EMITTERS_NONE ? 1 : 0;
+    const size_t travelled = features.instances ? emitter : 0;
     if (features.transmission)
-        return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter;
+        return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter + travelled;
     return (features.instances || features.global ? VXL_PATH_INSIDE : VXL_PATH_CELL) + emitter;
 }
 
