@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "cli/checks.hpp"
 
@@ -18,10 +20,13 @@ Channels parse_channels(const std::string& text, const char* origin) {
                 if (std::ranges::find(row.planes, std::string_view(name)) != row.planes.end())
                     fail_usage("{}: {} is written together with others; ask for {}", origin,
                                quote(name), row.name);
+            std::vector<std::string_view> known;
             std::string names;
-            for (const ChannelRow& row : rows)
+            for (const ChannelRow& row : rows) {
+                known.push_back(row.name);
                 names += (names.empty() ? "" : ", ") + std::string(row.name);
-            fail_usage("{}: {} is none of {}", origin, quote(name), names);
+            }
+            fail_usage("{}: {} is none of {}{}", origin, quote(name), names, suggest(name, known));
         }
         channels.*found->member = true;
     }
