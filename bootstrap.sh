@@ -15,6 +15,7 @@ Usage: ./bootstrap.sh COMMAND
   test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
+  farm    try the recipes for Slurm and GNU parallel of scenes/farm with the real programs
   lint    check the format of the code, the host code and each kernel
   python  build the Python package, build/python/wheels, and test it in a fresh environment
   package make build/package/voxelume_*.deb and check it; with --install, also install, use and
@@ -158,6 +159,7 @@ debian_package() {
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
+    farm) install_packages packages.txt .ci/farm_packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
     python) install_packages packages.txt .ci/python_packages.txt ;;
     package | 'package --install') install_packages packages.txt .ci/package_packages.txt ;;
@@ -179,6 +181,10 @@ case "$1" in
         ;;
     test) run_tests "${2:-}" ;;
     fuzz) run_fuzzers "${2:-60}" ;;
+    farm)
+        build_targets voxelume
+        ctest --test-dir "$build" --output-on-failure -R '^farm\.'
+        ;;
     docs) docs ;;
     python) python_package ;;
     package) debian_package "${2:-}" ;;

@@ -14,6 +14,10 @@ Channels parse_channels(const std::string& text, const char* origin) {
     for (const std::string& name : listed({text})) {
         const auto found = std::ranges::find(rows, name, &ChannelRow::name);
         if (found == rows.end()) {
+            for (const ChannelRow& row : rows)
+                if (std::ranges::find(row.planes, std::string_view(name)) != row.planes.end())
+                    fail_usage("{}: {} is written together with others; ask for {}", origin,
+                               quote(name), row.name);
             std::vector<std::string_view> names;
             for (const ChannelRow& row : rows) names.push_back(row.name);
             fail_usage("{}: there is no channel {}{}", origin, quote(name), suggest(name, names));

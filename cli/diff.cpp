@@ -23,8 +23,30 @@ struct DiffCommand {
     bool json = false;
 };
 
+/// Throws Error::usage where FLIP is wanted of channels that don't have the colours.
+void check_colors(const DiffLimits& limits, const std::vector<std::string>& channels) {
+    if (!limits.flip || channels.empty()) return;
+    for (const char* color : {"R", "G", "B"})
+        if (std::ranges::find(channels, color) == channels.end())
+            fail_usage("diff: FLIP compares colours, and --channels leaves {} out", color);
+}
+
+/// Throws where images lack what is compared.
+void check_channels(const Image& a, const Image& b, const DiffFiles& files,
+                    const ImageDifference& difference, const DiffLimits& limits) {
+    if (difference.channels.empty())
+        throw Error(ErrorKind::render,
+                    fmt::format("{} and {} have no channel in common", files.a, files.b));
+    if (!limits.flip) return;
+    for (const char* color : {"R", "G", "B"})
+        for (const auto& [image, name] : {std::pair(&a, &files.a), std::pair(&b, &files.b)})
+            if (!image->has(color))
+                fail_usage("diff: FLIP compares colours, and {} has no {}", *name, color);
+}
+
 /// Compares files, writes the pictures of it, and names the files in messages.
-ImageDifference compare_files(const DiffFiles& files, const CompareOptions& options) {
+ImageDifference compare_files(const DiffFiles& files, const CompareOptions& options,
+                              const DiffLimits& limits) {
     const Image a = Image::read(files.a), b = Image::read(files.b);
     if (a.holds_codes() != b.holds_codes())
         fail_usage("diff: {} and {} aren't of one kind: a PNG holds codes, an EXR light", files.a,
@@ -34,10 +56,11 @@ ImageDifference compare_files(const DiffFiles& files, const CompareOptions& opti
                     fmt::format("{} has {} x {} pixels and {} has {} x {}", files.a, a.width(),
                                 a.height(), files.b, b.width(), b.height()));
     ImageDifference difference = compare(a, b, options);
+    check_channels(a, b, files, difference, limits);
     ImageFileOptions whole{.float_color = true};
     for (const ChannelRow& row : channel_table()) whole.channels.*row.member = true;
     if (!files.output.empty()) difference_image(a, b, options).write(files.output, whole);
-    if (!files.flip.empty()) flip_image(a, b).write(files.flip, whole);
+    if (!files.flip.empty() && difference.flip) flip_image(a, b).write(files.flip, whole);
     return difference;
 }
 
@@ -64,36 +87,51 @@ Report report_of(const ImageDifference& difference) {
     return report;
 }
 
-/// A row of an animation's table: the channel with the largest RMSE stands for all.
+/// A row of an animation's table: the channel with the largest RMSE stands for all, the one with
+/// most values that aren't finite for those, and `missing` are channels of one image alone.
 Report frame_row(int frame, const ImageDifference& difference) {
-    const auto worst = std::ranges::max_element(difference.channels, {}, &ChannelDifference::rmse);
-    const bool is_any = worst != difference.channels.end();
-    Report row = {{"frame", frame},
-                  {"worst", is_any ? Report(worst->channel) : Report()},
-                  {"max", is_any ? worst->max : 0},
-                  {"rmse", is_any ? worst->rmse : 0},
-                  {"FLIP", difference.flip ? Report(*difference.flip) : Report()},
-                  {"above", difference.above}};
-    return row;
+    const std::vector<ChannelDifference>& channels = difference.channels;
+    const auto worst = std::ranges::max_element(channels, {}, &ChannelDifference::rmse);
+    Report missing = difference.only_in_a;
+    for (const std::string& channel : difference.only_in_b) missing.push_back(channel);
+    return {{"frame", frame},
+            {"worst", worst->channel},
+            {"max", worst->max},
+            {"rmse", worst->rmse},
+            {"FLIP", difference.flip ? Report(*difference.flip) : Report()},
+            {"above", difference.above},
+            {"unmatched", std::ranges::max(channels, {}, &ChannelDifference::unmatched).unmatched},
+            {"missing", missing.empty() ? Report() : missing}};
+}
+
+/// What a frame's JSON has: its row, and all that is known of it as an image.
+Report whole_frame(int frame, const ImageDifference& difference) {
+    Report report = frame_row(frame, difference);
+    report.update(report_of(difference));
+    return report;
 }
 
 int run(const DiffCommand& command) {
     const CompareOptions options{listed(command.channels), command.threshold};
+    DiffLimits limits = command.limits;
+    if (!limits.flip && !command.names.flip.empty()) limits.flip = 1;  // a picture needs one, too
+    check_colors(limits, options.channels);
     for (const std::string& picture : {command.names.output, command.names.flip})
         if (!picture.empty()) check_output(picture, {".exr", ".png"}, "diff");
-    for (const std::string& input : {command.names.a, command.names.b})
-        check_distinct({input, command.names.output, command.names.flip}, "diff");
+    const std::vector<DiffFiles> list = diff_files(command.names);
+    check_files(list);
     Report report;
     std::optional<std::string> excess;
     const bool is_animation = command.names.is_animation();
-    for (const DiffFiles& files : diff_files(command.names)) {
-        const ImageDifference difference = compare_files(files, options);
+    for (const DiffFiles& files : list) {
+        const ImageDifference difference = compare_files(files, options, limits);
         if (is_animation)
-            report["frames"].push_back(frame_row(files.frame, difference));
+            report["frames"].push_back(command.json ? whole_frame(files.frame, difference)
+                                                    : frame_row(files.frame, difference));
         else
             report = report_of(difference);
         if (excess) continue;
-        excess = excess_of(difference, command.limits);
+        excess = excess_of(difference, limits);
         if (excess && is_animation) excess = fmt::format("frame {}: {}", files.frame, *excess);
     }
     print_report(report, command.json);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -52,10 +53,39 @@ std::vector<int> frames_of(const DiffNames& names) {
     return {frames.begin(), frames.end()};
 }
 
+/// The file that a name leads to.
+fs::path target_of(const std::string& name) {
+    std::error_code error;
+    const fs::path target = fs::weakly_canonical(name, error);
+    return error ? fs::absolute(name).lexically_normal() : target;
+}
+
 }  // namespace
 
 bool DiffNames::is_animation() const {
     return !frames.empty() || is_numbered(a) || is_numbered(b);
+}
+
+void check_files(const std::vector<DiffFiles>& list) {
+    std::map<fs::path, std::string> inputs, outputs;
+    for (const DiffFiles& files : list)
+        for (const std::string& image : {files.a, files.b}) {
+            std::error_code error;
+            if (!fs::exists(image, error)) throw Error(ErrorKind::input, image + ": no such file");
+            inputs.emplace(target_of(image), image);
+        }
+    for (const DiffFiles& files : list)
+        for (const std::string& picture : {files.output, files.flip}) {
+            if (picture.empty()) continue;
+            const fs::path target = target_of(picture);
+            if (const auto input = inputs.find(target); input != inputs.end())
+                fail_usage("diff: {}: the picture would replace {}, which is compared", picture,
+                           input->second);
+            const auto [first, is_new] = outputs.emplace(target, picture);
+            if (!is_new)
+                fail_usage("diff: {} and {}: two outputs are one file; give each a name of its own",
+                           first->second, picture);
+        }
 }
 
 std::vector<DiffFiles> diff_files(const DiffNames& names) {

@@ -21,10 +21,15 @@ double allowed_pixels(const std::string& text, uint64_t pixels) {
     return std::stod(text.substr(0, text.size() - 1)) / 100 * double(pixels);
 }
 
+std::string pixels(uint64_t count) {
+    return fmt::format("{} pixel{}", count, count == 1 ? "" : "s");
+}
+
 std::optional<std::string> excess_of_channels(const ImageDifference& difference, double limit) {
     for (const ChannelDifference& c : difference.channels) {
         if (c.unmatched > 0)
-            return fmt::format("{} pixels of {} are finite in one only", c.unmatched, c.channel);
+            return fmt::format("{} of {} {} where a value isn't finite", pixels(c.unmatched),
+                               c.channel, c.unmatched == 1 ? "differs" : "differ");
         if (c.rmse > limit)
             return fmt::format("the RMSE of {} is {:.6g}, above {:.6g}", c.channel, c.rmse, limit);
     }
@@ -36,7 +41,8 @@ std::optional<std::string> excess_of_channels(const ImageDifference& difference,
 void add_limit_options(CLI::App& app, DiffLimits& limits) {
     app.add_option("--fail", limits.rmse,
                    "exit with 1 if a channel's RMSE is above this, a value is finite in one image "
-                   "only, or a channel is missing; ids are listed but never fail");
+                   "only, or a channel is missing; ids are listed but never fail")
+        ->check(in_range(0, 1e30));
     app.add_option("--fail-above", limits.above,
                    "exit with 1 if more pixels than this are above --threshold in some channel, "
                    "ids among them, or a channel is missing; 0.1% is a part of all pixels")
@@ -51,10 +57,11 @@ std::optional<std::string> excess_of(const ImageDifference& difference, const Di
         if (auto excess = excess_of_channels(difference, *limits.rmse)) return excess;
     if (!limits.above.empty() &&
         double(difference.above) > allowed_pixels(limits.above, difference.pixels))
-        return fmt::format("{} of {} pixels are above the threshold, and {} may be",
-                           difference.above, difference.pixels, limits.above);
+        return fmt::format("{} of {} {} above the threshold, and {} may be", difference.above,
+                           pixels(difference.pixels), difference.above == 1 ? "is" : "are",
+                           limits.above);
     if (limits.flip && !difference.flip)
-        fail_usage("diff: --fail-flip: FLIP compares colours, and R, G and B aren't compared");
+        return "FLIP can't be told, for some pixels' colours aren't numbers";
     if (limits.flip && *difference.flip > *limits.flip)
         return fmt::format("FLIP is {:.6g}, above {:.6g}", *difference.flip, *limits.flip);
     if (!limits.rmse && limits.above.empty()) return {};

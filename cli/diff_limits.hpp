@@ -24,7 +24,7 @@ struct DiffLimits {
 void add_limit_options(CLI::App& app, DiffLimits& limits);
 
 /// What exceeds the limits first, as part of a sentence; nothing where all is within them, and
-/// where there are none. Throws Error::usage for a limit of FLIP where no colours were compared.
+/// where there are none. Colours that aren't numbers exceed each limit of FLIP.
 std::optional<std::string> excess_of(const ImageDifference& difference, const DiffLimits& limits);
 
 }  // namespace voxelume::cli

@@ -60,14 +60,15 @@ Report environment_report() {
     return report;
 }
 
-Report cache_report() {
+/// As text, the table has no other heading than its columns'.
+Report cache_report(bool as_json) {
     const fs::path folder = user_cache_folder();
     Report report;
     report["cache"] = folder.empty() ? "none: nothing is kept" : folder.string();
     for (const fs::path& base : user_cache_bases()) {
         const std::string refusal = cache_base_refusal(base);
         report["cache bases"].push_back(
-            {{"folder", base.string()},
+            {{as_json ? "folder" : "cache base", base.string()},
              {"state", refusal.empty() ? "is read" : "isn't read: " + refusal}});
     }
     if (folder.empty()) return report;
@@ -118,7 +119,7 @@ Report test_rows(const Device& device, bool& is_right) {
 
 int run(const DoctorCommand& command) {
     Report report = system_report();
-    report.update(cache_report());
+    report.update(cache_report(command.json));
     report["environment"] = environment_report();
     report["devices"] = Report::array();
     for (const DeviceInfo& info : list_devices()) report["devices"].push_back(device_row(info));

@@ -24,6 +24,22 @@ Overwrite overwrite_of(const RenderCommand& command) {
     return overwrite;
 }
 
+namespace {
+
+/// Whether all files of a volume are there. Throws Error::output where only some are: they may be
+/// another program's, and aren't to be replaced.
+bool is_kept(const std::filesystem::path& volume) {
+    if (!volume_files(volume).empty()) return true;
+    const std::vector<std::filesystem::path> others = replaced_files(volume);
+    if (others.empty()) return false;
+    throw Error(ErrorKind::output,
+                fmt::format("{} is there already, but not all files of {}: --overwrite never "
+                            "leaves it as it is; move it away, or render without the option",
+                            others.front().string(), volume.string()));
+}
+
+}  // namespace
+
 size_t skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
                      std::vector<FrameFiles>& frames) {
     if (overwrite == Overwrite::always) return 0;
@@ -44,7 +60,7 @@ size_t skip_finished(const Scene& scene, const ImageFileOptions& options, Overwr
         };
         const auto has_volume = [&](const std::filesystem::path& file) {
             return overwrite == Overwrite::never
-                       ? !volume_files(file).empty()
+                       ? is_kept(file)
                        : volume_file_state(file, of_volumes[i]) == FrameFileState::current;
         };
         FrameFiles& files = frames[i];

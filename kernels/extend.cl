@@ -157,7 +157,8 @@ static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* aroun
                                    const Choice* way, SquarePoint at) {
     NewRays r = begin_node(p, batch, first);
     const lane_int within = p->leaving ^ (way->refracted | way->straight);
-    r.flags = VXL_PATH_ON_SURFACE | (LANES_AS_UINT(within) & VXL_PATH_WITHIN_SOURCE);
+    r.flags = VXL_PATH_ON_SURFACE | (LANES_AS_UINT(within) & VXL_PATH_WITHIN_SOURCE) |
+              (LANES_AS_UINT(way->refracted) & VXL_PATH_REFRACTED);
     r.medium = (lane_uint)0;
     set_out_ways(shape, p, batch, first, way, at, &r);
     if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, &r);

@@ -142,7 +142,8 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
         list_emitter(world, g, x, y, z, voxel, packed);
         return;
     }
-    if (VXL_CUBES && is_cube_kind(kind) && emits(g, packed))
+    // What is in front of a cube in its own voxel covers its faces.
+    if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
         list_faces(world, g, x, y, z, voxel, packed);
     if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
         list_piece(g, x, y, z, VXL_PIECE_FIELD, voxel, packed);

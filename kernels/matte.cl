@@ -31,8 +31,7 @@ static inline uint sample_number(const PixelSamples* s, uint sample) {
 
 /// What a sample adds to the pixel's A, which belongs to the surface that it met first.
 static inline float sample_coverage(const PixelSamples* s, uint sample) {
-    const bool is_counted = VXL_TRANSMISSION && VXL_RADIANCE;
-    return is_counted ? s->batch->coverage[s->first + sample * 16u] : 1.0f;
+    return VXL_TRANSMISSION ? s->batch->coverage[s->first + sample * 16u] : 1.0f;
 }
 
 static inline bool was_met_before(const PixelSamples* s, uint sample, uint number) {

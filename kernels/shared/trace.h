@@ -113,6 +113,7 @@
 #define VXL_PATH_GOES_ON 4u        // an earlier ray's continuation, from its t = `starts` on
 #define VXL_PATH_FROM_CELL 8u      // begins in the cell named
 #define VXL_PATH_JOINED 16u        // inside of cubes whose inner faces are no surfaces
+#define VXL_PATH_REFRACTED 32u     // by the surface that it begins on
 
 // The maximum number of surfaces that one ray continues through: more than the cells on its way
 // through the largest world, 3 * 65536.

@@ -62,6 +62,9 @@ auto interruptibly(const Work& work) {
     throw *std::move(interruption);
 }
 
+/// The channels that callers name; throws Error::usage for a name that there isn't.
+voxelume::Channels channels_named(const std::vector<std::string>& names);
+
 void bind_errors(py::module_& module);
 void bind_devices(py::module_& module);
 void bind_scenes(py::module_& module);

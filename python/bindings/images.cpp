@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flat images for Python: planes as arrays over the library's memory.
+#include <algorithm>
 #include <array>
 
 #include "bindings.hpp"
@@ -60,6 +61,26 @@ std::vector<std::string> channels_of(const Image& image) {
     return names;
 }
 
+/// The groups of channels that an image has planes of.
+voxelume::Channels groups_of(const Image& image) {
+    const std::vector<std::string> names = channels_of(image);
+    voxelume::Channels channels = voxelume::kNoChannels;
+    for (const voxelume::ChannelRow& row : voxelume::channel_table())
+        channels.*row.member = std::ranges::any_of(row.planes, [&](const std::string_view plane) {
+            return std::ranges::any_of(names, [&](const std::string& name) {
+                return plane.ends_with('_') ? name.starts_with(plane) : name == plane;
+            });
+        });
+    return channels;
+}
+
+void write(const Image& image, const std::filesystem::path& file, double exposure, bool float_color,
+           const std::optional<std::vector<std::string>>& channels) {
+    image.write(file, {.exposure = exposure,
+                       .float_color = float_color,
+                       .channels = channels ? channels_named(*channels) : groups_of(image)});
+}
+
 }  // namespace
 
 void bind_images(py::module_& module) {
@@ -81,18 +102,15 @@ void bind_images(py::module_& module) {
         .def(
             "__contains__",
             [](const Image& image, const std::string& channel) {
-                return image.has(channel) || (channel == "objectId" && !image.object_ids().empty());
+                return std::ranges::count(channels_of(image), channel) > 0;
             },
             py::arg("channel"))
-        .def(
-            "write",
-            [](const Image& image, const std::filesystem::path& file, double exposure,
-               bool float_color) {
-                image.write(file, {.exposure = exposure, .float_color = float_color});
-            },
-            py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0,
-            py::arg("float_color") = false, py::call_guard<py::gil_scoped_release>(),
-            "Writes an OpenEXR or PNG file, by the ending of its name, whole or not at all.")
+        .def("write", &write, py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0,
+             py::arg("float_color") = false, py::arg("channels") = std::nullopt,
+             py::call_guard<py::gil_scoped_release>(),
+             "Writes an OpenEXR or PNG file, by the ending of its name, whole or not at all.\n\n"
+             "An OpenEXR file has all channels of the image, or those of `channels`, named as "
+             "for `render`.")
         .def("__repr__", [](const Image& image) {
             return "<voxelume.Image of " + std::to_string(image.width()) + " x " +
                    std::to_string(image.height()) + " pixels>";

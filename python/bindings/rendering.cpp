@@ -37,7 +37,9 @@ class DevicesInUse {
     std::vector<std::unique_lock<std::timed_mutex>> locks_;
 };
 
-voxelume::Channels channels_of(const std::vector<std::string>& names) {
+}  // namespace
+
+voxelume::Channels channels_named(const std::vector<std::string>& names) {
     voxelume::Channels channels = voxelume::kNoChannels;
     const auto rows = voxelume::channel_table();
     for (const std::string& name : names) {
@@ -63,6 +65,8 @@ voxelume::Channels channels_of(const std::vector<std::string>& names) {
     return channels;
 }
 
+namespace {
+
 /// What a call takes besides scene and devices. The callbacks belong to the caller's frame, which
 /// outlives the thread that calls them.
 struct Options {
@@ -72,7 +76,7 @@ struct Options {
     bool cache = true;
 
     RenderOptions with(const std::stop_token& stop) const {
-        RenderOptions options{.channels = channels_of(channels), .strict = strict, .stop = stop};
+        RenderOptions options{.channels = channels_named(channels), .strict = strict, .stop = stop};
         options.cache.enabled = cache;
         if (!progress.is_none())
             options.progress = [this](double done, int frame) {
@@ -177,6 +181,7 @@ void bind_rendering(py::module_& module) {
            const std::vector<std::string>& volumes, const py::object& deliver, bool wants_images,
            bool wants_volumes, const Options& options) {
             voxelume::FrameJob job = job_of(frames, images, volumes);
+            job.image_files.channels = channels_named(options.channels);
             job.deliver_images = wants_images;
             job.deliver_volumes = wants_volumes;
             return render_frames(scene, devices, std::move(job), deliver, options);

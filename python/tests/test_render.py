@@ -72,6 +72,20 @@ def test_files_hold_what_memory_does(device, room, tmp_path):
     image.write(tmp_path / "a.exr", float_color=True)
     read = voxelume.Image.read(tmp_path / "a.exr")
     np.testing.assert_array_equal(read["R"], image["R"])
+    parts = voxelume.render(room, devices=device, channels=[
+        "color", "materialId", "CryptoObject", "albedo", "lights"])
+    parts.write(tmp_path / "parts.exr")
+    read = voxelume.Image.read(tmp_path / "parts.exr")
+    assert read.channels == parts.channels
+    for channel in parts.channels:
+        assert channel in parts and channel in read
+    np.testing.assert_array_equal(read["CryptoObject00.R"], parts["CryptoObject00.R"])
+    parts.write(tmp_path / "color.exr", channels=["color"])
+    assert voxelume.Image.read(tmp_path / "color.exr").channels == ["A", "B", "G", "R"]
+    assert b"cryptomatte" in (tmp_path / "parts.exr").read_bytes()
+    assert b"cryptomatte" not in (tmp_path / "color.exr").read_bytes()
+    with pytest.raises(voxelume.Error):
+        parts.write(tmp_path / "b.exr", channels=["colour"])
     volume = voxelume.render_volume(room, devices=device)
     volume.write(tmp_path / "a.vdb")
     read = voxelume.Volume.read(tmp_path / "a.vdb")

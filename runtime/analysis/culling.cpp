@@ -21,10 +21,11 @@ namespace {
 /// The relative error of rays' coordinates in float: some hundred roundings.
 constexpr double kRounding = 0x1p-17;
 
-/// True if some channel of the image shows light, or a part of it.
+/// True if some channel of the image shows light, a part of it, or how much surfaces cover.
 bool traces_light(const Scene& scene) {
     const ImageChannels& c = scene.render.channels;
-    return c.color || c.albedo || c.direct || c.indirect || c.shadow || c.light_groups;
+    return c.color || c.albedo || c.direct || c.indirect || c.shadow || c.light_groups ||
+           c.object_matte || c.material_matte;
 }
 
 /// True if rays continue from surfaces of the object. Voxels in a file that isn't read (`reads` is

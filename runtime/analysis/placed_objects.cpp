@@ -64,7 +64,7 @@ ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const Gri
         if (listed.grids[entry->second]->transparent)
             throw Error(ErrorKind::scene,
                         "{}: some voxels of its model let light through, and rays go through "
-                        "objects in the world's voxels only; give it \"placement\": \"world\"",
+                        "cubes of the world only; give it \"placement\": \"world\"",
                         object.where);
         const std::vector<int> groups = materials_of_groups(object, meshes.groups_of(model));
         listed.list.push_back({.object = number,

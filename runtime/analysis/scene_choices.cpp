@@ -56,18 +56,29 @@ void choose_surfaces(Scene& scene, AssetStore& meshes) {
     }
 }
 
+/// Whether rays go through some cubes of the model, of which only its file tells.
+bool has_clear_cubes(const Model& model, AssetStore& meshes) {
+    return !model.voxels.empty() && shows_voxels(model.surface) && meshes.voxels(model).transparent;
+}
+
 void choose_placements(Scene& scene, AssetStore& meshes) {
     const bool may_appear = moves(scene);
-    bool has_instances = false;
+    bool has_changed = false;
     for (Object& object : scene.objects) {
+        if (object.placement == Placement::automatic && is_instanced(scene, object) &&
+            (object.visible || may_appear) &&
+            has_clear_cubes(scene.models[size_t(object.model)], meshes)) {
+            object.placement = Placement::world;
+            has_changed = true;
+        }
         const bool is_open = object.placement == Placement::automatic &&
                              !is_instanced(scene, object) && (object.visible || may_appear);
         if (!is_open || !can_be_instance(scene, object) || !is_finer_field(scene, object, meshes))
             continue;
         object.placement = Placement::instance;
-        has_instances = true;
+        has_changed = true;
     }
-    if (has_instances) find_extents(scene);
+    if (has_changed) find_extents(scene);
 }
 
 }  // namespace

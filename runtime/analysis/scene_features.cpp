@@ -128,10 +128,16 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
     return voxels;
 }
 
+/// True if the image shows light, or a matte whose surfaces cover a part of what lies behind them.
+bool needs_radiance(const ImageChannels& channels, const Features& features) {
+    const bool has_matte = channels.object_matte || channels.material_matte;
+    return channels.color || (has_matte && features.transmission);
+}
+
 /// Adds the values of hit points that the image asks for, or that are a step to values it asks for.
 void add_points(const Scene& scene, const Pyramid& world, Features& features) {
     const ImageChannels& channels = scene.render.channels;
-    const bool all = features.radiance && (features.paths || has_light(scene, world));
+    const bool all = features.radiance && (features.paths || has_light(features, scene, world));
     features.positions = all || channels.depth || channels.distance || channels.position;
     features.normals = all || channels.normal;
     features.hit_attributes = all || channels.object || channels.material ||
@@ -193,8 +199,8 @@ bool has_emissive_object(const Scene& scene, const Pyramid& world) {
                                [&](const Object* object) { return is_emissive(scene, *object); });
 }
 
-bool has_light(const Scene& scene, const Pyramid& world) {
-    return scene.render.channels.color && lights_surfaces(scene, world);
+bool has_light(const Features& features, const Scene& scene, const Pyramid& world) {
+    return features.radiance && lights_surfaces(scene, world);
 }
 
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world) {
@@ -215,7 +221,8 @@ Features features_of(const Scene& scene, const Pyramid& world) {
 void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     const Features voxels = features;
     add_light(scene, world, features);
-    if (!scene.render.channels.color) features = without_light(voxels, scene, world, features);
+    if (!needs_radiance(scene.render.channels, features))
+        features = without_light(voxels, scene, world, features);
     features.lens =
         scene.observer.aperture > 0 && scene.observer.display.shape == DisplayShape::pyramid;
     add_points(scene, world, features);
@@ -226,7 +233,7 @@ RayCounts ray_counts(const Scene& scene, const Features& features) {
     const RenderSettings& render = scene.render;
     const uint32_t tiles =
         batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
-    return {tiles * 16 * uint32_t(render.samples), has_light(scene, any),
+    return {tiles * 16 * uint32_t(render.samples), has_light(features, scene, any),
             reserved_depth(features, scene, any)};
 }
 

@@ -40,9 +40,9 @@ std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
 /// True if some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);
 
-/// True if the image has colour, a light shines (or in local light an emissive object), and
-/// something that the world may show isn't black.
-bool has_light(const Scene& scene, const Pyramid& world);
+/// True if light along rays is asked for, a light shines (or in local light an emissive object),
+/// and something that the world may show isn't black.
+bool has_light(const Features& features, const Scene& scene, const Pyramid& world);
 
 /// The maximum number of reflections and refractions in a row of local light. It is 0 where no
 /// surface that may be shown sends rays on in a new direction.

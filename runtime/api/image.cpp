@@ -108,6 +108,18 @@ PngOptions png_options(const v1::Image::Implementation& image,
     return png;
 }
 
+/// Removes the names of mattes whose planes the image lacks.
+void forget_mattes(Image& image) {
+    std::vector<std::string> gone;
+    for (const auto& [key, layer] : image.attributes)
+        if (key.starts_with("cryptomatte/") && key.ends_with("/name") &&
+            !image.planes.contains(layer + "00.R"))
+            gone.push_back(key.substr(0, key.rfind('/') + 1));
+    for (const std::string& start : gone)
+        std::erase_if(image.attributes,
+                      [&](const auto& attribute) { return attribute.first.starts_with(start); });
+}
+
 /// Calls `write` with the image that has the channels asked for, and how its colours are stored.
 template <class Write>
 auto with_channels(const v1::Image::Implementation& image, const v1::ImageFileOptions& options,
@@ -122,6 +134,7 @@ auto with_channels(const v1::Image::Implementation& image, const v1::ImageFileOp
     Image shown = *image.image;
     std::erase_if(shown.planes, is_extra);
     std::erase_if(shown.id_planes, is_extra);
+    forget_mattes(shown);
     return write(shown, depth);
 }
 

@@ -27,16 +27,21 @@ void make_linear(Image& image) {
 }
 
 bool has_colors(const Image& image) {
+    return std::ranges::all_of(kColors,
+                               [&](const char* name) { return image.planes.contains(name); });
+}
+
+/// Whether its colours are numbers, infinite ones among them.
+bool has_numbers(const Image& image) {
     const auto is_nan = [](float value) { return std::isnan(value); };
     return std::ranges::all_of(kColors, [&](const char* name) {
-        const auto plane = image.planes.find(name);
-        return plane != image.planes.end() && std::ranges::none_of(plane->second, is_nan);
+        return std::ranges::none_of(image.planes.at(name), is_nan);
     });
 }
 
 /// What FLIP is of each pixel; nothing without colours, and for colours that aren't numbers.
 std::optional<std::vector<float>> flip_of(Image a, Image b, bool are_codes) {
-    if (!has_colors(a) || !has_colors(b)) return {};
+    if (!has_colors(a) || !has_colors(b) || !has_numbers(a) || !has_numbers(b)) return {};
     if (are_codes) make_linear(a), make_linear(b);
     return flip_map(a, b);
 }
@@ -61,6 +66,14 @@ v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
     return result;
 }
 
+/// The pixels of a picture that an image shows, for messages.
+std::string place_of(const Image& image) {
+    const glm::ivec2 whole =
+        image.frame.x > 0 ? image.frame : glm::ivec2(image.width, image.height);
+    return fmt::format("begins at {},{} of {} x {} pixels", image.first.x, image.first.y, whole.x,
+                       whole.y);
+}
+
 void check_pair(const v1::Image& a, const v1::Image& b) {
     const Image &first = api::inside(a), &second = api::inside(b);
     if (a.holds_codes() != b.holds_codes())
@@ -68,6 +81,9 @@ void check_pair(const v1::Image& a, const v1::Image& b) {
     if (first.width != second.width || first.height != second.height)
         throw Error(ErrorKind::render, "one image has {} x {} pixels and the other {} x {}",
                     first.width, first.height, second.width, second.height);
+    if (place_of(first) != place_of(second))
+        throw Error(ErrorKind::render, "one image {}, and the other {}", place_of(first),
+                    place_of(second));
 }
 
 /// Light that a display shows as heat: black, red, yellow and white at thirds of 0..1.
@@ -117,6 +133,9 @@ Image flip_image(const Image& a, const Image& b) {
         check_pair(a, b);
         const voxelume::Image &first = api::inside(a), &second = api::inside(b);
         const auto map = flip_of(first, second, a.holds_codes());
+        if (!map && has_colors(first) && has_colors(second))
+            throw voxelume::Error(voxelume::ErrorKind::render,
+                                  "FLIP can't be told, for some pixels' colours aren't numbers");
         if (!map)
             throw voxelume::Error(voxelume::ErrorKind::usage,
                                   "FLIP compares colours, and an image has no R, G and B");

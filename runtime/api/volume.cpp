@@ -149,6 +149,10 @@ std::vector<std::filesystem::path> volume_files(const std::filesystem::path& fil
     return api::guarded([&] { return voxelume::volume_files(file); });
 }
 
+std::vector<std::filesystem::path> replaced_files(const std::filesystem::path& file) {
+    return api::guarded([&] { return voxelume::replaced_files(file); });
+}
+
 void check_volume_file(const std::filesystem::path& file, const Scene& scene) {
     api::guarded([&] { check_volume_output(file, display_frame(api::inside(scene))); });
 }

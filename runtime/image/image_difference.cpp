@@ -2,6 +2,8 @@
 #include "runtime/image/image_difference.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -98,6 +100,26 @@ class Selection {
     const std::vector<std::string>& wanted_;
 };
 
+/// Whether a plane of an image has Cryptomatte's ids: bits of hashes, which are no light.
+bool has_ids(const Image& image, const std::string& plane) {
+    if (!plane.ends_with(".R") && !plane.ends_with(".B")) return false;
+    constexpr size_t kEnd = 4;  // as "00.R" of "CryptoObject00.R"
+    return std::ranges::any_of(image.attributes, [&](const auto& attribute) {
+        const auto& [key, layer] = attribute;
+        return key.starts_with("cryptomatte/") && key.ends_with("/name") &&
+               plane.size() == layer.size() + kEnd && plane.starts_with(layer) &&
+               std::isdigit(static_cast<unsigned char>(plane[layer.size()])) &&
+               std::isdigit(static_cast<unsigned char>(plane[layer.size() + 1]));
+    });
+}
+
+Plane<uint32_t> bits_of(const Plane<float>& plane) {
+    std::vector<uint32_t> bits;
+    bits.reserve(plane.size());
+    for (const float value : plane) bits.push_back(std::bit_cast<uint32_t>(value));
+    return bits;
+}
+
 /// Calls `visit` with the name of each selected channel of both images, and its two planes.
 template <class Planes, class Visit>
 void for_each_pair(const Planes& a, const Planes& b, const Selection& selection,
@@ -106,6 +128,20 @@ void for_each_pair(const Planes& a, const Planes& b, const Selection& selection,
         const auto other = b.find(name);
         if (other != b.end() && selection.has(name)) visit(name, plane, other->second);
     }
+}
+
+/// Likewise for all channels, and Cryptomatte's ids are ids.
+template <class Visit>
+void for_each_channel(const Image& a, const Image& b, const Selection& selection,
+                      const Visit& visit) {
+    for_each_pair(a.planes, b.planes, selection,
+                  [&](const std::string& name, const auto& first, const auto& second) {
+                      if (has_ids(a, name) && has_ids(b, name))
+                          visit(name, bits_of(first), bits_of(second));
+                      else
+                          visit(name, first, second);
+                  });
+    for_each_pair(a.id_planes, b.id_planes, selection, visit);
 }
 
 template <class Planes>
@@ -131,8 +167,7 @@ ImageDifference compare_images(const Image& a, const Image& b, const CompareOpti
             above[i] = true;
         }
     };
-    for_each_pair(a.planes, b.planes, selection, visit);
-    for_each_pair(a.id_planes, b.id_planes, selection, visit);
+    for_each_channel(a, b, selection, visit);
     note_missing(a.planes, b.planes, selection, result.only_in_a);
     note_missing(a.id_planes, b.id_planes, selection, result.only_in_a);
     note_missing(b.planes, a.planes, selection, result.only_in_b);
@@ -149,8 +184,7 @@ Image difference_image(const Image& a, const Image& b, const CompareOptions& opt
         for (size_t i = 0; i < first.size(); ++i) distances[i] = distance_of(first[i], second[i]);
         result.planes[name] = std::move(distances);
     };
-    for_each_pair(a.planes, b.planes, selection, visit);
-    for_each_pair(a.id_planes, b.id_planes, selection, visit);
+    for_each_channel(a, b, selection, visit);
     return result;
 }
 

@@ -37,8 +37,8 @@ struct ImageDifference {
     uint64_t above = 0;   ///< pixels above the threshold in some channel that both images have
 };
 
-/// Compares `a` with the reference `b`; both have the same size. Ids have no distance, so only
-/// `differing` and `above` are counted for them.
+/// Compares `a` with the reference `b`; both have the same size. Ids, those of Cryptomatte among
+/// them, have no distance, so only `differing` and `above` are counted for them.
 ///
 /// Throws Error::usage for channels of the options that neither image has.
 ImageDifference compare_images(const Image& a, const Image& b, const CompareOptions& options = {});

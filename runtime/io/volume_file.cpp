@@ -49,6 +49,11 @@ void check_output(const VolumePath& path, const VolumeFrame& frame, const Volume
     entry.check_path(path, entry.format);
 }
 
+bool is_there(const VolumePath& file) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error);
+}
+
 }  // namespace
 
 VolumeFormat volume_format_of(const std::filesystem::path& path) {
@@ -90,11 +95,15 @@ void write_volume(const std::filesystem::path& path, const Volume& volume,
 
 std::vector<std::filesystem::path> volume_files(const std::filesystem::path& path) {
     std::vector<VolumePath> files = entry_of(volume_format_of(path)).files(path);
-    const auto is_there = [](const VolumePath& file) {
-        std::error_code error;
-        return std::filesystem::is_regular_file(file, error);
-    };
     if (!std::ranges::all_of(files, is_there)) files.clear();
+    return files;
+}
+
+std::vector<std::filesystem::path> replaced_files(const std::filesystem::path& path) {
+    const VolumeFormat format = volume_format_of(path);
+    std::vector<VolumePath> files =
+        format == VolumeFormat::slices ? found_slices_of(path) : entry_of(format).files(path);
+    std::erase_if(files, [](const VolumePath& file) { return !is_there(file); });
     return files;
 }
 

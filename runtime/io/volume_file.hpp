@@ -33,6 +33,9 @@ void write_volume(const std::filesystem::path& path, const Volume& volume,
 /// slices are a file each. Empty unless all of them are there.
 std::vector<std::filesystem::path> volume_files(const std::filesystem::path& path);
 
+/// The files that writing a volume to the path may replace, of those that are there.
+std::vector<std::filesystem::path> replaced_files(const std::filesystem::path& path);
+
 /// Reads a .vdb, .exr, .nrrd or .raw/.json that voxelume wrote; scenes/VOLUMES.md says what each
 /// format keeps. Throws Error::input for a file that is missing, damaged or not a volume of
 /// voxelume, and Error::usage for the formats that can't be read.

@@ -29,7 +29,7 @@ std::vector<PathLight> lights_by_samples(const Device& device, const Features& f
 
 std::vector<PathLight> lights_of(const Device& device, const Features& features, const Scene& scene,
                                  const Pyramid& world) {
-    if (!has_light(scene, world)) return {};
+    if (!has_light(features, scene, world)) return {};
     std::vector<PathLight> lights = features.global
                                         ? path_lights(scene, world.frame)
                                         : lights_by_samples(device, features, scene, world);
@@ -40,7 +40,8 @@ std::vector<PathLight> lights_of(const Device& device, const Features& features,
 
 /// True if surface points send shadow rays to the sky.
 bool looks_to_sky(const Features& features, const Scene& scene, const Pyramid& world) {
-    return features.sky != VXL_SKY_NONE && has_sky_samples(scene) && has_light(scene, world);
+    return features.sky != VXL_SKY_NONE && has_sky_samples(scene) &&
+           has_light(features, scene, world);
 }
 
 /// Allocates Surroundings::medium_overflows, set to 0; empty if the features don't need it.
@@ -74,8 +75,9 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
-    if (has_light(scene, world)) files.push_back("light.cl");
-    if (has_light(scene, world) && has_sky_samples(scene)) files.push_back("sky_light.cl");
+    if (has_light(features, scene, world)) files.push_back("light.cl");
+    if (has_light(features, scene, world) && has_sky_samples(scene))
+        files.push_back("sky_light.cl");
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");

@@ -65,7 +65,7 @@ Scene albedo_of(const Scene& scene) {
     return result;
 }
 
-/// White surfaces in the scene's lights.
+/// White surfaces in the scene's lights, but for the colours of voxels, which the pass leaves out.
 Scene white_surfaces(const Scene& scene, bool with_shadows) {
     Scene result = colors_of(scene);
     darken_all_but_lights(result);
@@ -101,8 +101,8 @@ std::vector<LightPass> light_passes(const Scene& scene) {
     if (channels.direct || channels.indirect) passes.push_back({"direct", direct_light_of(scene)});
     if (channels.indirect && !channels.color) passes.push_back({kWhole, colors_of(scene)});
     if (channels.shadow) {
-        passes.push_back({kWithShadows, white_surfaces(scene, true)});
-        passes.push_back({kWithoutShadows, white_surfaces(scene, false)});
+        passes.push_back({kWithShadows, white_surfaces(scene, true), true});
+        passes.push_back({kWithoutShadows, white_surfaces(scene, false), true});
     }
     if (channels.light_groups)
         for (const std::string& group : groups_of(scene))

@@ -15,6 +15,7 @@ namespace voxelume {
 struct LightPass {
     std::string name;
     Scene scene;
+    bool is_white = false;  ///< voxels show no colours of their own
 };
 
 /// The passes that the channels of a scene ask for. Light adds up, so that a pass is the scene with

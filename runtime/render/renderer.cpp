@@ -146,8 +146,9 @@ void Renderer::add_passes(const Scene& scene, const BuiltWorld& world, const Til
         RenderReport of_pass;
         TileShare share(tiles.share, tiles.taken);
         std::vector<TileRange> taken;
-        Image light =
-            Renderer(device_, false).image_of_tiles(pass.scene, world, of_pass, {share, taken});
+        Renderer renderer(device_, false);
+        renderer.is_white_ = pass.is_white;
+        Image light = renderer.image_of_tiles(pass.scene, world, of_pass, {share, taken});
         for (const char* color : {"R", "G", "B"})
             image.planes[fmt::format("{}.{}", pass.name, color)] =
                 std::move(light.planes.at(color));
@@ -174,7 +175,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     const auto start = std::chrono::steady_clock::now();
     image_.reset();
     const Pyramid& world = built.pyramid;
-    const Features features = features_of(scene, world);
+    Features features = features_of(scene, world);
+    if (is_white_) features.colors = false;
     const Camera observer = camera_of(scene, world.frame);
 
     const uint32_t all_tiles = tiles.share.tiles();

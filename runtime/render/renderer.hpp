@@ -106,6 +106,7 @@ class Renderer {
 
     Device device_;
     bool follows_;
+    bool is_white_ = false;       ///< voxels show no colours of their own
     std::optional<Scene> scene_;  ///< the scene whose image is retained
     uint64_t world_ = 0;          ///< the version of its world
     std::shared_ptr<const Image> image_;

@@ -274,8 +274,10 @@ std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
         objects.push_back(reader.read(item, objects.size()));
         const Object& object = objects.back();
         const auto name = SceneFields(item, "object").find("name");
-        if (name && !taken.insert(object.name).second)
-            name->fail(fmt::format("another object is named {} already", quote(object.name)));
+        // One without a name has its place for it.
+        if (!taken.insert(object.name).second)
+            (name ? *name : item)
+                .fail(fmt::format("another object is named {} already", quote(object.name)));
         check_light_samples(item, scene, object);
     }
     return objects;

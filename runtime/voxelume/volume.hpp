@@ -137,6 +137,9 @@ class Volume {
 /// their own, and slices are a file each. Empty unless all of them are there.
 std::vector<std::filesystem::path> volume_files(const std::filesystem::path& file);
 
+/// The files that are there and that writing a volumetric image under this name may replace.
+std::vector<std::filesystem::path> replaced_files(const std::filesystem::path& file);
+
 /// Throws what writing any volumetric image of the scene to this file would throw, before there is
 /// one: Error::usage, Error::limit and Error::output as Volume::write does.
 void check_volume_file(const std::filesystem::path& file, const Scene& scene);

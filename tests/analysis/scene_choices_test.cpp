@@ -6,10 +6,12 @@
 
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/oracles/image_hash.hpp"
+#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -135,6 +137,23 @@ TEST_F(SceneChoices, GiveFilesOfVoxelsWhatTheyHold) {
         EXPECT_GT(chosen(fmt::format(R"("voxels": "{}", "fit": 0.8)", file)).object_from_file.scale,
                   0.1)
             << "is measured as what it holds";
+}
+
+// Rays go through cubes of the world only, and the file alone tells that they do.
+TEST_F(SceneChoices, LeaveFilesWithClearVoxelsInTheWorld) {
+    const std::string tracks =
+        R"({"target": "objects[0].position", "keys": [{"frame": 1, "value": [0, 0, 0]}, {"frame": 4, "value": [0.1, 0, 0]}]})";
+    for (const uint8_t opacity : {uint8_t(128), uint8_t(255)}) {
+        const std::vector<uint8_t> rgba = {200, 100, 50, 255, 90, 80, 70, opacity};
+        put_bytes(folder / "two.npy", npy_bytes("|u1", "2, 1, 1, 4", bytes_of_values(rgba)));
+        Scene scene =
+            scene_of(R"("voxels": "two.npy", "surface": "cubes")", R"(, "scale": 0.1)", tracks);
+        AssetStore meshes;
+        make_choices(scene, meshes);
+        EXPECT_EQ(is_instanced(scene, scene.objects[0]), opacity == 255);
+        RenderReport report;
+        EXPECT_NO_THROW(render(shared_device(), scene, report));
+    }
 }
 
 TEST_F(SceneChoices, AreTheSameInAllFrames) {

@@ -141,5 +141,112 @@ TEST_F(CliDiffTest, APictureNeverReplacesWhatIsCompared) {
     EXPECT_EQ(run("diff a.exr a.exr -o c.gif").exit_code, 2);
 }
 
+TEST_F(CliDiffTest, APictureOfAFrameNeverReplacesAnother) {
+    for (const int frame : {1, 2}) {
+        put_exr(fmt::format("a{}.exr", frame), 1, 1);
+        put_exr(fmt::format("b{}.exr", frame), 2, 1);
+    }
+    std::filesystem::create_symlink("a2.exr", folder / "link.1.exr");
+    std::filesystem::create_symlink("b1.exr", folder / "link.2.exr");
+    const std::string before = bytes_of(folder / "a2.exr");
+    for (const char* output :
+         {"-o a%d.exr", "-o ./b#.exr", "-o link.#.exr", "--flip-map ../$(basename $PWD)/a#.exr"})
+        EXPECT_THAT(run(std::string("diff a#.exr b#.exr ") + output).err,
+                    HasSubstr("would replace"))
+            << output;
+    const ProgramResult twice = run("diff a#.exr b#.exr -o x.####.exr --flip-map x.%04d.exr");
+    EXPECT_EQ(twice.exit_code, 2);
+    EXPECT_THAT(twice.err, HasSubstr("two outputs are one file"));
+    EXPECT_THAT(run("diff a1.exr b1.exr -o link.2.exr").err, HasSubstr("would replace b1.exr"));
+    EXPECT_EQ(bytes_of(folder / "a2.exr"), before);
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.0001.exr"));
+}
+
+TEST_F(CliDiffTest, ColorsThatAreNoNumbersHaveNoFlipAndFail) {
+    put_exr("b.exr", 0, 0);
+    Image image = changed(0, 0);
+    std::vector<float> red(kDiffPixels, 0.25f);
+    red[7] = std::numeric_limits<float>::quiet_NaN();
+    image.planes.erase("R");
+    image.planes["Q"] = red;  // the program writes no such colours, so Q becomes R in the file
+    write_exr(folder / "a.exr", image, ColorDepth::float32);
+    std::string bytes = bytes_of(folder / "a.exr");
+    const size_t name = bytes.find(std::string_view("Q\0\2\0", 4));
+    ASSERT_NE(name, std::string::npos);
+    bytes[name] = 'R';
+    put_bytes(folder / "a.exr", bytes);
+    for (const char* option : {"--fail-flip 1", "--flip-map f.exr"}) {
+        const ProgramResult result = run(std::string("diff a.exr b.exr ") + option);
+        EXPECT_EQ(result.exit_code, 1) << option;
+        EXPECT_THAT(result.err, HasSubstr("colours aren't numbers")) << option;
+        EXPECT_THAT(result.out, HasSubstr("unmatched")) << option;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "f.exr"));
+    EXPECT_THAT(run("diff a.exr b.exr --fail 0").err,
+                HasSubstr("1 pixel of R differs where a value isn't finite"));
+}
+
+TEST_F(CliDiffTest, FlipNeedsColorsOfBothImages) {
+    put_exr("a.exr", 0, 0);
+    Image image = changed(0, 0);
+    image.planes.erase("B");
+    write_exr(folder / "b.exr", image, ColorDepth::float32);
+    for (const char* option : {"--fail-flip 0.1", "--flip-map f.exr"}) {
+        const ProgramResult result = run(std::string("diff a.exr b.exr ") + option);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_THAT(result.err, HasSubstr("b.exr has no B"));
+    }
+    write_exr(folder / "z.exr", {kDiffWidth, kDiffHeight, {{"Z", image.planes.at("R")}}, {}, {}});
+    EXPECT_THAT(run("diff a.exr z.exr -o d.exr").err, HasSubstr("no channel in common"));
+    EXPECT_EQ(run("diff a.exr z.exr").exit_code, 1);
+}
+
+TEST_F(CliDiffTest, LimitsAreNumbersFromZeroOn) {
+    put_exr("a.exr", 1, 1);
+    for (const char* limit : {"nan", "-1", "x", "inf"})
+        EXPECT_EQ(run(std::string("diff a.exr a.exr --fail ") + limit).exit_code, 2) << limit;
+    EXPECT_EQ(run("diff a.exr a.exr --fail 0").exit_code, 0);
+}
+
+TEST_F(CliDiffTest, PartsOfDifferentPlacesArentCompared) {
+    Image image = changed(0, 0);
+    const auto put = [&](const char* name, glm::ivec2 first, glm::ivec2 frame) {
+        image.first = first, image.frame = frame;
+        write_exr(folder / name, image, ColorDepth::float32);
+    };
+    put("whole.exr", {0, 0}, {0, 0});
+    put("left.exr", {0, 0}, {90, 25});
+    put("right.exr", {50, 0}, {90, 25});
+    EXPECT_EQ(run("diff left.exr left.exr --fail 0").exit_code, 0);
+    const ProgramResult result = run("diff left.exr right.exr");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("at 0,0 of 90 x 25"), HasSubstr("at 50,0 of 90 x 25")));
+    EXPECT_EQ(run("diff left.exr whole.exr").exit_code, 1);
+}
+
+TEST_F(CliDiffTest, FramesTellWhatIsMissingOrNotFinite) {
+    for (const char* name : {"a1.exr", "a2.exr", "b1.exr"}) put_exr(name, 0, 0);
+    Image image = changed(0, 0);
+    image.planes.erase("G");
+    std::vector<float> depth(kDiffPixels, 1);
+    image.planes["Z"] = depth;
+    write_exr(folder / "b1.exr", image, ColorDepth::float32);
+    depth[3] = depth[4] = std::numeric_limits<float>::infinity();
+    image.planes["Z"] = depth;
+    write_exr(folder / "b2.exr", image, ColorDepth::float32);
+    image.planes["Z"] = std::vector<float>(kDiffPixels, 1);
+    write_exr(folder / "a2.exr", image, ColorDepth::float32);
+    const Json rows = report_of("a#.exr b#.exr")["frames"];
+    EXPECT_EQ(rows[0]["missing"], (Json{"G", "Z"}));
+    EXPECT_EQ(rows[0]["only in B"], Json{"Z"});
+    EXPECT_EQ(rows[0]["unmatched"], 0);
+    EXPECT_EQ(rows[1]["missing"], Json());
+    EXPECT_EQ(rows[1]["unmatched"], 2);
+    EXPECT_EQ(rows[1]["channels"][2]["unmatched"], 2);
+    EXPECT_THAT(run("diff a#.exr b#.exr").out, AllOf(HasSubstr("unmatched"), HasSubstr("G Z")));
+    EXPECT_THAT(run("diff a#.exr b#.exr --frames 1-3 -o d#.exr").err, HasSubstr("a3.exr: no such"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "d1.exr"));
+}
+
 }  // namespace
 }  // namespace voxelume

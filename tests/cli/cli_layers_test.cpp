@@ -54,6 +54,7 @@ TEST_F(CliLayersTest, WithoutAFolderToWriteToThereIsNothingToWarm) {
     EXPECT_THAT(result.err, HasSubstr("there is no cache to fill"));
     const Json report = Json::parse(run_with("/a:/b:/c", "doctor --json --no-test").out);
     EXPECT_EQ(report["cache"], "/c");
+    EXPECT_THAT(run_with("/a:/b:/c", "doctor --no-test").out, HasSubstr("cache base "));
     const std::string missing = "isn't read: there is no such folder";
     EXPECT_EQ(report["cache bases"], Json::array({{{"folder", "/a"}, {"state", missing}},
                                                   {{"folder", "/b"}, {"state", missing}}}));

@@ -11,6 +11,7 @@ namespace voxelume {
 namespace {
 
 using testing::HasSubstr;
+using namespace std::string_literals;
 
 class CliMatteTest : public SceneProgramTest {
   protected:
@@ -95,6 +96,10 @@ TEST_F(CliMatteTest, AFileWithoutThemHasNoManifest) {
         EXPECT_FALSE(key.starts_with("crypto")) << key;
     EXPECT_THAT(expect_failure(2, "render scene.json -o x.exr --channels cryptoobject"),
                 HasSubstr("did you mean \"CryptoObject\"?"));
+    for (const auto& [channel, group] : {std::pair("R", "RGBA"), std::pair("N.X", "N")})
+        EXPECT_THAT(
+            expect_failure(2, fmt::format("render scene.json -o x.exr --channels {}", channel)),
+            HasSubstr(fmt::format("ask for {}", group)));
 }
 
 TEST_F(CliMatteTest, PartsOfTheLightHaveTheBytesOfTheWholeToo) {
@@ -123,10 +128,60 @@ TEST_F(CliMatteTest, PartsOfTheLightHaveTheBytesOfTheWholeToo) {
     EXPECT_EQ(bytes_of(folder / "l0001.exr"), whole);
 }
 
+TEST_F(CliMatteTest, ShadowsOfVoxelsWithColorsAreThoseOfWhiteOnes) {
+    put_bytes(folder / "red.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+              "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+              "0 0 0 255 0 0\n1 0 0 255 0 0\n0 0.7 0 255 0 0\n3 0 1 2\n");
+    write_scene([](Json& scene) {
+        scene["models"]["red"] = {{"mesh", "red.ply"}, {"surface", "cubes"}};
+        scene["objects"][0]["model"] = "red";
+        scene["objects"].push_back({{"model", "thing"}, {"position", {1.3, 1.2, 0.8}}});
+        scene["lights"][0]["direction"] = {1, 0, -0.4};
+    });
+    ASSERT_EQ(run("render scene.json -q -o s.exr --channels albedo,shadow,objectId").exit_code, 0);
+    const Image image = read_exr(folder / "s.exr");
+    double hidden = 0, red = 0;
+    for (size_t i = 0; i < image.planes.at("shadow.R").size(); ++i) {
+        const float shadow = image.planes.at("shadow.R")[i];
+        EXPECT_EQ(image.planes.at("shadow.G")[i], shadow) << i;
+        EXPECT_EQ(image.planes.at("shadow.B")[i], shadow) << i;
+        if (image.id_planes.at("objectId")[i] != 1) continue;
+        hidden += double(shadow);
+        red += double(image.planes.at("albedo.R")[i] - image.planes.at("albedo.G")[i]);
+    }
+    EXPECT_GT(hidden, 1);
+    EXPECT_GT(red, 1);
+}
+
+TEST_F(CliMatteTest, AFileIsTheSameWhicheverOthersAreWritten) {
+    write_scene([](Json& scene) {
+        scene["materials"]["brick"]["opacity"] = 0.1;
+        scene["lights"] = Json::array();
+    });
+    const std::string line = "render scene.json -q -o m.exr --channels CryptoObject ";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const std::string alone = bytes_of(folder / "m.exr");
+    ASSERT_EQ(run(line + "-o m.png").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "m.exr"), alone);
+    float most = 0;
+    const Image image = read_exr(folder / "m.exr");
+    for (const float share : image.planes.at("CryptoObject00.G")) most = std::max(most, share);
+    EXPECT_GT(most, 0.2f);
+    EXPECT_LT(most, 0.9f);
+}
+
 TEST_F(CliMatteTest, AGroupsNameIsThatOfAChannel) {
-    for (const char* name : {"a.b", "rest", "k ey"}) {
+    for (const std::string& name : {"a.b"s, "rest"s, "k ey"s, std::string(201, 'x')}) {
         write_scene([&](Json& scene) { scene["lights"][0]["group"] = name; });
         EXPECT_THAT(expect_render_failure(3), HasSubstr("scene.json:")) << name;
+    }
+    for (const size_t length : {26u, 200u}) {
+        const std::string name(length, 'x');
+        write_scene([&](Json& scene) { scene["lights"][0]["group"] = name; });
+        ASSERT_EQ(run("render scene.json -q -o g.exr --channels lights").exit_code, 0);
+        EXPECT_TRUE(read_exr(folder / "g.exr").planes.contains("light_" + name + ".R"));
     }
 }
 

@@ -195,10 +195,36 @@ TEST_F(CliResumeTest, NeverKeepsVolumesOfSeveralFilesOnlyIfTheyAreWhole) {
         const std::string bytes = bytes_of(folder / part);
         ASSERT_FALSE(bytes.empty()) << part;
         std::filesystem::remove(folder / part);
-        EXPECT_THAT(run(line).err, HasSubstr("\"written\"")) << part;
-        EXPECT_EQ(bytes_of(folder / part), bytes) << part;
+        const std::string refusal = expect_failure(5, line);
+        EXPECT_THAT(refusal, HasSubstr("is there already, but not all files of")) << part;
+        put_bytes(folder / part, bytes);
+        EXPECT_THAT(run(line).err, HasSubstr("1 of 1 frames are there already")) << part;
     }
     EXPECT_EQ(names(), whole);
+}
+
+TEST_F(CliResumeTest, NeverKeepsFilesThatBecameNoVolume) {
+    write_scene([](Json&) {});
+    for (const char* name : {"ct.raw", "s.0007.png"}) {
+        put_bytes(folder / name, "mine");
+        const std::string volume = name[0] == 's' ? "s.####.png" : name;
+        EXPECT_THAT(expect_failure(5, "render scene.json --overwrite never --volume " + volume),
+                    HasSubstr(name));
+        EXPECT_EQ(bytes_of(folder / name), "mine");
+    }
+}
+
+TEST_F(CliResumeTest, DamagedHeadersOfSlicesArentWaitedFor) {
+    const std::string line = "render scene.json --frames 1 --volume s.#.%03d.png --resume -q";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const std::string header = bytes_of(folder / "s.1.json");
+    for (const char* count : {"9000000000000", "-1", "0", "3000000000", "1e99"}) {
+        Json damaged = Json::parse(header);
+        damaged["shape"][2] = Json::parse(count);
+        put_bytes(folder / "s.1.json", damaged.dump());
+        EXPECT_EQ(run(line).exit_code, 0) << count;
+        EXPECT_EQ(bytes_of(folder / "s.1.json"), header) << count;
+    }
 }
 
 TEST_F(CliResumeTest, ACropMakesImagesStaleAndNoVolume) {

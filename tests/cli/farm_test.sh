@@ -57,6 +57,13 @@ render_whole() {
     told "one frame of 64 rows of tiles, one run" "$start"
 }
 
+# refuse COMMAND...: expects that it ends with 2 before anything is rendered.
+refuse() {
+    local code=0
+    "$@" >/dev/null 2>refusal.txt || code=$?
+    if [ "$code" -ne 2 ] || [ ! -s refusal.txt ]; then echo "$* ends with $code" && exit 1; fi
+}
+
 # compare PATTERN: expects that the parts' files are the whole run's.
 compare() {
     local count=0 file
@@ -172,19 +179,30 @@ run_parallel() {
     compare 'f.*.exr' 24
     "$farm/parallel.sh" 5 parts/one.exr scene.json --frames 7 2>/dev/null
     compare 'one*.exr' 1
+    refuse "$farm/parallel.sh" 0 parts/one.exr scene.json
+    refuse "$farm/parallel.sh" 2 'parts/{name}.exr' scene.json
+    refuse "$farm/slurm_submit.sh" 08 scene.json -o parts/one.exr
+    refuse "$farm/slurm_submit.sh" 8 scene.json -o 'parts/{name}.exr'
 }
 
 run_openjd() {
     need openjd
     openjd check "$farm/openjd.yaml"
     render_whole
-    local parameters=(--job-param "Scene=$folder/scene.json" --job-param "Folder=$folder/parts"
-        --job-param Output=f.####.exr --job-param Parts=3)
-    for step in Render Merge; do
-        openjd run "$farm/openjd.yaml" --step "$step" "${parameters[@]}" >"$step.log" 2>&1 ||
-            { cat "$step.log"; exit 1; }
+    # shellcheck disable=SC2016 # nothing is to expand it
+    local name hostile='a "$(touch $OWNED)" b.####.exr'
+    export OWNED=$folder/owned
+    for name in 'f.####.exr' "$hostile"; do
+        local parameters=(--job-param "Scene=$folder/scene.json" --job-param "Folder=$folder/parts"
+            --job-param "Output=$name" --job-param Parts=3)
+        for step in Render Merge; do
+            openjd run "$farm/openjd.yaml" --step "$step" "${parameters[@]}" >"$step.log" 2>&1 ||
+                { cat "$step.log"; exit 1; }
+        done
     done
     compare 'f.*.exr' 24
+    cmp "whole/f.0002.exr" "parts/${hostile/\#\#\#\#/0002}"
+    [ ! -e "$OWNED" ] || { echo "a name of files was run"; exit 1; }
 }
 
 "run_$recipe"

@@ -56,6 +56,26 @@ TEST(ImageDifference, IdsAreOnlyCounted) {
     EXPECT_EQ(d.largest, 0.0);
 }
 
+TEST(ImageDifference, IdsOfCryptomatteAreOnlyCountedToo) {
+    const auto image = [](float id) {
+        Image made{2, 1, {}, {}, {}};
+        made.planes["Matte.R"] = made.planes["Matte00.R"] = std::vector<float>{id, 2};
+        made.planes["Matte00.G"] = std::vector<float>{0.5f, 1};
+        made.attributes["cryptomatte/1234567/name"] = "Matte";
+        return made;
+    };
+    const ImageDifference d = compare_images(image(1e30f), image(1e-30f));
+    ASSERT_EQ(d.channels.size(), 3u);
+    EXPECT_GT(d.channels[0].rmse, 1e29);  // Matte.R is a picture for people
+    EXPECT_EQ(d.channels[1].channel, "Matte00.G");
+    EXPECT_EQ(d.channels[1].differing, 0u);
+    EXPECT_EQ(d.channels[2].channel, "Matte00.R");
+    EXPECT_EQ(d.channels[2].rmse, 0);
+    EXPECT_EQ(d.channels[2].differing, 1u);
+    EXPECT_EQ(d.channels[2].above, 1u);
+    EXPECT_EQ(difference_image(image(1e30f), image(1e-30f)).planes.at("Matte00.R")[0], 1.0f);
+}
+
 TEST(ImageDifference, PixelsAboveAThresholdAreCountedOnceAcrossChannels) {
     const Image a{4, 1, {{"R", {0, 0.5f, 0.25f, kNan}}, {"Z", {1, 1, 1, 1}}}, {}, {}};
     const Image b{4, 1, {{"R", {0, 0.75f, 1.25f, 2}}, {"Z", {1, 3, 1.25f, 1}}}, {}, {}};

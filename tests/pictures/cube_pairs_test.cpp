@@ -146,5 +146,60 @@ TEST(CubePairs, ShowSurfacesAndNothingBehindThem) {
         pairs, worst.far_of_cubes, worst.far_of_others, worst.deep);
 }
 
+/// A wall and a film as pixels' objects show them, each a box.
+Image film_before_wall(const std::string& material, const std::string& wall,
+                       const std::string& film, const std::string& eye) {
+    const std::string text = fmt::format(
+        R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.1, "bounds": {{"min": [-2, -2, -2], "max": [2, 2, 2]}},
+          "background": [1, 0, 1], "ambient": [1, 1, 1]}},
+"materials": {{"wall": {{"color": [0, 0, 0]}}, "film": {{{}}}}},
+"models": {{"wall": {{{}, "surface": "cubes"}}, "film": {{{}, "surface": "exact"}}}},
+"objects": [{{"model": "wall", "material": "wall", "position": [0, 0, 0.05]}},
+            {{"model": "film", "material": "film", "position": [0, 0, 0.08], "priority": 1}}],
+"lights": [],
+"observer": {{"position": {}, "look_at": [0, 0, 0], "display": {{"shape": "pyramid", "angle": 40}}}},
+"render": {{"size": [96, 72]}}}})",
+        material, wall, film, eye);
+    RenderReport report;
+    return render(test_device(), parse_scene(text, "film.json", {}), report);
+}
+
+// The poster is 2 cm before the wall's solid and in its cubes. Rays that come to it aslant have
+// been in other cubes before.
+TEST(CubePairs, ShowAPosterWholeThatIsInCubesOfAWall) {
+    const std::string poster = R"("shape": "box", "size": [1, 1, 0.02])";
+    const Image both =
+        film_before_wall(R"("color": [1, 1, 1])", R"("shape": "box", "size": [2.04, 2.04, 0.02])",
+                         poster, "[1.5, 1.4, 2.5]");
+    const Image alone =
+        film_before_wall(R"("color": [1, 1, 1])", R"("shape": "box", "size": [0.1, 0.1, 0.02])",
+                         poster, "[1.5, 1.4, 2.5]");
+    int wanted = 0, shown = 0;
+    const auto& ids = both.id_planes.at("objectId");
+    for (size_t i = 0; i < ids.size(); ++i) {
+        if (alone.id_planes.at("objectId")[i] != 2) continue;
+        ++wanted;
+        shown += ids[i] == 2;
+    }
+    EXPECT_GT(wanted, 1300);
+    EXPECT_GT(shown, wanted * 9 / 10);
+}
+
+// Rays that a sheer film lets through meet the cube that the film is in.
+TEST(CubePairs, ShowCubesBehindTheSheerSurfacesInThem) {
+    const std::string ball = R"("shape": "sphere", "radius": 1.2)";
+    const Image image =
+        film_before_wall(R"("opacity": 0.1, "color": [0, 1, 0])", ball, ball, "[0.3, 0.4, 4]");
+    const auto& ids = image.id_planes.at("objectId");
+    int covered = 0;
+    for (size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] == 0) continue;
+        ++covered;
+        ASSERT_LT(image.planes.at("R")[i], 0.01) << "the background is seen through pixel " << i;
+    }
+    EXPECT_GT(covered, 3000);
+}
+
 }  // namespace
 }  // namespace voxelume

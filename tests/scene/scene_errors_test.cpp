@@ -47,6 +47,16 @@ TEST(SceneErrors, TellLineColumnKeyPathAndTheNearestName) {
               "room.json:5:23: objects[0].model: no model named \"flor\"; did you mean \"floor\"?");
 }
 
+TEST(SceneErrors, ANameIsThatOfOneObject) {
+    constexpr const char* kTwice = "another object is named \"objects[1]\" already";
+    EXPECT_THAT(message(scene_with(R"("objects": [{"name": "objects[1]", "model": "ball"},
+                                               {"model": "ball"}],)")),
+                HasSubstr(kTwice));
+    EXPECT_THAT(message(scene_with(R"("objects": [{"model": "ball"}, {"model": "ball"},
+                                  {"name": "objects[1]", "model": "ball"}],)")),
+                HasSubstr(kTwice));
+}
+
 TEST(SceneErrors, PointAtUnknownKeysThemselves) {
     EXPECT_EQ(message(scene_with(R"(   "ligths": [],)")),
               "room.json:5:4: unknown key \"ligths\"; did you mean \"lights\"?");

@@ -102,6 +102,21 @@ TEST(Matte, SharesSumToAlphaBehindAVeilToo) {
     EXPECT_GT(partly, 8u);  // the veil alone: its front and back
 }
 
+TEST(Matte, TheyAreTheSameWhicheverOtherChannelsThereAre) {
+    const Scene scene = balls();
+    const Image image = image_of(scene);
+    for (const bool is_of_objects : {true, false}) {
+        Scene bare = scene;
+        bare.render.channels = {false, false, false, false, false};
+        (is_of_objects ? bare.render.channels.object_matte : bare.render.channels.material_matte) =
+            true;
+        const Image matte = image_of(bare);
+        ASSERT_EQ(matte.planes.size(), 12u);
+        for (const auto& [name, plane] : matte.planes)
+            EXPECT_EQ(plane, image.planes.at(name)) << name;
+    }
+}
+
 TEST(Matte, RanksFallAndNumbersOfMaterialsAgree) {
     Scene scene = balls();
     scene.render.channels.material = true;

@@ -187,17 +187,20 @@ static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, c
     }
 }
 
-/// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these.
+/// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these. A cube
+/// that other surfaces come before is one where the line crosses none of them in its voxel.
 static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                    lane_uint leaf, lane_int tested, ScanResult* r) {
     const lane_uint voxel =
         voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
         LANES_AS_UINT(tested);
     const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
+    const lane_uint before = r->count;
     if (VXL_SMOOTH && lanes_any(kinds.smooth))
         scan_smooth(s, w, voxel, kinds.smooth, kinds.lists, r);
     if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(p, s, w, voxel, kinds.exact, r);
-    return kinds.cubes | kinds.behind;
+    if (!VXL_SHARED_CUBES) return kinds.cubes;
+    return kinds.cubes | (kinds.behind & LANE_MASK(r->count == before));
 }
 
 #endif

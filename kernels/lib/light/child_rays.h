@@ -106,7 +106,7 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     r->flags = LANES_SELECT(p->leaving, (lane_uint)0, (lane_uint)VXL_PATH_WITHIN_SOURCE) |
-               VXL_PATH_ON_SURFACE;
+               (VXL_PATH_ON_SURFACE | VXL_PATH_REFRACTED);
     r->media = p->behind;
     r->medium = medium_inside(&p->behind, around->ranks);
     const Vector into = opposite(p->normal);

@@ -5,6 +5,7 @@
 
 #include "lib/light/medium_set.h"
 #include "lib/solid/solid_surface.h"
+#include "lib/surface/cube_behind.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/smooth.h"
 #include "lib/surface/triangle.h"
@@ -17,6 +18,7 @@
 typedef struct {
     lane_int on_surface;     // mask: begins on a surface
     lane_int goes_on;        // mask: continues an earlier ray, whose surface was met at t_first
+    lane_int refracted;      // mask: the surface that it begins on has refracted it
     lane_uint source;        // the primitive it begins on, or see source_of_hit
     lane_int within_source;  // mask: it travels on inside of that primitive's object
     lane_float t_first;
@@ -44,6 +46,7 @@ typedef struct {
                          // inside of, VXL_NO_MEDIUM for none
     lane_int in_body;    // mask: the walk has been in a cell of the body that the ray is inside of
     lane_int exit;       // mask: the hit is the face across which it left the body
+    CubeBehind behind;   // of scenes whose voxels may be exact and cubes at once
     lane_uint instance;  // whose surface was hit, VXL_NO_INSTANCE for the world's
 } SurfaceHit;
 
@@ -52,6 +55,18 @@ static inline void take_voxel_hit(SurfaceHit* found, lane_float t, lane_int acce
     const lane_int closer = accepted & LANE_MASK(t < found->t);
     found->t = LANES_SELECT(closer, t, found->t);
     found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
+}
+
+/// Ends the walks of `lanes` that have a cube behind there, where it is: the mask of these.
+static inline lane_int take_cube_behind(SurfaceHit* found, Walk* w, lane_int lanes) {
+    const lane_int taken = lanes & found->behind.kept;
+    if (!lanes_any(taken)) return taken;
+    put_back(&found->behind, w, taken);
+    found->voxel = LANES_SELECT(taken, found->behind.voxel, found->voxel);
+    found->exit &= ~taken;
+    take_voxel_hit(found, found->behind.t, taken);
+    found->hit |= taken;
+    return taken;
 }
 
 /// Ends walks that leave the body of cubes that their rays are inside of; the voxel is its last.
@@ -226,9 +241,10 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
 }
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
-static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, const Walk* w,
+static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
                                      lane_int tested, const RayState* ray_state,
                                      SurfaceHit* found) {
+    const lane_int all = tested;
     const lane_uint voxel = voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested,
                                          w->y & tested, w->z & tested) &
                             LANES_AS_UINT(tested);
@@ -258,9 +274,12 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     if (VXL_EXACT && lanes_any(exact))
         accepted |= hit_exact(p, s, w, voxel, exact, ray_state, found);
     if (VXL_SHARED_CUBES) {
-        const lane_int missed = kinds.behind & ~(on_cube | passed | accepted);
-        take_voxel_hit(found, w->t, missed);
-        accepted |= missed;
+        const lane_int listed = LANE_MASK(ray_state->source != VXL_NO_PRIMITIVE);
+        const lane_int through = on_cube & listed & (ray_state->goes_on | ray_state->refracted);
+        pass_cubes(&found->behind, all, kinds.behind, on_cube & listed & ~through);
+        const lane_int met = kinds.behind & ~((on_cube & ~through) | passed | accepted);
+        keep_cube(&found->behind, w, voxel, met, through);
+        accepted |= take_cube_behind(found, w, all & ~kinds.behind);
     }
     return accepted;
 }

@@ -32,6 +32,7 @@ static inline SurfaceHit no_hit_yet(void) {
     found.within = (lane_int)0;
     found.inside = (lane_uint)VXL_NO_MEDIUM;
     found.in_body = found.exit = (lane_int)0;
+    found.behind = no_cube_behind();
     found.instance = (lane_uint)VXL_NO_INSTANCE;
     return found;
 }
@@ -46,6 +47,10 @@ static inline void walk_on(const PyramidView* p, Walk* w, lane_float t_end, Surf
     found->leaf = LANES_SELECT(arrived, state.leaf, found->leaf);
     *waiting |= arrived;
     moving &= ~arrived;
+    if (VXL_SHARED_CUBES) {
+        found->behind.passes &= ~moving;
+        moving &= ~take_cube_behind(found, w, moving);
+    }
     if (VXL_CUBE_BODIES) {
         const lane_int left = moving & found->in_body;
         leave_body(found, w, left);
@@ -72,6 +77,10 @@ static inline void meet_surfaces(const PyramidView* p, const SurfaceView* s, Wal
     *waiting = (lane_int)0;
     if (!lanes_any(moving)) return;
     advance(p, w, (lane_int)0, moving);
+    if (VXL_SHARED_CUBES) {
+        const lane_int ending = moving & ~(in_grid(p, w) & LANE_MASK(w->t <= t_end));
+        moving &= ~take_cube_behind(found, w, ending);
+    }
     if (VXL_CUBE_BODIES) {
         const lane_int left = moving & found->in_body & ~in_grid(p, w);
         leave_body(found, w, left);
@@ -114,20 +123,15 @@ static inline Walk walk_of(global const float* restrict rays, uint stride, lane_
 
 /// The state of rays from the observer.
 static inline RayState sight_ray_state(void) {
-    const RayState ray_state = {(lane_int)0,
-                                (lane_int)0,
-                                (lane_uint)VXL_NO_PRIMITIVE,
-                                (lane_int)0,
-                                (lane_float)0.0f,
-                                empty_medium_set(),
-                                (lane_uint)VXL_NO_MEDIUM,
-                                (lane_int)0,
-                                (lane_int)0,
-                                (lane_uint)VXL_NO_INSTANCE,
-                                (lane_int)0,
-                                (lane_int)0,
-                                (lane_int)0};
-    return ray_state;
+    RayState r;
+    r.on_surface = r.goes_on = r.refracted = r.within_source = r.asks_side = (lane_int)0;
+    r.on_cube = r.joined = r.unsure = r.guesses = (lane_int)0;
+    r.source = (lane_uint)VXL_NO_PRIMITIVE;
+    r.t_first = (lane_float)0.0f;
+    r.media = empty_medium_set();
+    r.body = (lane_uint)VXL_NO_MEDIUM;
+    r.instance = (lane_uint)VXL_NO_INSTANCE;
+    return r;
 }
 
 static inline lane_int has_flag(lane_uint flags, uint flag) {
@@ -146,6 +150,7 @@ static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_ui
     if (VXL_INSTANCES)
         ray_state.instance = LANES_GATHER_UINT(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
+        if (VXL_SHARED_CUBES) ray_state.refracted = has_flag(flags, VXL_PATH_REFRACTED);
         ray_state.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
         if (lanes_any(ray_state.goes_on))
             ray_state.t_first = LANES_GATHER_FLOAT(batch->starts, ray);
@@ -278,6 +283,7 @@ static inline void take_hit(const SurfaceHit* other, lane_int taken, SurfaceHit*
         found->in_body = LANES_SELECT(taken, other->in_body, found->in_body);
         found->exit = LANES_SELECT(taken, other->exit, found->exit);
     }
+    if (VXL_SHARED_CUBES) replace_cubes(&found->behind, &other->behind, taken);
 }
 
 /// Puts lanes that are not `fresh` back to where their walks had been.

@@ -57,6 +57,7 @@ class ExrWriter {
             return static_cast<ExrWriter*>(self)->write(bytes, size, position);
         };
         check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &setup));
+        check(exr_set_longname_support(context_, 1));  // names of up to 255 bytes, not 31
     }
     ~ExrWriter() { exr_finish(&context_); }
     ExrWriter(const ExrWriter&) = delete;

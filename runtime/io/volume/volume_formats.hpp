@@ -21,6 +21,10 @@ std::vector<VolumePath> raw_files_of(const VolumePath& path);
 void write_volume_slices(const VolumePath& pattern, const Volume& volume);
 /// The path of the header of slices, without their number: `a/s.####.png` -> `a/s.json`.
 VolumePath slices_header_of(const VolumePath& pattern);
+
+/// The files in the folder whose names a stack of slices may have, whoever wrote them; its header's
+/// name is among them.
+std::vector<VolumePath> found_slices_of(const VolumePath& pattern);
 /// All slices, as many as their header tells of, and the header; empty where that isn't there.
 std::vector<VolumePath> slice_files_of(const VolumePath& pattern);
 void write_volume_ply(const VolumePath& path, const Volume& volume);

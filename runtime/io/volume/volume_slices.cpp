@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> a PNG for each slice k, as the observer sees it, and a JSON header.
+#include <algorithm>
+
 #include "runtime/base/frame_path.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
@@ -52,6 +54,18 @@ class WrittenSlices {
     std::vector<VolumePath> slices_;
 };
 
+/// True if a name is the pattern with some slice's number in it.
+bool has_number_in(const std::string& pattern, const std::string& name) {
+    constexpr size_t kMaxDigits = 9;
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    for (size_t i = 0, end = 0; i < name.size(); i = std::max(end, i + 1)) {
+        for (end = i; end < name.size() && is_digit(name[end]);) ++end;
+        if (end == i || end - i > kMaxDigits) continue;
+        if (frame_path(pattern, std::stoi(name.substr(i, end - i)), true) == name) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 VolumePath slices_header_of(const VolumePath& pattern) {
@@ -62,14 +76,29 @@ VolumePath slices_header_of(const VolumePath& pattern) {
     return pattern.parent_path() / (name.empty() ? "slices.json" : name + ".json");
 }
 
+std::vector<VolumePath> found_slices_of(const VolumePath& pattern) {
+    const VolumePath folder = pattern.parent_path();
+    std::vector<VolumePath> files{slices_header_of(pattern)};
+    std::error_code error;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(folder.empty() ? "." : folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (has_number_in(pattern.filename().string(), name)) files.push_back(folder / name);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
 std::vector<VolumePath> slice_files_of(const VolumePath& pattern) {
     const VolumePath header = slices_header_of(pattern);
     const VolumeJson json = read_header(header, VolumeFormat::slices);
     if (json.empty()) return {};
     const VolumeJson count = json.value("/shape/2"_json_pointer, VolumeJson());
+    constexpr int64_t kMaxSlices = 65536;  // those of the largest display
+    const int64_t slices = count.is_number_integer() ? count.get<int64_t>() : 0;
+    if (slices < 1 || slices > kMaxSlices) return {};
     std::vector<VolumePath> files;
-    for (int k = 0; count.is_number_integer() && k < count.get<int>(); ++k)
-        files.emplace_back(frame_path(pattern.string(), k, true));
+    for (int k = 0; k < int(slices); ++k) files.emplace_back(frame_path(pattern.string(), k, true));
     files.push_back(header);
     return files;
 }

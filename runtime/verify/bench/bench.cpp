@@ -153,8 +153,9 @@ std::vector<BenchRow> planned_rows(const BenchOptions& options, const BenchEntry
         entry.has_light ? std::min(entry.finest, options.finest_with_light) : entry.finest;
     for (const Surface surface : kBenchSurfaces)
         for (const Placement placement : options.placements) {
-            // Glass can't be an instance.
-            if (entry.has_light && placement == Placement::instance) continue;
+            // Cubes of glass can't be instances.
+            if (entry.has_light && shows_voxels(surface) && placement == Placement::instance)
+                continue;
             for (const int samples : entry.has_light ? options.samples : std::vector<int>{1})
                 for (const int resolution : options.resolutions) {
                     if (resolution < entry.coarsest || resolution > finest) continue;
