@@ -2,7 +2,7 @@
 #include "cli/channels.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <string>
 
 #include "cli/checks.hpp"
 
@@ -18,9 +18,10 @@ Channels parse_channels(const std::string& text, const char* origin) {
                 if (std::ranges::find(row.planes, std::string_view(name)) != row.planes.end())
                     fail_usage("{}: {} is written together with others; ask for {}", origin,
                                quote(name), row.name);
-            std::vector<std::string_view> names;
-            for (const ChannelRow& row : rows) names.push_back(row.name);
-            fail_usage("{}: there is no channel {}{}", origin, quote(name), suggest(name, names));
+            std::string names;
+            for (const ChannelRow& row : rows)
+                names += (names.empty() ? "" : ", ") + std::string(row.name);
+            fail_usage("{}: {} is none of {}", origin, quote(name), names);
         }
         channels.*found->member = true;
     }

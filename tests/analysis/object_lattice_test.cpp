@@ -203,7 +203,7 @@ TEST_F(FieldFiles, ThatAreFinerThanTheWorldBecomeInstances) {
     EXPECT_TRUE(is_instance(scene_of_field(R"(, "scale": 0.5)", "0.02")));
     EXPECT_FALSE(is_instance(scene_of_field(R"(, "scale": 2)", "0.03")));
     EXPECT_FALSE(is_instance(scene_of_field(R"(, "placement": "world")", "0.03")));
-    EXPECT_FALSE(is_instance(scene_of_field(R"(, "material": "glass")", "0.03")));
+    EXPECT_TRUE(is_instance(scene_of_field(R"(, "material": "glass")", "0.03")));
 }
 
 TEST_F(FieldFiles, ThatMustBeInTheWorldAreRefusedThereWithWhatToDo) {
