@@ -42,17 +42,30 @@ int max_overlapping(const Scene& scene, const Pyramid& world, const Features& fe
     return int(maximum);
 }
 
+/// How far rays begin from the observer's own because they come through a lens, along each axis,
+/// voxels. At the depth `near` the lens's disk has become smaller, or larger behind its focus.
+glm::dvec3 lens_reach(const Observer& observer, const GridFrame& world) {
+    if (!(observer.aperture > 0)) return glm::dvec3(0);
+    const glm::dvec3 ahead = observer.world_from_observer[2];
+    const double scale = std::abs(1 - observer.display.near / observer.focus);
+    const glm::dvec3 sines = glm::sqrt(glm::max(1.0 - ahead * ahead, 0.0));
+    return observer.aperture / 2 * std::max(scale, 1.0) * sines / world.voxel_edge;
+}
+
 /// True if rays from the observer may begin in a box: near their display's near surface, or where
 /// they enter across the world's sides.
 bool may_begin_in(const VoxelBox& box, const Scene& scene, const GridFrame& world) {
     const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
     const Display& display = scene.observer.display;
-    const glm::dvec3 reach(shape_row(display).start_radius(display) / world.voxel_edge);
+    const glm::dvec3 lens = lens_reach(scene.observer, world);
+    const glm::dvec3 reach = shape_row(display).start_radius(display) / world.voxel_edge + lens;
     if (overlap(box, {eye - reach, eye + reach})) return true;
     const VoxelBox all = {glm::dvec3(0), glm::dvec3(world.size)};
     const bool is_at_side = glm::any(glm::lessThanEqual(box.low, all.low)) ||
                             glm::any(glm::greaterThanEqual(box.high, all.high));
-    return is_at_side && overlap(box, all) && !overlap(all, {eye, eye});
+    const bool is_within = glm::all(glm::greaterThanEqual(eye - lens, all.low)) &&
+                           glm::all(glm::lessThanEqual(eye + lens, all.high));
+    return is_at_side && overlap(box, all) && !is_within;
 }
 
 }  // namespace

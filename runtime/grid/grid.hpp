@@ -80,8 +80,9 @@ struct Instance {
 struct InstanceSet {
     std::vector<InstanceModel> models;
     std::vector<Instance> list;
-    float origin_offset = 0;  ///< PyramidShape::origin_offset
-    VoxelBox box;             ///< around all of them where they are now
+    std::vector<size_t> counted;  ///< of worlds that are only counted: Pyramid::records() of models
+    float origin_offset = 0;      ///< PyramidShape::origin_offset
+    VoxelBox box;                 ///< around all of them where they are now
     Buffer<InstanceRecord> records;
     Buffer<InstanceNode> nodes;  ///< the tree over their boxes; the root is the first node
     Buffer<uint32_t> materials;

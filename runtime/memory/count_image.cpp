@@ -6,6 +6,7 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/sector_table.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
@@ -51,12 +52,32 @@ DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& wo
     return dilated_occupancy;
 }
 
-/// The maximum that the emitters of a world may take: as if all of its voxels shone.
-Buffer<uint8_t> count_emitters(const Device& device, const Pyramid& world) {
-    const auto voxels = std::min<size_t>(world.voxel_count, kMaxEmitters);
-    const size_t bytes = voxels * sizeof(EmitterRecord) + std::bit_ceil(2 * voxels + 1) * 4 +
+/// The maximum number of voxels that shine in a world: all of emissive instances' models, and the
+/// world's own, without the models that are joined to them.
+size_t count_shining(const Scene& scene, const Pyramid& world) {
+    const InstanceSet& instances = world.instances;
+    size_t of_models = 0, shining = 0;
+    for (const size_t records : instances.counted) of_models += records;
+    const auto shines_in_world = [&](const Object& object) {
+        return is_emissive(scene, object) && !is_instanced(scene, object);
+    };
+    if (std::ranges::any_of(scene.objects, shines_in_world))
+        shining = world.records() - std::min<size_t>(of_models, world.records());
+    for (const Instance& instance : instances.list)
+        if (is_emissive(scene, scene.objects[instance.object]))
+            shining += instances.counted[instance.model];
+    return shining;
+}
+
+/// The maximum that the emitters of a world may take, as if all those voxels shone.
+void count_emitters(const Device& device, const Scene& scene, const Pyramid& world,
+                    ImageMemory& memory) {
+    const size_t shining = count_shining(scene, world);
+    const size_t emitters = std::min(shining, kMaxEmitters);
+    const size_t bytes = emitters * sizeof(EmitterRecord) + std::bit_ceil(2 * emitters + 1) * 4 +
                          (world.instances.list.size() + 1) * sizeof(EmitterFrame);
-    return {device, "emitters", bytes};
+    memory.emitters = {device, "emitters", bytes};
+    memory.emitter_host_bytes = emitter_host_bytes(shining, world.records());
 }
 
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
@@ -71,7 +92,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     ImageMemory memory;
     memory.rays = allocate_rays(device, features, counts);
     memory.tables = count_tables(device, scene);
-    if (features.emitters != VXL_EMITTERS_NONE) memory.emitters = count_emitters(device, world);
+    if (features.emitters != VXL_EMITTERS_NONE) count_emitters(device, scene, world, memory);
     if (const auto of = dilation_that_pays(features, world, rays, pixel)) {
         memory.dilated_occupancy = count_dilated_occupancy(device, world, *of);
         memory.beams = allocate_beams(device, counts.rays);

@@ -20,6 +20,7 @@ struct ImageMemory {
     DensityGrid density;
     Buffer<uint8_t> tables;  ///< of materials, objects and samples
     Buffer<uint8_t> emitters;
+    double emitter_host_bytes = 0;  ///< of main memory while they are listed
     ImageArrays image;
     std::vector<MatteArrays> mattes;
 };

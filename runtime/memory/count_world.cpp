@@ -220,6 +220,8 @@ Pyramid count_joining(const Device& device, const ListedInstances& listed, const
         kept.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i]).pyramid});
     Pyramid joined = allocate_joined(device, world, kept);
     joined.instances.list = listed.list;
+    for (const ModelPyramid& model : kept)
+        joined.instances.counted.push_back(model.pyramid.records());
     joined.instances.records = Buffer<InstanceRecord>(device, "instances", listed.list.size());
     joined.instances.nodes = Buffer<InstanceNode>(device, "instance tree", 2 * listed.list.size());
     return joined;

@@ -8,6 +8,13 @@
 
 namespace voxelume {
 
+namespace {
+
+/// A lens that is wider, in proportion to its focus, would send rays along its own plane.
+constexpr double kMaxLensRatio = 1000;
+
+}  // namespace
+
 std::span<const ValueRow<ObserverParameters>> observer_rows() {
     using O = ObserverParameters;
     static constexpr std::array<ValueRow<O>, 6> rows = {{{"position", &O::position, kCoordinate},
@@ -28,6 +35,8 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
     if (p.aperture > 0 && !p.focus && !p.look_at)
         refuse("aperture",
                "a lens shows one distance sharp; say which by \"focus\" or \"look_at\"");
+    if (observer.aperture > kMaxLensRatio * observer.focus)
+        refuse("aperture", "a lens is at most 1,000 times as wide as its \"focus\" is far away");
     if (p.turn) {
         observer.world_from_observer = rotation_from_turn(*p.turn);
         return;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "runtime/analysis/culling.hpp"
 #include "runtime/batch/render_frames.hpp"
@@ -132,6 +133,25 @@ TEST(BuiltScene, OfMirrorsGlassLampsAndMediaTakesWhatIsPromised) {
     Scene global = room(R"("emission": [3, 2, 1])", "", "", 0.02);
     global.render.light = LightMode::global;
     expect_image_kept("lamp, global", global);
+}
+
+TEST(BuiltScene, OfManyLampsThatShareAModelTakesWhatIsPromised) {
+    nlohmann::json scene = nlohmann::json::parse(R"({"voxelume": 1,
+        "world": {"voxel_size": 0.05, "bounds": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
+        "materials": {"clay": {}, "lamp": {"emission": [6, 6, 6]}},
+        "models": {"floor": {"shape": "box", "size": [3.8, 0.1, 3.8], "surface": "cubes"},
+                   "shade": {"shape": "box", "size": [0.6, 0.5, 0.4], "surface": "cubes",
+                             "voxel_size": 0.01}},
+        "objects": [{"model": "floor", "material": "clay", "position": [0, -0.4, 0]}],
+        "observer": {"position": [0, 0, -1.9],
+                     "display": {"shape": "pyramid", "angle": 40}},
+        "render": {"size": [24, 18], "samples": 1, "light": "global", "bounces": 1}})");
+    for (int i = 0; i < 40; ++i)
+        scene["objects"].push_back({{"model", "shade"},
+                                    {"material", "lamp"},
+                                    {"position", {0.7 * (i % 5) - 1.5, 0.6, 0.2 * (i / 5) - 1}},
+                                    {"placement", "instance"}});
+    expect_image_kept("instanced lamps", parsed(scene.dump()));
 }
 
 TEST(BuiltScene, OfALargeWorldTakesWhatIsPromised) {

@@ -242,6 +242,9 @@ TEST(SceneErrors, RefuseALensWithoutFocusOrForAnotherShape) {
                 HasSubstr("\"pyramid\""));
     EXPECT_THAT(refused(R"("pyramid")", R"("aperture": -1, "focus": 2)"), HasSubstr("aperture"));
     EXPECT_THAT(refused(R"("pyramid")", R"("aperture": 1, "focus": 0)"), HasSubstr("focus"));
+    EXPECT_THAT(refused(R"("pyramid")", R"("aperture": 1, "focus": 0.0009)"),
+                HasSubstr("at most 1,000 times"));
+    EXPECT_EQ(refused(R"("pyramid")", R"("aperture": 1, "focus": 0.0011)"), "no error");
 }
 
 class SceneText : public testing::TestWithParam<const char*> {};

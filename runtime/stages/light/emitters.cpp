@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <map>
 #include <span>
+#include <tuple>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/scene/predicates.hpp"
@@ -28,7 +29,24 @@ double luminance(const glm::vec3& color) {
     return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-/// The emitters of a source whose voxels have a volume of so many cubic metres.
+/// The order of emitters' importance, which no two share: equal ones go by a hash, so that those
+/// that stay lie all over the scene.
+bool matters_more(const WeightedEmitter& a, const WeightedEmitter& b) {
+    const auto rank = [](const WeightedEmitter& e) {
+        return std::tuple(-e.weight, emitter_hash(e.record.voxel, e.record.instance),
+                          e.record.instance, e.record.voxel);
+    };
+    return rank(a) < rank(b);
+}
+
+void keep_brightest(std::vector<WeightedEmitter>& emitters) {
+    if (emitters.size() <= kMaxEmitters) return;
+    std::ranges::nth_element(emitters, emitters.begin() + kMaxEmitters, matters_more);
+    emitters.resize(kMaxEmitters);
+}
+
+/// Adds the emitters of a source whose voxels have a volume of so many cubic metres. Never holds
+/// more than twice those that may stay.
 void add_emitters(const EmissiveSource& source, std::span<const ListedPiece> voxels,
                   uint32_t instance, double volume, std::vector<WeightedEmitter>& emitters) {
     const double side = std::pow(volume, 2.0 / 3);
@@ -45,7 +63,9 @@ void add_emitters(const EmissiveSource& source, std::span<const ListedPiece> vox
         emitter.weight =
             luminance(source.emission[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK]) * side *
             open;
-        if (emitter.weight > 0) emitters.push_back(emitter);
+        if (!(emitter.weight > 0)) continue;
+        if (emitters.size() == 2 * kMaxEmitters) keep_brightest(emitters);
+        emitters.push_back(emitter);
     }
 }
 
@@ -82,10 +102,11 @@ std::vector<WeightedEmitter> emitters_of(const Device& device, const Features& f
     return emitters;
 }
 
-void keep_brightest(std::vector<WeightedEmitter>& emitters) {
+/// Leaves as many emitters as there may be, whose order depends on no library's.
+void limit_emitters(std::vector<WeightedEmitter>& emitters) {
     if (emitters.size() <= kMaxEmitters) return;
-    std::ranges::stable_sort(emitters, std::greater<>(), &WeightedEmitter::weight);
-    emitters.resize(kMaxEmitters);
+    keep_brightest(emitters);
+    std::ranges::sort(emitters, matters_more);
 }
 
 std::vector<EmitterRecord> records_of(const std::vector<WeightedEmitter>& emitters) {
@@ -160,6 +181,16 @@ std::vector<EmitterFrame> frames_of(const Scene& scene, const Pyramid& world) {
 
 }  // namespace
 
+double emitter_host_bytes(size_t voxels, size_t listed) {
+    constexpr double kTables = 32;  // of the alias table while it is made, an emitter
+    const auto emitters = double(std::min(voxels, kMaxEmitters));
+    // Arrays that grow have up to twice the room that they need, and are copied to it.
+    const double gathered =
+        3 * double(std::min(voxels, 2 * kMaxEmitters)) * sizeof(WeightedEmitter);
+    return gathered + double(std::min(voxels, listed)) * sizeof(ListedPiece) +
+           emitters * (2 * sizeof(EmitterRecord) + 2 * sizeof(double) + kTables + 16);
+}
+
 int emitter_feature(const RenderSettings& render) {
     if (render.light != LightMode::global || render.bounces == 0) return VXL_EMITTERS_NONE;
     switch (render.lamps) {
@@ -179,7 +210,7 @@ EmitterTable build_emitters(const Device& device, const Features& features, cons
     table.volume = float(volume_of(world.frame.voxel_edge));
     std::vector<WeightedEmitter> emitters = emitters_of(device, features, scene, world);
     if (emitters.empty()) return table;
-    keep_brightest(emitters);
+    limit_emitters(emitters);
     const std::vector<EmitterRecord> records = records_of(emitters);
     const std::vector<uint32_t> places = hash_table(records);
     table.count = uint32_t(records.size());
