@@ -105,6 +105,9 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
         ->check(in_range(1e-6, 1e6));
     app.add_option("--up", choices.up,
                    "of a model file: which axis is up, y or z; z by default for .stl alone");
+    app.add_option("--clip", choices.clip,
+                   "of a glTF file: name of the clip that moves it; its first by default")
+        ->type_name("NAME");
 }
 
 ImportOptions options_of(const ImportChoices& choices, Size size, const char* command) {
@@ -119,6 +122,7 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
     options.own_camera = choices.view.empty() && !choices.angle;
     options.ground = choices.ground.value_or(true);
     if (!choices.background.empty()) options.background = color_of(choices.background, command);
+    options.clip = choices.clip;
     options.fit = choices.fit.value_or(0);
     if (!choices.up.empty())
         options.up = choose(choices.up, kAxes, fmt::format("{}: --up", command).c_str());
@@ -127,13 +131,14 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
 }
 
 void refuse_choices(const ImportChoices& choices, const char* command) {
-    const std::array<std::pair<const char*, bool>, 6> given = {
+    const std::array<std::pair<const char*, bool>, 7> given = {
         {{"--view", !choices.view.empty()},
          {"--fov", choices.angle.has_value()},
          {"--background", !choices.background.empty()},
          {"--ground", choices.ground.has_value()},
          {"--fit", choices.fit.has_value()},
-         {"--up", !choices.up.empty()}}};
+         {"--up", !choices.up.empty()},
+         {"--clip", !choices.clip.empty()}}};
     for (const auto& [name, is_given] : given)
         if (is_given)
             fail_usage(

@@ -28,6 +28,7 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     inside.is_parallel = options.parallel;
     inside.is_lattice = options.lattice;
     inside.has_own_camera = options.own_camera;
+    inside.clip = options.clip;
     inside.turns = options.turns;
     inside.angle = options.angle;
     inside.has_ground = options.ground;

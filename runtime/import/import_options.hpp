@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 
 #include "runtime/scene/framing.hpp"
 
@@ -21,6 +22,7 @@ struct ImportOptions {
     bool is_lattice = false;
     /// The file's own camera, where it has one, is the observer.
     bool has_own_camera = true;
+    std::string clip;    ///< name of a glTF file's; empty: its first
     bool turns = false;  ///< all directions around show it from one distance, at one height
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     bool has_ground = true;

@@ -262,7 +262,7 @@ Object ObjectReader::read(const SceneValue& value, size_t number) const {
         object.placement =
             static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
     if (const auto visible = fields.find("visible")) object.visible = visible->boolean();
-    object.world_from_object = read_placement(fields);
+    object.world_from_object = read_object_place(fields);
     return object;
 }
 

@@ -31,6 +31,8 @@ struct ImportOptions {
     /// The file's own camera, where it has one (glTF), is the observer, and longitude, latitude,
     /// parallel and angle don't count.
     bool own_camera = true;
+    /// Name of the clip (glTF's animation) that moves the file's nodes; empty: the first.
+    std::string clip{};
     /// The model has room to turn: pictures of all longitudes show it from one distance.
     bool turns = false;
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
