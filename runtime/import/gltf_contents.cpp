@@ -11,6 +11,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
+#include "runtime/import/gltf_morphs.hpp"
 #include "runtime/import/gltf_sight.hpp"
 #include "runtime/import/gltf_tracks.hpp"
 #include "runtime/import/gltf_values.hpp"
@@ -54,6 +55,7 @@ struct MeshModel {
     std::string name;
     int number = 0;      ///< of the mesh in the file
     double stretch = 0;  ///< largest of an object that moves; 0: none does
+    GltfMorph morph;
 };
 
 class SceneOfGltf {
@@ -108,13 +110,14 @@ class SceneOfGltf {
         has_colors_ |= summary.paint.is_there();
         const std::string wanted = node.name.empty() ? mesh.text("name") : node.name;
         const std::string name = objects_.unique(wanted.empty() ? "object" : wanted);
-        MeshModel& shown = model_of(node.mesh, mesh);
+        MeshModel& shown = model_of(node, mesh);
         std::string place = place_text(node, name);
         contents_.objects.push_back(fmt::format("{{\"name\": {}, \"model\": {}{}{}}}",
                                                 json_text(name), json_text(shown.name),
                                                 materials_member(summary), place));
+        const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface);
         for (const glm::dmat4& map : maps) {
-            add_box(map, summary.surface);
+            add_box(map, box);
             if (motion_.moves(node.number))
                 shown.stretch = std::max(shown.stretch, stretch_of(glm::dmat3(map)).max);
         }
@@ -138,13 +141,19 @@ class SceneOfGltf {
         }
     }
 
-    MeshModel& model_of(int number, const GltfValue& mesh) {
-        const auto [entry, is_new] = model_numbers_.try_emplace(number, models_.size());
+    /// The model of the node's mesh, which nodes with weights of their own don't share.
+    MeshModel& model_of(const GltfNode& node, const GltfValue& mesh) {
+        GltfMorph morph = gltf_morph(gltf_, clip_, node);
+        const std::pair key(node.mesh, morph.owner);
+        const auto [entry, is_new] = model_numbers_.try_emplace(key, models_.size());
         if (!is_new) return models_[entry->second];
-        const std::string name = mesh.text("name");
-        models_.push_back(
-            {model_names_.unique(name.empty() ? fmt::format("mesh {}", number + 1) : name), number,
-             0});
+        const std::string wanted = mesh.text("name");
+        const std::string name =
+            model_names_.unique(wanted.empty() ? fmt::format("mesh {}", node.mesh + 1) : wanted);
+        if (morph.keys)
+            contents_.tracks.push_back(
+                keys_track(fmt::format("models.{}.morph.weights", target_name(name)), *morph.keys));
+        models_.push_back({name, node.mesh, 0, std::move(morph)});
         return models_.back();
     }
 
@@ -154,8 +163,9 @@ class SceneOfGltf {
             model.stretch > 0 ? fmt::format(", \"voxel_size\": {}",
                                             rounded(contents_.voxel_size.x / model.stretch, 4))
                               : "";
-        return fmt::format("{}: {{\"mesh\": {}, \"part\": {}, \"surface\": \"exact\"{}}}",
-                           json_text(model.name), json_text(file_.name), model.number + 1, voxels);
+        return fmt::format("{}: {{\"mesh\": {}, \"part\": {}, \"surface\": \"exact\"{}{}}}",
+                           json_text(model.name), json_text(file_.name), model.number + 1,
+                           morph_member(model.morph), voxels);
     }
 
     /// The materials of an object's groups, each of which is written once.
@@ -187,10 +197,10 @@ class SceneOfGltf {
     GltfMotion motion_;
     GltfFrames frames_;
     Contents contents_;
-    std::map<int, size_t> model_numbers_;             ///< by mesh, places in models_
-    std::vector<MeshModel> models_;                   ///< in the order of their first objects
-    std::map<std::string, size_t> material_numbers_;  ///< by group
-    std::map<std::string, std::string> materials_;    ///< by group
+    std::map<std::pair<int, int>, size_t> model_numbers_;  ///< by mesh and owner of weights
+    std::vector<MeshModel> models_;                        ///< in the order of their first objects
+    std::map<std::string, size_t> material_numbers_;       ///< by group
+    std::map<std::string, std::string> materials_;         ///< by group
     NameList objects_{{"ground"}}, model_names_{{"ground"}};
     NameList material_names_{{"default", "ground"}};
     bool has_textures_ = false, has_colors_ = false;

@@ -35,21 +35,6 @@ Keyframes without_flatness(Keyframes keys) {
     return keys;
 }
 
-std::string track_text(const std::string& target, const Keyframes& keys) {
-    std::vector<std::string> items;
-    for (size_t i = 0; i < keys.frames.size(); ++i) {
-        std::string item = fmt::format("{{\"time\": {}, \"value\": {}", number_text(keys.frames[i]),
-                                       row_text(keys.values, i, keys.width));
-        if (keys.interpolation == Interpolation::spline)
-            item += fmt::format(", \"in\": {}, \"out\": {}", row_text(keys.in, i, keys.width),
-                                row_text(keys.out, i, keys.width));
-        items.push_back(item + "}");
-    }
-    return fmt::format("{{\"target\": {}, \"interpolation\": \"{}\", \"keys\": [\n      {}]}}",
-                       json_text(target), kInterpolations.at(size_t(keys.interpolation)),
-                       fmt::join(items, ",\n      "));
-}
-
 /// Members of a place, without braces, but for those whose values tracks have.
 std::string factor_members(const Factors& factors, const std::array<const GltfTrack*, 3>& tracks) {
     std::vector<std::string> members;
@@ -98,6 +83,21 @@ std::string matrix_text(const glm::dmat4& m) {
     return fmt::format("[{}]", fmt::join(rows, ", "));
 }
 
+std::string keys_track(const std::string& target, const Keyframes& keys) {
+    std::vector<std::string> items;
+    for (size_t i = 0; i < keys.frames.size(); ++i) {
+        std::string item = fmt::format("{{\"time\": {}, \"value\": {}", number_text(keys.frames[i]),
+                                       row_text(keys.values, i, keys.width));
+        if (keys.interpolation == Interpolation::spline)
+            item += fmt::format(", \"in\": {}, \"out\": {}", row_text(keys.in, i, keys.width),
+                                row_text(keys.out, i, keys.width));
+        items.push_back(item + "}");
+    }
+    return fmt::format("{{\"target\": {}, \"interpolation\": \"{}\", \"keys\": [\n      {}]}}",
+                       json_text(target), kInterpolations.at(size_t(keys.interpolation)),
+                       fmt::join(items, ",\n      "));
+}
+
 GltfPlace gltf_place(const GltfMotion& motion, const GltfNode& node, const std::string& object) {
     constexpr std::array kKeys = {"position", "turn", "scale"};
     const std::vector<Link> links = links_of(motion, node);
@@ -115,7 +115,7 @@ GltfPlace gltf_place(const GltfMotion& motion, const GltfNode& node, const std::
                 const std::string target =
                     fmt::format("objects.{}.{}{}", target_name(object),
                                 is_own ? "" : fmt::format("parents[{}].", i), kKeys[k]);
-                place.tracks.push_back(track_text(
+                place.tracks.push_back(keys_track(
                     target, k == 2 ? without_flatness(tracks[k]->keys) : tracks[k]->keys));
             }
         }

@@ -23,6 +23,9 @@ GltfPlace gltf_place(const GltfMotion& motion, const GltfNode& node, const std::
 /// Rows of 4 numbers.
 std::string matrix_text(const glm::dmat4& m);
 
+/// Keys in seconds, as a track.
+std::string keys_track(const std::string& target, const Keyframes& keys);
+
 /// Values frame by frame, from frame 1 on, as a track.
 std::string baked_track(const std::string& target, const std::vector<glm::dvec3>& values);
 
