@@ -126,6 +126,8 @@ bool is_beyond_a_schema(const std::string& objection) {
                              "has another form",
                              "there is nothing between",
                              "is for turns",
+                             "not above that of the point before it",
+                             "give the density a \"transfer\"",
                              "name its \"part\"",
                              "is a slope of a spline",
                              "numbers, and the key's value has",
