@@ -180,21 +180,34 @@ TEST_F(TransferTest, LightOfARampIsNearlyThatOfThinLayers) {
     }
 }
 
-TEST_F(TransferTest, OpticalDepthOfARampIsExactFromAllSides) {
-    // A colour of 0: what is left of the background tells the depth.
-    Scene scene = ramp_scene("[-4, 0.6875, 0.6875]", R"("absorption": [0.25, 0.5, 0.125], )");
-    for (TransferPoint& point : std::get<GridDensity>(scene.world.medium.density).transfer)
-        point.color = glm::vec3(0);
-    const Image image = picture(scene);
-    const double depth = integral(3);
-    EXPECT_GT(depth, 1);
-    for (size_t pixel = 0; pixel < 16; ++pixel)
-        for (int channel = 0; channel < 3; ++channel) {
-            const double share = channel == 0 ? 0.25 : channel == 1 ? 0.5 : 0.125;
-            const double left =
-                color_of(image, pixel, channel) / double(scene.world.background[channel]);
-            EXPECT_NEAR(-std::log(left), share * depth, 1e-5 * share * depth) << channel;
-        }
+TEST_F(TransferTest, OpticalDepthOfARampIsExactFromBothEnds) {
+    for (const char* position : {"[-4, 0.6875, 0.6875]", "[6, 0.6875, 0.6875]"}) {
+        // A colour of 0: what is left of the background tells the depth.
+        Scene scene = ramp_scene(position, R"("absorption": [0.25, 0.5, 0.125], )");
+        for (TransferPoint& point : std::get<GridDensity>(scene.world.medium.density).transfer)
+            point.color = glm::vec3(0);
+        const Image image = picture(scene);
+        const double depth = integral(3);
+        EXPECT_GT(depth, 1);
+        for (size_t pixel = 0; pixel < 16; ++pixel)
+            for (int channel = 0; channel < 3; ++channel) {
+                const double share = channel == 0 ? 0.25 : channel == 1 ? 0.5 : 0.125;
+                const double left =
+                    color_of(image, pixel, channel) / double(scene.world.background[channel]);
+                EXPECT_NEAR(-std::log(left), share * depth, 1e-5 * share * depth) << channel;
+            }
+    }
+}
+
+TEST_F(TransferTest, HasTheSameBitsWithAnyNumberOfLanes) {
+    const Scene scene = ramp_scene("[-3, 2.5, 4]");
+    RenderReport report;
+    const Image one = render(test_device(1), scene, report);
+    for (const int lanes : {4, 16}) {
+        const Image more = render(test_device(lanes), scene, report);
+        for (const char* name : {"R", "G", "B"})
+            EXPECT_EQ(one.planes.at(name), more.planes.at(name)) << lanes << name;
+    }
 }
 
 TEST_F(TransferTest, ThatIsLitIsDarkerOnTheSideAwayFromTheLight) {

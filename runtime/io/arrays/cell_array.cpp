@@ -106,6 +106,7 @@ void check_array(const CellArray& array, const InputFile& data) {
     if (array.skip > kMaxSkip)
         data.refuse(fmt::format("its values begin after {} bytes, {} at most are possible",
                                 array.skip, kMaxSkip));
+    if (!array.slices.empty()) return;  // each is checked as it is read
     const uint64_t stored = data.size() > array.start ? data.size() - array.start : 0;
     if (array.is_gzip ? array.bytes() / kMaxDeflated > stored : array.bytes() > stored)
         data.refuse(
