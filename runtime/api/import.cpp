@@ -34,6 +34,8 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     inside.has_ground = options.ground;
     if (options.background) inside.background = color_of(*options.background);
     inside.fit = options.fit;
+    if (options.spacing)
+        inside.spacing = {(*options.spacing)[0], (*options.spacing)[1], (*options.spacing)[2]};
     inside.up = static_cast<UpAxis>(options.up);
     inside.size = api::vector_of(options.size);
     return inside;

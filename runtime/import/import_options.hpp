@@ -28,6 +28,7 @@ struct ImportOptions {
     bool has_ground = true;
     std::optional<glm::vec3> background;  ///< linear Rec. 709; the ground shows the same colour
     double fit = 0;                       ///< metres of the longest side; 0: the file's own size
+    std::optional<glm::dvec3> spacing;    ///< metres from voxel to voxel, before `up` turns them
     UpAxis up = UpAxis::automatic;        ///< Z for STL, Y for other meshes and voxels
     glm::ivec2 size{800, 600};            ///< pixels
 };

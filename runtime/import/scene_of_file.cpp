@@ -185,6 +185,13 @@ std::string scene_of_file(const std::filesystem::path& file, const std::string& 
     if (!options.clip.empty() && read != gltf_contents)
         throw Error(ErrorKind::usage, "{}: only glTF files have clips; leave {} out",
                     SourcePlace(file.string()), quote(options.clip));
+    if (options.spacing && read != voxel_contents)
+        throw Error(ErrorKind::usage,
+                    "{}: only scans, arrays and files of voxels of one model have a spacing",
+                    SourcePlace(file.string()));
+    if (options.spacing && options.fit > 0)
+        throw Error(ErrorKind::usage, "{}: a size and a spacing; leave one of them out",
+                    SourcePlace(file.string()));
     return scene_of(read({file, name, options, assets}), options);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/arrays/array_density.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
@@ -97,6 +98,19 @@ TEST_F(PngStackTest, HasItsFirstRowAboveAndItsFirstSliceBefore) {
         for (int y = 0; y < 3; ++y)
             for (int x = 0; x < 5; ++x)
                 EXPECT_EQ(values[size_t((z * 3 + y) * 5 + x)], value_in_stack(x, 2 - y, 3 - z));
+}
+
+TEST_F(PngStackTest, LiesAsFarApartAsItsSpacing) {
+    const std::filesystem::path first = deep_stack();
+    ImportOptions options;
+    options.spacing = {0.5, 0.25, 2};
+    AssetStore assets;
+    const std::string text = scene_of_file(first, "ct008.png", options, assets);
+    EXPECT_THAT(text, HasSubstr("\"scale\": [0.5, 0.25, 2]}"));
+    EXPECT_THAT(text, HasSubstr("\"world\": {\"voxel_size\": [0.5, 0.25, 2]"));
+    options.up = UpAxis::z;
+    EXPECT_THAT(scene_of_file(first, "ct008.png", options, assets),
+                HasSubstr("\"world\": {\"voxel_size\": [0.5, 2, 0.25]"));
 }
 
 TEST_F(PngStackTest, OfColoursIsCubes) {
