@@ -44,6 +44,7 @@ void add_track(const std::string& target, const std::vector<glm::dmat4>& maps, c
 
 std::vector<glm::dmat4> all_maps(const GltfFrames& frames, const GltfNode& node) {
     std::vector<glm::dmat4> maps;
+    maps.reserve(size_t(frames.count));
     for (int frame = 1; frame <= frames.count; ++frame) maps.push_back(frames.map_at(node, frame));
     return maps;
 }
@@ -142,6 +143,7 @@ std::vector<glm::dmat4> GltfFrames::maps_of(const GltfNode& node) const {
     if (!motion.moves(node.number)) return {node.world_from_node};
     std::vector<glm::dmat4> maps;
     const int some = std::min(count, kMaxMaps);
+    maps.reserve(size_t(some));
     for (int i = 0; i < some; ++i)
         maps.push_back(map_at(node, 1 + int(int64_t(i) * (count - 1) / std::max(some - 1, 1))));
     return maps;

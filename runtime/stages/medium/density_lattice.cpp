@@ -112,7 +112,7 @@ void DensityLattice::average(size_t number, std::span<float, kBrickCells> densit
                                  ? light_on(absorptions, frame_.voxel_edge, lit_)
                                  : 1.0;
         for (int c = 0; c < 3; ++c)
-            colors[size_t(3 * cell + c)] = sum.w > 0 ? float(light * sum[c] / sum.w) : 0.0f;
+            colors[3 * size_t(cell) + size_t(c)] = sum.w > 0 ? float(light * sum[c] / sum.w) : 0.0f;
     }
 }
 
