@@ -38,7 +38,8 @@ TEST_F(CliMemoryTest, CheckTellsProgramsWhetherTheSceneFits) {
 
 TEST_F(CliMemoryTest, AMemoryLimitRefusesWhatNeedsMoreBeforeItIsTaken) {
     put_bytes(folder / "scene.json",
-              R"({"voxelume": 1, "models": {"m": {"shape": "sphere", "surface": "cubes"}},
+              R"({"voxelume": 1, "models": {"m": {"shape": "sphere", "radius": 0.3,
+"surface": "cubes"}},
 "world": {"resolution": 16}, "objects": [{"model": "m"}], "render": {"size": [32, 24]}})");
     const ProgramResult fits = run("render scene.json -q -o a.png --memory-limit 1GiB");
     EXPECT_EQ(fits.exit_code, 0) << fits.err;
