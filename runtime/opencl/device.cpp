@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/opencl/program_cache.hpp"
@@ -67,8 +68,11 @@ cl::Device part_of(const cl::Device& device) {
     return parts.at(0);
 }
 
-/// Limits a device's memory as VOXELUME_MEMORY_MB and VOXELUME_BUFFER_MB say.
+/// Limits a device's memory as VOXELUME_MEMORY_MB, VOXELUME_BUFFER_MB and the process's limits say.
+/// That of a CPU is main memory.
 void limit_memory(DeviceInfo& info) {
+    info.memory =
+        std::min(info.memory, info.kind == DeviceKind::cpu ? main_memory() : chosen_memory_limit());
     const auto limit = [](const char* name, uint64_t& bytes) {
         const auto megabytes = uint64_t(number_in_environment(name));
         if (megabytes != 0) bytes = std::min(bytes, megabytes << 20);
