@@ -129,6 +129,7 @@ SEEDS = {
     "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip")],
     "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
+    "1.png": [png(5, 3)],
     "schem": [schem(), schematic(), litematic(), gzip.compress(schem(), mtime=0)],
 }
 

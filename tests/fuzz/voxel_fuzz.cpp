@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/io/arrays/array_density.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "tests/fuzz/refusals.hpp"
@@ -45,5 +46,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     check_model(file, Surface::cubes, labels);
     check_model(file, Surface::smooth, above);
     check_refusal(file.string(), [&] { summary_of_array(format->array(file)); });
+    check_refusal(file.string(), [&] { read_array_density(format->array(file), glm::dmat4(1)); });
     return 0;
 }
