@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "tests/cli/scene_program.hpp"
 
@@ -102,6 +103,28 @@ TEST_F(CliDriverTest, KeepsOneSmallFileInTheCache) {
         ++files;
     }
     EXPECT_EQ(files, 1);
+}
+
+TEST_F(CliDriverTest, SaysHowLongItCompilesKernels) {
+    const ProgramResult result = with("", "render scene.json -q -o a.exr --progress json");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    int kernels = 0, known = 0;
+    double seconds = 0;
+    std::istringstream lines(result.err);
+    for (std::string line; std::getline(lines, line);) {
+        const Json event = Json::parse(line);
+        if (event["event"] != "compiling") continue;
+        EXPECT_EQ(event["kernel"], ++kernels);
+        known = event["known"];
+        EXPECT_GE(event["compile_seconds"], seconds);
+        seconds = event["compile_seconds"];
+    }
+    EXPECT_GT(kernels, 5);
+    EXPECT_GE(known, kernels);
+    EXPECT_GT(seconds, 0);
+    EXPECT_THAT(with("", "render scene.json -q -o a.exr --progress json").err,
+                testing::Not(HasSubstr("compiling")))
+        << "they are kept";
 }
 
 }  // namespace voxelume
