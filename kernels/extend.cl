@@ -180,7 +180,7 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
                                          lane_float chance, const PathSamples* samples,
                                          const Emitters* emitters, NewRays* r) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    const SquarePoint choice = path_point(samples, VXL_DECISION_EMITTER);
+    const SquareBits choice = path_bits(samples, VXL_DECISION_EMITTER);
     const SquarePoint place = path_point(samples, VXL_DECISION_EMITTER_POINT);
     Choice way;
     way.diffuse = p->hit & LANE_MASK(largest(lobes->diffuse) > 0.0f);

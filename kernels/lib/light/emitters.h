@@ -148,17 +148,17 @@ static inline lane_float spread_again(lane_float x, lane_float share, lane_int y
 
 /// Chooses an emitter by `choice`, and the point of its box's sides at `place`.
 static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float4 edge,
-                                         SquarePoint choice, SquarePoint place) {
-    const lane_float zero = (lane_float)0.0f;
-    const lane_uint slot = min(LANES_UINT(choice.x * (float)e->count), (lane_uint)(e->count - 1u));
+                                         SquareBits choice, SquarePoint place) {
+    const lane_float zero = (lane_float)0.0f, by_share = unit_interval(choice.y);
+    const lane_uint slot = part_of(choice.x, e->count);
     const lane_uint r = slot * (uint)VXL_EMITTER_WORDS;
     const lane_float share = LANES_GATHER_FLOAT(e->records, r + (uint)VXL_EMITTER_SHARE);
-    const lane_int own = LANE_MASK(choice.y < share);
+    const lane_int own = LANE_MASK(by_share < share);
     global const uint* words = (global const uint*)e->records;
     EmitterRays s;
     s.number = LANES_SELECT(own, slot, LANES_GATHER_UINT(words, r + (uint)VXL_EMITTER_ALIAS));
     const BoxView b = view_box(e, s.number, origin);
-    const lane_float side = spread_again(choice.y, share, own) * b.sum;
+    const lane_float side = spread_again(by_share, share, own) * b.sum;
     const lane_int x = LANE_MASK(side < b.weight.x);
     const lane_int y = LANE_MASK(side < b.weight.x + b.weight.y) & ~x;
     const lane_int z = ~(x | y);
