@@ -238,7 +238,7 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                          global const uint* restrict colors, PathSampling sampling, uint is_first,
                          VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
                          global uint* restrict counters, VXL_QUEUE_PARAMETERS,
-                         VXL_EMITTER_PARAMETERS, VXL_EMITTER_QUEUE_PARAMETERS) {
+                         VXL_EMITTER_PARAMETERS VXL_EMITTER_QUEUE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -272,8 +272,8 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                                   LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
     // Misses, last bounces and the rays sent themselves scatter nothing.
-    if (VXL_EMITTERS && emitter_count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
-        const Emitters table = VXL_EMITTER_TABLE;
+    const Emitters table = VXL_EMITTER_TABLE;
+    if (VXL_EMITTERS && table.count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
         const lane_int wanted = look_for_emitters(shape, &around, &p, &batch, first, &lobes,

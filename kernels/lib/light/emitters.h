@@ -12,11 +12,16 @@
 #include "shared/emitters.h"
 #include "shared/instance.h"
 
-/// The parameters that `bind` of EmitterTable sets, in its order.
+/// The parameters that `bind` of EmitterTable sets, in its order: none where paths look for no
+/// emitters. A comma ends them.
+#if VXL_EMITTERS
 #define VXL_EMITTER_PARAMETERS                                                                  \
     uint emitter_count, global const float *restrict emitters, uint emitter_slots,              \
         global const uint *restrict emitter_table, global const float *restrict emitter_frames, \
-        float emitter_volume
+        float emitter_volume,
+#else
+#define VXL_EMITTER_PARAMETERS
+#endif
 
 /// The emitters of a scene. Without instances there is no table of frames.
 typedef struct {
@@ -29,8 +34,13 @@ typedef struct {
 } Emitters;
 
 /// The value of Emitters in a kernel with these parameters.
+#if VXL_EMITTERS
 #define VXL_EMITTER_TABLE \
     { emitter_count, emitters, emitter_slots, emitter_table, emitter_frames, emitter_volume }
+#else
+#define VXL_EMITTER_TABLE \
+    { 0, 0, 0, 0, 0, 0.0f }
+#endif
 
 /// Emitters' boxes as points see them: coordinates in which the box is the unit cube.
 typedef struct {

@@ -207,6 +207,7 @@ int emitter_feature(const RenderSettings& render) {
 EmitterTable build_emitters(const Device& device, const Features& features, const Scene& scene,
                             const Pyramid& world) {
     EmitterTable table;
+    table.is_searched = true;
     table.volume = float(volume_of(world.frame.voxel_edge));
     std::vector<WeightedEmitter> emitters = emitters_of(device, features, scene, world);
     if (emitters.empty()) return table;
