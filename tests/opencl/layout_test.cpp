@@ -62,7 +62,7 @@
     FA(corner, 3) I(instance) I(voxel) I(sides) F(probability) F(own_share) I(alias) I(unused)
 #define EMITTER_FRAME_FIELDS \
     FA(object_from_world, 9) FA(world_from_object, 9) FA(center, 3) FA(image, 3) F(volume) \
-    FA(unused, 7)
+    F(width) FA(unused, 6)
 // clang-format on
 
 #define TEXT_OF(fields) TEXT_OF_(fields)

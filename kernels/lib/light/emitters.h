@@ -145,6 +145,7 @@ typedef struct {
     lane_int found;      // mask: the emitter has a side towards the point
     lane_uint number;    // of the emitter
     Vector direction;    // a unit vector in metres
+    lane_float metres;   // how far away the last point of the emitter's box can be
     lane_float density;  // the probability of the direction, per solid angle
 } EmitterRays;
 
@@ -154,6 +155,20 @@ static inline lane_float spread_again(lane_float x, lane_float share, lane_int y
     const lane_float width = LANES_SELECT(yes, share, 1.0f - share);
     const lane_float safe = LANES_SELECT(LANE_MASK(width > 0.0f), width, (lane_float)1.0f);
     return clamp(exact_divide(x - low, safe), 0.0f, 0.99999994f);
+}
+
+/// How far away the last points of boxes can be, to which `way` in the world's voxels leads, which
+/// is so many `metres` long. No point of a box is farther from another than its diagonal, and rays
+/// begin less than a voxel away from where they are aimed.
+static inline lane_float farthest_point(const Emitters* e, const BoxView* b, Vector way,
+                                        lane_float metres, lane_int found) {
+    lane_float width = (lane_float)1.7320509f;
+    if (VXL_INSTANCES) width = LANES_GATHER_FLOAT(e->frames, b->frame + (uint)VXL_FRAME_WIDTH);
+    const lane_float voxels = exact_sqrt(dot_product(way, way));
+    const lane_int some = found & LANE_MASK(voxels > 0.0f);
+    const lane_float more =
+        exact_divide(width + 2.0f, LANES_SELECT(some, voxels, (lane_float)1.0f));
+    return fma(metres, more, metres);
 }
 
 /// Chooses an emitter by `choice`, and the point of its box's sides at `place`.
@@ -180,11 +195,13 @@ static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float
     const Vector along = {target.x - b.at.x, target.y - b.at.y, target.z - b.at.z};
     const lane_float weight = LANES_SELECT(x, b.weight.x, LANES_SELECT(y, b.weight.y, b.weight.z));
     const lane_float across = LANES_SELECT(x, along.x, LANES_SELECT(y, along.y, along.z));
-    const Vector metric = scaled(framed(e, b.frame, (uint)VXL_FRAME_BACK, along), edge);
+    const Vector way = framed(e, b.frame, (uint)VXL_FRAME_BACK, along);
+    const Vector metric = scaled(way, edge);
     const lane_float metres = exact_sqrt(dot_product(metric, metric));
     s.density = side_density(&b, weight, (lane_float)1.0f, across, metres);
     s.direction = unit(metric);
     s.found = LANE_MASK(s.density > 0.0f);
+    s.metres = farthest_point(e, &b, way, metres, s.found);
     return s;
 }
 
