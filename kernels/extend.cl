@@ -60,14 +60,34 @@ static inline lane_float t_after(lane_float metres, Vector direction, float4 edg
     global float *restrict sent_rays, global uint *restrict sent_paths, \
         global float *restrict sent_starts, global uint *restrict sent_inside, uint sent_stride
 
-/// Fills rays from matt surfaces to emitters, but for their state and target. Their throughput is
+/// Sets, of physically based surfaces, how `likely` their paths go along a direction, and the share
+/// of what they return that comes from there, per solid angle.
+static inline void return_physically(const ScatterPoint* p, const PhysicalView* view,
+                                     Vector direction, lane_float* likely, lane_float* returned,
+                                     lane_int* above) {
+    lane_float value[3], density;
+    const lane_int reached = physical_value(view, direction, value, &density) &
+                             LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
+    *above = LANES_SELECT(view->is, reached, *above);
+    *likely = LANES_SELECT(view->is, density, *likely);
+    for (int c = 0; c < 3; ++c) {
+        const lane_int some = view->is & LANE_MASK(view->albedo[c] > 0.0f);
+        const lane_float share = exact_divide(
+            value[c] * 0.318309886f, LANES_SELECT(some, view->albedo[c], (lane_float)1.0f));
+        returned[c] =
+            LANES_SELECT(view->is, LANES_SELECT(some, share, (lane_float)0.0f), returned[c]);
+    }
+}
+
+/// Fills rays from surfaces to emitters, but for their state and target. Their throughput is
 /// that of the path for light from there, times the share of it that falls to these rays.
 /// Returns the mask of rays to send.
 static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings* around,
                                          const ScatterPoint* p, const RayBatch* batch, uint first,
                                          const Lobes* lobes, const lane_float* throughput,
                                          lane_float chance, const PathSamples* samples,
-                                         const Emitters* emitters, NewRays* r) {
+                                         const Emitters* emitters, const PhysicalView* view,
+                                         NewRays* r) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const SquareBits choice = path_bits(samples, VXL_DECISION_EMITTER);
     const SquarePoint place = path_point(samples, VXL_DECISION_EMITTER_POINT);
@@ -76,16 +96,21 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
     way.reflected = way.refracted = way.straight = (lane_int)0;
     for (int c = 0; c < 3; ++c) way.throughput[c] = zero;
     way.chance = zero;
-    *r = next_rays_of(shape, around, p, batch, first, &way, place);
+    const ScatteredWay nowhere = no_scattered_way(p);
+    *r = next_rays_of(shape, around, p, batch, first, &way, &nowhere);
     const EmitterRays s = choose_emitter(emitters, r->origin, shape.edge, choice, place);
     lane_int above;
     const lane_float cosine = cosine_at(p, batch, first, s.direction, &above) * 0.318309886f;
+    lane_float likely = cosine, returned[3] = {cosine, cosine, cosine};
+    if (VXL_PHYSICAL && lanes_any(view->is))
+        return_physically(p, view, s.direction, &likely, returned, &above);
     const lane_int wanted = way.diffuse & s.found & above;
     lane_float density = s.density;
-    if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * cosine;
-    const lane_float weight = exact_divide(cosine, LANES_SELECT(wanted, density, one));
+    if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * likely;
+    const lane_float safe = LANES_SELECT(wanted, density, one);
     for (int c = 0; c < 3; ++c)
-        r->throughput[c] = LANES_SELECT(wanted, throughput[c] * lobes->diffuse[c] * weight, zero);
+        r->throughput[c] = LANES_SELECT(
+            wanted, throughput[c] * lobes->diffuse[c] * exact_divide(returned[c], safe), zero);
     const Vector ahead = select_vector(wanted, s.direction, p->normal);
     set_out_child(r, shape,
                   offset_origin(shape, p->position, p->normal, batch->hits, batch->stride, first),
@@ -154,28 +179,38 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
         clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
         if (nodes.coverage) note_coverage(&nodes, valid, met_any, target, clear);
     }
-    Lobes lobes = lobes_of(&around, colors, &batch, first, &p, opacity,
+    PhysicalView view;
+    if (VXL_PHYSICAL) view = view_of_paths(&around, colors, &batch, first, &p);
+    Lobes lobes = lobes_of(&around, colors, &batch, first, &p, &view, opacity,
                            LANE_MASK(bounces < sampling.bounces));
     if (VXL_TRANSMISSION) lobes.straight = LANES_SELECT(met_any, 1.0f - opacity, (lane_float)0.0f);
     const PathSamples samples = path_samples(&sampling, target, state);
-    const Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
-                                  LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
+    Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
+                            LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
     // Misses, last bounces and the rays sent themselves scatter nothing.
     const Emitters table = VXL_EMITTER_TABLE;
     if (VXL_EMITTERS && table.count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
-        const lane_int wanted = look_for_emitters(shape, &around, &p, &batch, first, &lobes,
-                                                  throughput, way.chance, &samples, &table, &ray);
+        const lane_int wanted =
+            look_for_emitters(shape, &around, &p, &batch, first, &lobes, throughput, way.chance,
+                              &samples, &table, &view, &ray);
         send_to_emitters(&sent, wanted, target, state, sampling.bounces, &ray, counters);
     }
 
+    ScatteredWay matt = no_scattered_way(&p);
+    if (lanes_any(way.diffuse)) {
+        lane_float layer = (lane_float)0.0f;
+        if (VXL_PHYSICAL) layer = path_point(&samples, VXL_DECISION_LAYER).x;
+        matt = scatter_by(&p, &batch, first, &view, path_point(&samples, VXL_DECISION_DIRECTION),
+                          layer);
+        if (VXL_PHYSICAL) way.diffuse &= ~matt.is | matt.lives;
+    }
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
     const lane_int goes_on = scattered | way.straight;
     if (!lanes_any(goes_on)) return;
-    NewRays ray = next_rays_of(shape, &around, &p, &batch, first, &way,
-                               path_point(&samples, VXL_DECISION_DIRECTION));
+    NewRays ray = next_rays_of(shape, &around, &p, &batch, first, &way, &matt);
     ray.target = target;
     ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
     ray.state = state_after(&way, scattered, state);

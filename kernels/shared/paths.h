@@ -54,6 +54,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // The decisions at a surface that a path meets, each with a point of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of diffuse light
+#define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter
 #define VXL_DECISION_LENS 0xFFFDu           // where on the lens a sight ray starts
 #define VXL_DECISION_EMITTER 0xFFFEu        // which emitter a ray is sent to
 #define VXL_DECISION_EMITTER_POINT 0xFFFFu  // and where

@@ -38,7 +38,7 @@ namespace {
 Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
-    features.filter = features.filtered_refraction = false;
+    features.filter = features.filtered_refraction = features.physical = false;
     features.sky = 0;
     return features;
 }

@@ -102,7 +102,10 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/light/emitters.h",
                                         "lib/light/emission_share.h",
                                         "lib/traverse/lens.h",
-                                        "lib/light/path_samples.h"};
+                                        "lib/light/path_samples.h",
+                                        "lib/light/ggx.h",
+                                        "lib/light/physical.h",
+                                        "lib/light/physical_light.h"};
 
 /// The kernels that frames of such a scene launch, by file.
 const std::map<std::string, std::set<std::string>> kLaunched = {
@@ -136,6 +139,27 @@ int parameters_of(const char* file, const char* kernel, const Features& features
             return std::stoi(number[1]);
     }
     return -1;
+}
+
+TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
+    Features features = plain_features();
+    features.paths = features.global = features.area_samples = true;
+    features.emitters = VXL_EMITTERS_BOTH;
+    const std::set<std::string> removed = {"lib/light/ggx.h", "lib/light/physical.h",
+                                           "lib/light/physical_light.h"};
+    for (const auto& [file, kernel] : {std::pair("extend.cl", "extend_paths"),
+                                       {"light.cl", "add_light"},
+                                       {"area_light.cl", "add_area_light"}}) {
+        const Source source(file, {kernel}, removed);
+        EXPECT_GT(source.gutted_functions(), 8u) << file;
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device()))
+            .kernel(kernel);
+    }
+    features.physical = true;
+    const Source source("light.cl", {"add_light"}, removed);
+    EXPECT_THROW(
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
+        Error);
 }
 
 TEST(AbsentFeatures, TakeNoArgumentsOfKernels) {

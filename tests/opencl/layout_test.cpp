@@ -31,7 +31,8 @@
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
-    FA(checker_scale, 3) FA(checker_shift, 3) FA(unused, 6)
+    FA(checker_scale, 3) FA(checker_shift, 3) F(metallic) F(width) F(reflectance) \
+    F(albedos) F(missing) F(matt)
 #define LIGHT_RECORD_FIELDS \
     V(position) V(direction) V(intensity) F(inner_cosine) F(outer_cosine) I(kind) F(spread)
 #define ENVIRONMENT_FIELDS V(background) V(ambient) V(absorption) V(color)

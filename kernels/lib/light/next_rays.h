@@ -26,36 +26,81 @@ static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch,
     return fmax(cosine, 0.0f);
 }
 
+/// The ways on which surfaces scatter light in all directions.
+typedef struct {
+    Vector ahead;    // a unit vector
+    lane_int moved;  // mask: up to the least cosine
+    // Of physically based surfaces alone:
+    lane_int is, lives;    // masks: such a surface; the way is above it
+    lane_float density;    // of the direction, per solid angle
+    lane_float weight[3];  // what comes from there over the mean of all directions
+} ScatteredWay;
+
+/// No way: rays along the normals.
+static inline ScatteredWay no_scattered_way(const ScatterPoint* p) {
+    ScatteredWay s;
+    s.ahead = p->normal;
+    s.moved = s.is = s.lives = (lane_int)0;
+    s.density = (lane_float)0.0f;
+    for (int c = 0; c < 3; ++c) s.weight[c] = (lane_float)1.0f;
+    return s;
+}
+
+/// Turns ways from physically based surfaces to where these scatter light. `layer` chooses the part
+/// of the surface.
+static inline void scatter_physically(const PhysicalView* view, SquarePoint at, lane_float layer,
+                                      ScatteredWay* s) {
+    lane_float value[3];
+    const Vector ahead = physical_direction(view, at, layer);
+    s->is = view->is;
+    s->lives = physical_value(view, ahead, value, &s->density);
+    s->lives &= LANE_MASK(s->density > 0.0f);
+    s->ahead = select_vector(s->is, ahead, s->ahead);
+    for (int c = 0; c < 3; ++c) {
+        const lane_float even = 3.14159265f * s->density * view->albedo[c];
+        const lane_int some = s->lives & LANE_MASK(even > 0.0f);
+        const lane_float weight =
+            exact_divide(value[c], LANES_SELECT(some, even, (lane_float)1.0f));
+        s->weight[c] = LANES_SELECT(some, weight, (lane_float)0.0f);
+    }
+}
+
+/// The ways on which surfaces scatter light by a point of the square.
+static inline ScatteredWay scatter_by(const ScatterPoint* p, const RayBatch* batch, uint first,
+                                      const PhysicalView* view, SquarePoint at, lane_float layer) {
+    ScatteredWay s = no_scattered_way(p);
+    Vector normal = p->normal;
+    if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
+    s.ahead = cosine_direction(normal, at);
+    if (VXL_PHYSICAL && lanes_any(view->is)) scatter_physically(view, at, layer, &s);
+    if (VXL_SHADING_NORMALS) {
+        const lane_float least = least_cosine(p);
+        s.moved = p->curved & LANE_MASK(dot_product(s.ahead, p->normal) < least);
+        s.ahead = select_vector(s.moved, keep_on_side(s.ahead, p->normal, least), s.ahead);
+    }
+    return s;
+}
+
 /// VXL_PATH_EMITTER of rays that surfaces have scattered: 0 for those `moved`, which all lie on one
 /// cone that no ray to an emitter can be on.
 static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   const Choice* way, lane_int moved, const NewRays* r,
-                                   float4 edge) {
+                                   const Choice* way, const ScatteredWay* scattered,
+                                   const NewRays* r, float4 edge) {
     lane_int above;
     const Vector direction = unit(scaled(r->direction, edge));
-    const lane_float density =
-        cosine_at(p, batch, first, direction, &above) * 0.318309886f * way->chance;
-    return LANES_SELECT(way->diffuse & ~moved, LANES_AS_UINT(density), (lane_uint)0);
+    lane_float density = cosine_at(p, batch, first, direction, &above) * 0.318309886f * way->chance;
+    if (VXL_PHYSICAL)
+        density = LANES_SELECT(scattered->is, scattered->density * way->chance, density);
+    return LANES_SELECT(way->diffuse & ~scattered->moved, LANES_AS_UINT(density), (lane_uint)0);
 }
 
-/// Directions and sides of the rays that leave surfaces: where matt ones scatter light by `at`,
-/// where mirrors reflect and glass refracts it.
+/// Directions and sides of the rays that leave surfaces: where these scatter light in all
+/// directions, where mirrors reflect and glass refracts it.
 static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const RayBatch* batch,
-                                uint first, const Choice* way, SquarePoint at, NewRays* r) {
+                                uint first, const Choice* way, const ScatteredWay* scattered,
+                                NewRays* r) {
     Vector side = p->normal;
-    Vector ahead = mirrored_direction(p);
-    lane_int moved = (lane_int)0;
-    if (lanes_any(way->diffuse)) {
-        Vector normal = p->normal;
-        if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
-        Vector scattered = cosine_direction(normal, at);
-        if (VXL_SHADING_NORMALS) {
-            const lane_float least = least_cosine(p);
-            moved = p->curved & LANE_MASK(dot_product(scattered, p->normal) < least);
-            scattered = select_vector(moved, keep_on_side(scattered, p->normal, least), scattered);
-        }
-        ahead = select_vector(way->diffuse, scattered, ahead);
-    }
+    Vector ahead = select_vector(way->diffuse, scattered->ahead, mirrored_direction(p));
     if (VXL_REFRACTS) {
         const Vector into = opposite(p->normal);
         ahead = select_vector(way->refracted, bent_direction(p, into), ahead);
@@ -64,7 +109,7 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
     set_out_child(r, shape,
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
-    if (VXL_EMITTERS) r->emitter = density_of(p, batch, first, way, moved, r, shape.edge);
+    if (VXL_EMITTERS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
@@ -111,15 +156,20 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
 /// The rays that go on along the chosen ways.
 static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* around,
                                    const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   const Choice* way, SquarePoint at) {
+                                   const Choice* way, const ScatteredWay* scattered) {
     NewRays r = begin_node(p, batch, first);
     const lane_int within = p->leaving ^ (way->refracted | way->straight);
     r.flags = VXL_PATH_ON_SURFACE | (LANES_AS_UINT(within) & VXL_PATH_WITHIN_SOURCE) |
               (LANES_AS_UINT(way->refracted) & VXL_PATH_REFRACTED);
     r.medium = (lane_uint)0;
-    set_out_ways(shape, p, batch, first, way, at, &r);
+    set_out_ways(shape, p, batch, first, way, scattered, &r);
     if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, &r);
-    for (int c = 0; c < 3; ++c) r.throughput[c] = way->throughput[c];
+    for (int c = 0; c < 3; ++c) {
+        r.throughput[c] = way->throughput[c];
+        if (VXL_PHYSICAL)
+            r.throughput[c] *=
+                LANES_SELECT(way->diffuse & scattered->is, scattered->weight[c], (lane_float)1.0f);
+    }
     return r;
 }
 
