@@ -107,6 +107,7 @@ bool is_beyond_a_schema(const std::string& objection) {
                              "the position itself",
                              "nothing lies between",
                              "not be larger than",
+                             "times as wide as",
                              "already",
                              "is an absolute path",
                              "only a mesh has groups",

@@ -57,7 +57,6 @@ class ExrWriter {
             return static_cast<ExrWriter*>(self)->write(bytes, size, position);
         };
         check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &setup));
-        check(exr_set_longname_support(context_, 1));  // names of up to 255 bytes, not 31
     }
     ~ExrWriter() { exr_finish(&context_); }
     ExrWriter(const ExrWriter&) = delete;
@@ -66,6 +65,10 @@ class ExrWriter {
     using Attributes = std::map<std::string, std::string>;
 
     void header(const Image& image, const Attributes& others, const std::vector<ExrPlane>& planes) {
+        // Readers of OpenEXR 1 refuse files that may have longer names.
+        constexpr size_t kShortName = 31;
+        if (std::ranges::any_of(planes, [](auto& plane) { return plane.name.size() > kShortName; }))
+            check(exr_set_longname_support(context_, 1));  // up to 255 bytes
         check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
         set_windows(image);
         constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
