@@ -171,8 +171,8 @@ TEST_P(PhysicalSurfaces, ReturnWhatTheFormulasSay) {
     for (size_t k = 0; k < outs.size(); ++k)
         for (int c = 0; c < 3; ++c) {
             const double expected = formulas.value(at_cosine(outs[k]), ins[k], c);
-            // Tables of albedos are off by 5e-4, and light that returns later by their product.
-            ASSERT_NEAR(found[k].value[c], expected, 6e-3 * expected + 3e-5)
+            // Tables of albedos are off by up to 5e-4, so what metals return later by some percent.
+            ASSERT_NEAR(found[k].value[c], expected, 4e-3 * expected + 1.2e-3)
                 << "out " << outs[k] << ", in " << ins[k].z << ", channel " << c;
         }
 }
