@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kColors[] = {"R", "G", "B"};
+constexpr const char* kColorNames[] = {"R", "G", "B"};
 // Passes that no file has, from which others follow.
 constexpr const char* kWhole = "all light";
 constexpr const char* kWithShadows = "with shadows";
@@ -117,7 +117,7 @@ std::vector<LightPass> light_passes(const Scene& scene) {
 
 void finish_passes(const Scene& scene, Image& image) {
     const ImageChannels& channels = scene.render.channels;
-    for (const char* color : kColors) {
+    for (const char* color : kColorNames) {
         const auto plane = [&](std::string_view pass) -> Plane<float>& {
             return image.planes.at(plane_name(pass, color));
         };

@@ -98,6 +98,7 @@ std::vector<VolumePath> slice_files_of(const VolumePath& pattern) {
     const int64_t slices = count.is_number_integer() ? count.get<int64_t>() : 0;
     if (slices < 1 || slices > kMaxSlices) return {};
     std::vector<VolumePath> files;
+    files.reserve(size_t(slices) + 1);
     for (int k = 0; k < int(slices); ++k) files.emplace_back(frame_path(pattern.string(), k, true));
     files.push_back(header);
     return files;

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
@@ -45,7 +45,10 @@ struct ModelUse {
     std::optional<int> light_samples;
     std::vector<uint32_t> materials;  ///< of its groups; the last is that of all further ones
 
-    friend auto operator<=>(const ModelUse&, const ModelUse&) = default;
+    friend bool operator<(const ModelUse& a, const ModelUse& b) {
+        return std::tie(a.model, a.light_samples, a.materials) <
+               std::tie(b.model, b.light_samples, b.materials);
+    }
 };
 
 /// `materials` are all of InstanceSet::materials.
