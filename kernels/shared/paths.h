@@ -18,8 +18,9 @@ typedef struct PathSampling {
     unsigned int samples;                  // per pixel
     unsigned int bounces;                  // the maximum number of times that a path is scattered
     unsigned int first_column, first_row;  // of the image in its frame, as Camera has them
+    unsigned int first_sample;             // of the samples' sequence
 } PathSampling;
-VXL_SIZE_IS(PathSampling, 24);
+VXL_SIZE_IS(PathSampling, 28);
 
 // The area of a light around LightRecord::position, in voxels: its points are
 // position + a * axis_x + b * axis_y.

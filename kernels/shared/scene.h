@@ -57,8 +57,10 @@ typedef struct Camera {
     int frame_width, frame_height;  // pixels that half_x and half_y span
     float lens_radius;              // metres; 0: all rays start at one point
     float lens_slope;               // lens_radius over the depth of what is sharp
+    int first_sample;               // of the samples' sequence
+    int unused[3];
 } Camera;
-VXL_SIZE_IS(Camera, 144);
+VXL_SIZE_IS(Camera, 160);
 
 typedef struct MaterialRecord {
     float color[3];

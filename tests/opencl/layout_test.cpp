@@ -27,7 +27,8 @@
 #define CAMERA_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) \
-    I(first_column) I(first_row) I(frame_width) I(frame_height) F(lens_radius) F(lens_slope)
+    I(first_column) I(first_row) I(frame_width) I(frame_height) F(lens_radius) F(lens_slope) \
+    I(first_sample) IA(unused, 3)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
@@ -45,7 +46,7 @@
     I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
     FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
 #define PATH_SAMPLING_FIELDS I(first_tile) I(tiles_x) I(samples) I(bounces) I(first_column) \
-    I(first_row)
+    I(first_row) I(first_sample)
 #define LIGHT_AREA_RECORD_FIELDS V(axis_x) V(axis_y)
 #define SKY_RECORD_FIELDS \
     V(zenith) V(horizon) V(ground) V(sun_direction) V(sun_radiance) V(luminance) \
