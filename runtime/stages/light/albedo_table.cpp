@@ -44,15 +44,16 @@ struct FacetRing {
     /// Adds the facets at an angle around the ring, by a share of all.
     void add(double turn, double share, Albedo& sum) const {
         const double hx = width * (radius * std::cos(turn) + x);
-        const double hy = width * radius * std::sin(turn);
-        const double h = std::sqrt(square(hx) + square(hy) + square(height));
+        const double across = width * radius, along = hx - width * x;
+        const double hy2 = square(across) - square(along);
+        const double h = std::sqrt(square(hx) + hy2 + square(height));
         const double meets = (hx * sine + height * cosine) / h;
         const double out = 2 * meets * height / h - cosine;
         if (out <= 0) return;
         const double other = std::sqrt(square(width) * (1 - square(out)) + square(out));
         const double seen = share * (length + cosine) * out / (length * out + other * cosine);
         sum.all += seen;
-        sum.by_angle += seen * std::pow(1 - meets, 5);
+        sum.by_angle += seen * square(square(1 - meets)) * (1 - meets);
     }
 };
 
