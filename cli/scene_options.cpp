@@ -24,6 +24,14 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "image size, WIDTHxHEIGHT in pixels; replaces the scene's");
     app.add_option("--samples", options.samples, "samples per pixel; replaces the scene's")
         ->check(in_range(1, 4096, Number::whole));
+    app.add_option("--noise", options.noise,
+                   "standard error of light at which 4 x 4 pixels have samples enough, of their "
+                   "mean, like 0.02; --samples is the maximum, by default 4096")
+        ->check(in_range(1e-4, 1));
+    app.add_option("--time", options.time,
+                   "seconds that an image's samples may take, which are doubled as long as time "
+                   "suffices, or until --noise is reached")
+        ->check(in_range(0.001, 1e6));
     app.add_option(
            "--light", options.light,
            "light of flat images: local, or global with all that surfaces reflect; replaces "
@@ -162,7 +170,11 @@ Scene read_with(const SceneOptions& options, const char* command) {
     Scene scene = is_model ? scene_of_file(options.scene, import_of(options, size, command), files)
                            : load_scene(options.scene, files);
     if (size[0] != 0) scene = scene.with_size(size);
-    if (options.samples != 0) scene = scene.with_samples(options.samples);
+    if (options.noise > 0 || options.time > 0)
+        scene = scene.with_noise(options.noise, options.time,
+                                 options.samples != 0 ? options.samples : 4096);
+    else if (options.samples != 0)
+        scene = scene.with_samples(options.samples);
     if (!options.light.empty())
         scene = scene.with_light(options.light == "global" ? LightMode::global : LightMode::local);
     return scene;

@@ -21,6 +21,8 @@ struct SceneOptions {
     std::vector<std::filesystem::path> assets;
     std::string size;
     int samples = 0;    ///< 0: the scene's
+    double noise = 0;   ///< 0: none is asked for
+    double time = 0;    ///< seconds; 0: any
     std::string light;  ///< empty: the scene's
     std::string device;
     double device_timeout = 0;  ///< seconds; 0: none

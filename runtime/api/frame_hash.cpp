@@ -87,6 +87,7 @@ std::string hash_of_voxels(const VoxelModel& voxels) {
 void add_settings(const RenderSettings& render, CacheKey& key) {
     key.add_all(render.size).add_all(render.crop.first).add_all(render.crop.frame);
     key.add(render.samples).add(int(render.light));
+    if (render.noise.is_given()) key.add(render.noise.error).add(render.noise.seconds);
 }
 
 /// The settings of the whole picture that a crop is a part of.

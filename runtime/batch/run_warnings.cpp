@@ -59,6 +59,7 @@ std::string view_advice(const Observer& observer, const Bounds& objects) {
 
 /// Whether a material returns light of lamps.
 bool returns_light(const Material& material) {
+    if (is_physical(material)) return true;
     const bool is_black = material.color == glm::vec3(0) && !material.checker;
     return (material.diffuse > 0 && !is_black) || material.specular > 0;
 }

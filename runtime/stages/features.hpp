@@ -34,6 +34,7 @@ struct Features {
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
+    bool physical = false;             ///< ... and some material is physically based
     bool lens = false;                 ///< sight rays start all over a lens
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
@@ -80,6 +81,7 @@ struct Features {
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
                 {"VXL_GLOBAL", global},
+                {"VXL_PHYSICAL", physical},
                 {"VXL_LENS", lens},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},
