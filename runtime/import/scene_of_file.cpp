@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/import/scene_of_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -192,7 +193,12 @@ std::string scene_of_file(const std::filesystem::path& file, const std::string& 
     if (options.spacing && options.fit > 0)
         throw Error(ErrorKind::usage, "{}: a size and a spacing; leave one of them out",
                     SourcePlace(file.string()));
-    return scene_of(read({file, name, options, assets}), options);
+    const Contents contents = read({file, name, options, assets});
+    for (const glm::dvec3& end : {contents.box.min, contents.box.max})
+        if (!(std::max({std::abs(end.x), std::abs(end.y), std::abs(end.z)}) <= kMaxLength))
+            throw Error(ErrorKind::input, "{}: reaches farther than scenes do, which is {} m",
+                        SourcePlace(file.string()), kMaxLength);
+    return scene_of(contents, options);
 }
 
 std::string scene_of_voxels(const std::shared_ptr<const VoxelModel>& voxels,

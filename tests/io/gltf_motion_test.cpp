@@ -123,6 +123,13 @@ TEST_F(GltfMotionTest, ObjectsThatVanishByTheirScaleBecomeTiny) {
     EXPECT_EQ(scene_at(scene, 25).objects[0].world_from_object[0].x, 2);
 }
 
+TEST_F(GltfMotionTest, ThatLeavesTheReachOfScenesIsRefused) {
+    EXPECT_THAT(error_of([&] {
+                    text_of(moved_triangle("translation", {0, 1}, {0, 0, 0, 1e9F, 0, 0}));
+                }).what(),
+                HasSubstr("a.glb: reaches farther than scenes do, which is 1000000000 m"));
+}
+
 TEST_F(GltfMotionTest, CamerasAndLightsMoveFrameByFrame) {
     GltfWriter writer = moved_triangle(
         "rotation", {0, 1}, {0, 0, 0, 1, 0, float(std::sqrt(0.5)), 0, float(std::sqrt(0.5))});
