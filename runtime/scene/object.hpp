@@ -31,7 +31,7 @@ struct Morph {
     double radius = 1;           ///< metres, > 0
     double amount = 0;           ///< share of the way, 0..1
     /// Of each target of a glTF file's mesh, instead: how far it pulls. Empty: the way above.
-    std::vector<double> weights;
+    std::vector<double> weights{};
     bool operator==(const Morph&) const = default;
 };
 
