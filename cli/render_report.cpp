@@ -71,16 +71,18 @@ void print_summary(const Statistics& statistics) {
             ? fmt::format(", {} secondary rays ({} paths ended early)",
                           count_text(rays.secondary_rays), count_text(rays.ended_paths))
             : "";
+    const std::string noise =
+        rays.noise > 0 ? fmt::format(", noise {:.3f}", rays.noise) : std::string();
     fmt::print(
         stderr,
-        "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}; "
+        "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}{}; "
         "open {:.0f} ms, load {:.0f}, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}, "
         "write {:.0f}\n",
         size_text(statistics), statistics.total_seconds, names_of(statistics),
         reuse_text(statistics.frames), count_text(statistics.voxels), count_text(rays.sight_rays),
-        count_text(rays.shadow_rays), secondary, statistics.open_seconds * 1e3, seconds.load * 1e3,
-        seconds.voxelize * 1e3, seconds.place * 1e3, seconds.index * 1e3, seconds.image * 1e3,
-        statistics.write_seconds * 1e3);
+        count_text(rays.shadow_rays), secondary, noise, statistics.open_seconds * 1e3,
+        seconds.load * 1e3, seconds.voxelize * 1e3, seconds.place * 1e3, seconds.index * 1e3,
+        seconds.image * 1e3, statistics.write_seconds * 1e3);
 }
 
 void print_details(const Statistics& statistics) {

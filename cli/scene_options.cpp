@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include "cli/checks.hpp"
 #include "cli/complaint.hpp"
@@ -22,6 +24,14 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "image size, WIDTHxHEIGHT in pixels; replaces the scene's");
     app.add_option("--samples", options.samples, "samples per pixel; replaces the scene's")
         ->check(in_range(1, 4096, Number::whole));
+    app.add_option("--noise", options.noise,
+                   "standard error of light at which 4 x 4 pixels have samples enough, of their "
+                   "mean, like 0.02; --samples is the maximum, by default 4096")
+        ->check(in_range(1e-4, 1));
+    app.add_option("--time", options.time,
+                   "seconds that an image's samples may take, which are doubled as long as time "
+                   "suffices, or until --noise is reached")
+        ->check(in_range(0.001, 1e6));
     app.add_option(
            "--light", options.light,
            "light of flat images: local, or global with all that surfaces reflect; replaces "
@@ -34,6 +44,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--device-timeout", options.device_timeout,
                    "seconds after which a device that doesn't answer ends the run")
         ->check(in_range(1, 1e6));
+    app.add_option("--memory-limit", options.memory_limit,
+                   "most main memory that the run takes, and most of a device's own: 500MB, 2.5GB")
+        ->type_name("SIZE");
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
     app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
@@ -45,6 +58,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     add_import_options(app, options.import);
 }
 
+namespace {
+
 void watch_devices(const SceneOptions& options) {
     if (options.device_timeout == 0) return;
     v1::watch_devices(options.device_timeout, [](const std::string& sentence) {
@@ -52,6 +67,31 @@ void watch_devices(const SceneOptions& options) {
         remove_unfinished_files();
         std::_Exit(code);
     });
+}
+
+void limit_memory(const SceneOptions& options, const char* command) {
+    if (options.memory_limit.empty()) return;
+    struct Unit {
+        std::string_view name;
+        double bytes;
+    };
+    constexpr std::array kUnits = {Unit{"M", 1e6},  Unit{"MB", 1e6}, Unit{"MiB", 1 << 20},
+                                   Unit{"G", 1e9},  Unit{"GB", 1e9}, Unit{"GiB", 1 << 30},
+                                   Unit{"T", 1e12}, Unit{"TB", 1e12}};
+    const std::string& text = options.memory_limit;
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    const auto* unit = std::ranges::find(kUnits, std::string_view(end), &Unit::name);
+    if (unit != kUnits.end() && number > 0 && number <= 1e6)
+        return v1::limit_memory(uint64_t(number * unit->bytes));
+    fail_usage("{}: --memory-limit {}: give a size like 500MB or 2.5GB", command, quote(text));
+}
+
+}  // namespace
+
+void set_limits(const SceneOptions& options, const char* command) {
+    watch_devices(options);
+    limit_memory(options, command);
 }
 
 SceneChange setting_of(const std::string& text, const char* option, const char* command) {
@@ -130,7 +170,11 @@ Scene read_with(const SceneOptions& options, const char* command) {
     Scene scene = is_model ? scene_of_file(options.scene, import_of(options, size, command), files)
                            : load_scene(options.scene, files);
     if (size[0] != 0) scene = scene.with_size(size);
-    if (options.samples != 0) scene = scene.with_samples(options.samples);
+    if (options.noise > 0 || options.time > 0)
+        scene = scene.with_noise(options.noise, options.time,
+                                 options.samples != 0 ? options.samples : 4096);
+    else if (options.samples != 0)
+        scene = scene.with_samples(options.samples);
     if (!options.light.empty())
         scene = scene.with_light(options.light == "global" ? LightMode::global : LightMode::local);
     return scene;

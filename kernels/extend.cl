@@ -6,11 +6,10 @@
 // into. Emission is found in both ways, which share it: lib/light/emission_share.h.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
-#include "lib/light/child_rays.h"
-#include "lib/light/directions.h"
 #include "lib/light/emitters.h"
 #include "lib/light/layer.h"
 #include "lib/light/lobes.h"
+#include "lib/light/next_rays.h"
 #include "lib/light/path_samples.h"
 #include "lib/light/paths.h"
 
@@ -50,120 +49,10 @@ static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_in
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
 }
 
-/// The least cosine with its surface of a way on which a matt one scatters light: where normals
-/// are smoothed, ways that come closer to the surface are moved up to there.
-static inline lane_float least_cosine(const ScatterPoint* p) {
-    const lane_float zero = (lane_float)0.0f;
-    if (!VXL_SHADING_NORMALS) return zero;
-    return LANES_SELECT(p->curved, (lane_float)(1.0f / 4096.0f), zero);
-}
-
-/// The cosine of directions from surfaces, of which mask `above` tells those on the surfaces' side.
-static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   Vector direction, lane_int* above) {
-    Vector normal = p->normal;
-    if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
-    const lane_float cosine = dot_product(normal, direction);
-    *above =
-        LANE_MASK(cosine > 0.0f) & LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
-    return fmax(cosine, 0.0f);
-}
-
-/// VXL_PATH_EMITTER of rays that surfaces have scattered: 0 for those `moved`, which all lie on one
-/// cone that no ray to an emitter can be on.
-static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   const Choice* way, lane_int moved, const NewRays* r,
-                                   float4 edge) {
-    lane_int above;
-    const Vector direction = unit(scaled(r->direction, edge));
-    const lane_float density =
-        cosine_at(p, batch, first, direction, &above) * 0.318309886f * way->chance;
-    return LANES_SELECT(way->diffuse & ~moved, LANES_AS_UINT(density), (lane_uint)0);
-}
-
-/// Directions and sides of the rays that leave surfaces: where matt ones scatter light by `at`,
-/// where mirrors reflect and glass refracts it.
-static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const RayBatch* batch,
-                                uint first, const Choice* way, SquarePoint at, NewRays* r) {
-    Vector side = p->normal;
-    Vector ahead = mirrored_direction(p);
-    lane_int moved = (lane_int)0;
-    if (lanes_any(way->diffuse)) {
-        Vector normal = p->normal;
-        if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
-        Vector scattered = cosine_direction(normal, at);
-        if (VXL_SHADING_NORMALS) {
-            const lane_float least = least_cosine(p);
-            moved = p->curved & LANE_MASK(dot_product(scattered, p->normal) < least);
-            scattered = select_vector(moved, keep_on_side(scattered, p->normal, least), scattered);
-        }
-        ahead = select_vector(way->diffuse, scattered, ahead);
-    }
-    if (VXL_REFRACTS) {
-        const Vector into = opposite(p->normal);
-        ahead = select_vector(way->refracted, bent_direction(p, into), ahead);
-        side = select_vector(way->refracted, into, side);
-    }
-    set_out_child(r, shape,
-                  offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
-                  ahead);
-    if (VXL_EMITTERS) r->emitter = density_of(p, batch, first, way, moved, r, shape.edge);
-}
-
-/// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
-/// those that go on along the ray that met the surface.
-static inline void enter_media(PyramidShape shape, const Surroundings* around,
-                               const ScatterPoint* p, const RayBatch* batch, uint first,
-                               const Choice* way, NewRays* r) {
-    global const uint* hits = batch->hits;
-    const uint stride = batch->stride;
-    const lane_int across = way->refracted | way->straight;
-    const lane_int of_instance = are_of_instances(batch, first);
-    const lane_int same =
-        way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~of_instance);
-    MediumSet passed = load_medium_set(batch->paths, stride, first, p->valid);
-    passed = cross_counted(passed, p->packed, p->leaving, way->straight, around->medium_overflows);
-    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
-        lane_uint member = LANES_SELECT(way->refracted, p->behind.members[i], p->before.members[i]);
-        r->media.members[i] = LANES_SELECT(way->straight, passed.members[i], member);
-    }
-    r->medium = medium_inside(&r->media, around->ranks);
-    r->flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
-    r->origin = select_vector(same, load_vector(batch->rays, stride, first), r->origin);
-    r->direction = select_vector(
-        same, load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), r->direction);
-    r->t_end = LANES_SELECT(same, LANES_LOAD(batch->rays, VXL_RAY_END * stride + first), r->t_end);
-    r->start = LANES_SELECT(same, LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first)),
-                            (lane_float)0.0f);
-    r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
-    const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
-    r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
-    begin_behind(shape, batch, first, way->straight & of_instance, r);
-    if (VXL_TRAVELS) {
-        const lane_float before = path_float(batch->paths, VXL_PATH_TRAVELLED, stride, first);
-        const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-        const lane_float now = LANES_SELECT(of_instance, before + t, before);
-        r->travelled = LANES_SELECT(way->straight, now, (lane_float)0.0f);
-    }
-    if (!VXL_CUBE_BODIES) return;
-    const lane_int in_cell = way->refracted | (p->leaving & ~across);
-    r->flags |= joined_flag(&r->media, around->materials) |
-                (LANES_AS_UINT(is_cube(p->packed, p->primitive) & in_cell) & VXL_PATH_FROM_CELL);
-}
-
-/// The rays that go on along the chosen ways.
-static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* around,
-                                   const ScatterPoint* p, const RayBatch* batch, uint first,
-                                   const Choice* way, SquarePoint at) {
-    NewRays r = begin_node(p, batch, first);
-    const lane_int within = p->leaving ^ (way->refracted | way->straight);
-    r.flags = VXL_PATH_ON_SURFACE | (LANES_AS_UINT(within) & VXL_PATH_WITHIN_SOURCE) |
-              (LANES_AS_UINT(way->refracted) & VXL_PATH_REFRACTED);
-    r.medium = (lane_uint)0;
-    set_out_ways(shape, p, batch, first, way, at, &r);
-    if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, &r);
-    for (int c = 0; c < 3; ++c) r.throughput[c] = way->throughput[c];
-    return r;
+/// The t of rays after so many metres.
+static inline lane_float t_after(lane_float metres, Vector direction, float4 edge) {
+    const lane_float per_t = metres_per_t(edge, direction);
+    return exact_divide(metres, LANES_SELECT(LANE_MASK(per_t > 0.0f), per_t, (lane_float)1.0f));
 }
 
 /// The queue for rays to emitters, which `bind` of a RayQueue sets as it does VXL_QUEUE_PARAMETERS.
@@ -171,36 +60,62 @@ static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* aroun
     global float *restrict sent_rays, global uint *restrict sent_paths, \
         global float *restrict sent_starts, global uint *restrict sent_inside, uint sent_stride
 
-/// Fills rays from matt surfaces to emitters, but for their state and target. Their throughput is
+/// Sets, of physically based surfaces, how `likely` their paths go along a direction, and the share
+/// of what they return that comes from there, per solid angle.
+static inline void return_physically(const ScatterPoint* p, const PhysicalView* view,
+                                     Vector direction, lane_float* likely, lane_float* returned,
+                                     lane_int* above) {
+    lane_float value[3], density;
+    const lane_int reached = physical_value(view, direction, value, &density) &
+                             LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
+    *above = LANES_SELECT(view->is, reached, *above);
+    *likely = LANES_SELECT(view->is, density, *likely);
+    for (int c = 0; c < 3; ++c) {
+        const lane_int some = view->is & LANE_MASK(view->albedo[c] > 0.0f);
+        const lane_float share = exact_divide(
+            value[c] * 0.318309886f, LANES_SELECT(some, view->albedo[c], (lane_float)1.0f));
+        returned[c] =
+            LANES_SELECT(view->is, LANES_SELECT(some, share, (lane_float)0.0f), returned[c]);
+    }
+}
+
+/// Fills rays from surfaces to emitters, but for their state and target. Their throughput is
 /// that of the path for light from there, times the share of it that falls to these rays.
 /// Returns the mask of rays to send.
 static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings* around,
                                          const ScatterPoint* p, const RayBatch* batch, uint first,
                                          const Lobes* lobes, const lane_float* throughput,
                                          lane_float chance, const PathSamples* samples,
-                                         const Emitters* emitters, NewRays* r) {
+                                         const Emitters* emitters, const PhysicalView* view,
+                                         NewRays* r) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    const SquarePoint choice = path_point(samples, VXL_DECISION_EMITTER);
+    const SquareBits choice = path_bits(samples, VXL_DECISION_EMITTER);
     const SquarePoint place = path_point(samples, VXL_DECISION_EMITTER_POINT);
     Choice way;
     way.diffuse = p->hit & LANE_MASK(largest(lobes->diffuse) > 0.0f);
     way.reflected = way.refracted = way.straight = (lane_int)0;
     for (int c = 0; c < 3; ++c) way.throughput[c] = zero;
     way.chance = zero;
-    *r = next_rays_of(shape, around, p, batch, first, &way, place);
+    const ScatteredWay nowhere = no_scattered_way(p);
+    *r = next_rays_of(shape, around, p, batch, first, &way, &nowhere);
     const EmitterRays s = choose_emitter(emitters, r->origin, shape.edge, choice, place);
     lane_int above;
     const lane_float cosine = cosine_at(p, batch, first, s.direction, &above) * 0.318309886f;
+    lane_float likely = cosine, returned[3] = {cosine, cosine, cosine};
+    if (VXL_PHYSICAL && lanes_any(view->is))
+        return_physically(p, view, s.direction, &likely, returned, &above);
     const lane_int wanted = way.diffuse & s.found & above;
     lane_float density = s.density;
-    if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * cosine;
-    const lane_float weight = exact_divide(cosine, LANES_SELECT(wanted, density, one));
+    if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * likely;
+    const lane_float safe = LANES_SELECT(wanted, density, one);
     for (int c = 0; c < 3; ++c)
-        r->throughput[c] = LANES_SELECT(wanted, throughput[c] * lobes->diffuse[c] * weight, zero);
+        r->throughput[c] = LANES_SELECT(
+            wanted, throughput[c] * lobes->diffuse[c] * exact_divide(returned[c], safe), zero);
     const Vector ahead = select_vector(wanted, s.direction, p->normal);
     set_out_child(r, shape,
                   offset_origin(shape, p->position, p->normal, batch->hits, batch->stride, first),
                   p->normal, ahead);
+    r->t_end = LANES_SELECT(wanted, t_after(s.metres, r->direction, shape.edge), r->t_end);
     r->emitter = s.number;
     r->clear = zero;
     return wanted;
@@ -238,7 +153,7 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                          global const uint* restrict colors, PathSampling sampling, uint is_first,
                          VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
                          global uint* restrict counters, VXL_QUEUE_PARAMETERS,
-                         VXL_EMITTER_PARAMETERS, VXL_EMITTER_QUEUE_PARAMETERS) {
+                         VXL_EMITTER_PARAMETERS VXL_EMITTER_QUEUE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -264,28 +179,38 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
         clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
         if (nodes.coverage) note_coverage(&nodes, valid, met_any, target, clear);
     }
-    Lobes lobes = lobes_of(&around, colors, &batch, first, &p, opacity,
+    PhysicalView view;
+    if (VXL_PHYSICAL) view = view_of_paths(&around, colors, &batch, first, &p);
+    Lobes lobes = lobes_of(&around, colors, &batch, first, &p, &view, opacity,
                            LANE_MASK(bounces < sampling.bounces));
     if (VXL_TRANSMISSION) lobes.straight = LANES_SELECT(met_any, 1.0f - opacity, (lane_float)0.0f);
     const PathSamples samples = path_samples(&sampling, target, state);
-    const Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
-                                  LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
+    Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
+                            LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
     // Misses, last bounces and the rays sent themselves scatter nothing.
-    if (VXL_EMITTERS && emitter_count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
-        const Emitters table = VXL_EMITTER_TABLE;
+    const Emitters table = VXL_EMITTER_TABLE;
+    if (VXL_EMITTERS && table.count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
-        const lane_int wanted = look_for_emitters(shape, &around, &p, &batch, first, &lobes,
-                                                  throughput, way.chance, &samples, &table, &ray);
+        const lane_int wanted =
+            look_for_emitters(shape, &around, &p, &batch, first, &lobes, throughput, way.chance,
+                              &samples, &table, &view, &ray);
         send_to_emitters(&sent, wanted, target, state, sampling.bounces, &ray, counters);
     }
 
+    ScatteredWay matt = no_scattered_way(&p);
+    if (lanes_any(way.diffuse)) {
+        lane_float layer = (lane_float)0.0f;
+        if (VXL_PHYSICAL) layer = path_point(&samples, VXL_DECISION_LAYER).x;
+        matt = scatter_by(&p, &batch, first, &view, path_point(&samples, VXL_DECISION_DIRECTION),
+                          layer);
+        if (VXL_PHYSICAL) way.diffuse &= ~matt.is | matt.lives;
+    }
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
     const lane_int goes_on = scattered | way.straight;
     if (!lanes_any(goes_on)) return;
-    NewRays ray = next_rays_of(shape, &around, &p, &batch, first, &way,
-                               path_point(&samples, VXL_DECISION_DIRECTION));
+    NewRays ray = next_rays_of(shape, &around, &p, &batch, first, &way, &matt);
     ray.target = target;
     ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
     ray.state = state_after(&way, scattered, state);

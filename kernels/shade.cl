@@ -238,9 +238,9 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 /// Writes what is asked for of every hit: its point, normal, packed attributes and `sides`, and in
 /// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
-                          global const SkyRecord* restrict sky, VXL_EMITTER_PARAMETERS,
-                          global const float* restrict materials, global const uint* restrict ranks,
-                          VXL_BATCH_PARAMETERS, uint count) {
+                          global const SkyRecord* restrict sky,
+                          VXL_EMITTER_PARAMETERS global const float* restrict materials,
+                          global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const WorldView world = VXL_WORLD;

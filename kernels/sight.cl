@@ -38,7 +38,8 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     if (VXL_LENS) {
         const lane_uint frame_column = LANES_AS_UINT(column + camera.first_column);
         const lane_uint frame_row = LANES_AS_UINT(row + camera.first_row);
-        ray = through_lens(&camera, ray, lens_point(frame_column, frame_row, sample));
+        ray = through_lens(&camera, ray,
+                           lens_point(frame_column, frame_row, (uint)camera.first_sample + sample));
     }
 
     lane_float dx = along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.direction);

@@ -35,12 +35,14 @@ typedef struct EmitterFrame {
     float world_from_object[9];
     float center[3], image[3];
     float volume;  // of a voxel, cubic metres
-    float unused[7];
+    float width;   // at least the length of a voxel's diagonal, in the world's voxels
+    float unused[6];
 } EmitterFrame;
 #define VXL_FRAME_BACK 9
 #define VXL_FRAME_CENTER 18
 #define VXL_FRAME_IMAGE 21
 #define VXL_FRAME_VOLUME 24
+#define VXL_FRAME_WIDTH 25
 #define VXL_FRAME_WORDS 32
 
 typedef char EmitterRecordHas10Words[sizeof(EmitterRecord) == VXL_EMITTER_WORDS * 4 ? 1 : -1];

@@ -18,8 +18,9 @@ typedef struct PathSampling {
     unsigned int samples;                  // per pixel
     unsigned int bounces;                  // the maximum number of times that a path is scattered
     unsigned int first_column, first_row;  // of the image in its frame, as Camera has them
+    unsigned int first_sample;             // of the samples' sequence
 } PathSampling;
-VXL_SIZE_IS(PathSampling, 24);
+VXL_SIZE_IS(PathSampling, 28);
 
 // The area of a light around LightRecord::position, in voxels: its points are
 // position + a * axis_x + b * axis_y.
@@ -54,6 +55,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // The decisions at a surface that a path meets, each with a point of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of diffuse light
+#define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter
 #define VXL_DECISION_LENS 0xFFFDu           // where on the lens a sight ray starts
 #define VXL_DECISION_EMITTER 0xFFFEu        // which emitter a ray is sent to
 #define VXL_DECISION_EMITTER_POINT 0xFFFFu  // and where

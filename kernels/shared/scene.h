@@ -57,8 +57,10 @@ typedef struct Camera {
     int frame_width, frame_height;  // pixels that half_x and half_y span
     float lens_radius;              // metres; 0: all rays start at one point
     float lens_slope;               // lens_radius over the depth of what is sharp
+    int first_sample;               // of the samples' sequence
+    int unused[3];
 } Camera;
-VXL_SIZE_IS(Camera, 144);
+VXL_SIZE_IS(Camera, 160);
 
 typedef struct MaterialRecord {
     float color[3];
@@ -75,7 +77,13 @@ typedef struct MaterialRecord {
     float checker_color[3];  // of every other block ...
     float checker_scale[3];  // ... that is 1 / scale voxels wide; all 0: no blocks
     float checker_shift[3];  // block coordinate of the world's origin
-    float unused[6];
+    // Of physically based materials, in global light:
+    float metallic;
+    float width;        // of their highlights: GGX's alpha; 0: the material is none of them
+    float reflectance;  // straight on, of what isn't metal
+    float albedos;      // the number of the first value of their table, see below
+    float missing;      // AlbedoEntry::missing over all directions: the mean by the cosine
+    float matt;         // what their matt part is multiplied by, so that no light is lost
 } MaterialRecord;
 VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_MATERIAL_COLOR 0
@@ -92,7 +100,24 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_MATERIAL_CHECKER_COLOR 17
 #define VXL_MATERIAL_CHECKER_SCALE 20
 #define VXL_MATERIAL_CHECKER_SHIFT 23
+#define VXL_MATERIAL_METALLIC 26
+#define VXL_MATERIAL_WIDTH 27
+#define VXL_MATERIAL_REFLECTANCE 28
+#define VXL_MATERIAL_ALBEDOS 29
+#define VXL_MATERIAL_MISSING 30
+#define VXL_MATERIAL_MATT 31
 #define VXL_MATERIAL_FLOATS 32
+
+// The light that a surface of GGX's microfacets returns, for VXL_ALBEDO_ENTRIES angles, in the
+// array of materials behind these. With u from 0 to 1, entry u * (VXL_ALBEDO_ENTRIES - 1) holds
+//   missing    for the cosine c with u^2 = c (1 + width) / (c + width), in which tables of all
+//              widths are smooth: the share that facets don't return at once if they reflect all
+//   by_angle   for the cosine u^2: which part of what they return at once then they return if they
+//              reflect (1 - m)^5 of the light, m the cosine of the angle at which it meets them
+#define VXL_ALBEDO_ENTRIES 64
+#define VXL_ALBEDO_FLOATS 2
+#define VXL_ALBEDO_MISSING 0
+#define VXL_ALBEDO_BY_ANGLE 1
 
 // Values of LightRecord::kind.
 #define VXL_LIGHT_POINT 0

@@ -74,6 +74,11 @@ void bind_scenes(py::module_& module) {
              "Returns the scene with another image size, (width, height) in pixels.")
         .def("with_samples", &Scene::with_samples, py::arg("samples"),
              "Returns the scene with another number of sight rays a pixel, 1..4096.")
+        .def("with_noise", &Scene::with_noise, py::arg("error"), py::arg("seconds") = 0.0,
+             py::arg("max_samples") = 4096,
+             "Returns the scene with as many samples as its images need: those of each 4 x 4 "
+             "pixels are doubled until the standard error of their light is `error` of its mean, "
+             "or the image's time is over.")
         .def(
             "with_light",
             [](const Scene& scene, const std::string& light) {

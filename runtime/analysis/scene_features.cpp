@@ -47,6 +47,7 @@ std::vector<const Material*> shown_materials(const Scene& scene, const Pyramid& 
 
 /// True if the material sends back light that falls on it.
 bool is_lit(const Material* m) {
+    if (is_physical(*m)) return true;  // nothing is so black that it has no highlight
     const bool has_color =
         m->color != glm::vec3(0) || (m->checker && m->checker->color != glm::vec3(0));
     return m->specular > 0 || (m->diffuse > 0 && has_color);
@@ -63,6 +64,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         refraction |= (effects & kRefracts) != 0;
         opacity |= (effects & kIsSeenThrough) != 0;
         reflection |= (effects & kReflects) != 0;
+        features.physical |= features.global && (effects & kIsPhysical) != 0;
         fresnel |= (effects & kHasReflectance) != 0 && (effects & (kReflects | kRefracts)) != 0;
         absorption |= (effects & kAbsorbs) != 0 && (transmits(*m) || features.voxel_opacity);
     }
@@ -109,6 +111,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
     features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
+    features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
     add_medium_set(scene, world, features);
 }
@@ -150,8 +153,10 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
     constexpr double kWeightRounding = 1e-3;  // relative error of the weights
     const auto depth = double(max_depth(features, scene, world));
     double share = 0;  // maximum share of a surface's light that one ray contributes
-    for (const Material* m : shown_materials(scene, world))
-        share = std::max(share, double(m->reflection) + double(m->refraction));
+    for (const Material* m : shown_materials(scene, world)) {
+        const Material shown = whitted_material(*m);
+        share = std::max(share, double(shown.reflection) + double(shown.refraction));
+    }
     if (depth == 0 || share >= 1) return size_t(depth);
     const double followed = std::log(scene.render.min_weight) / std::log(share);
     return size_t(std::min(depth, std::floor(followed + kWeightRounding) + 1));

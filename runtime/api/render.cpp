@@ -157,6 +157,8 @@ class Run {
         v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
         if (result.image) {
             api::Attributes all = attributes;
+            const NoiseReached& noise = result.report.report.noise;
+            if (noise.tiles > 0) all["noise"] = fmt::format("{:.5f}", noise.mean());
             all[api::kFrameHash] = hashes_.of(files.frame);
             rendered.image = api::handle_of(with_motion(result.image, files.frame), std::move(all));
         }

@@ -138,6 +138,25 @@ Scene Scene::with_samples(int samples) const {
     });
 }
 
+Scene Scene::with_noise(double error, double seconds, int max_samples) const {
+    return api::guarded([&] {
+        if (!(error >= 0) || !(seconds >= 0) || error + seconds == 0)
+            throw voxelume::Error(voxelume::ErrorKind::usage,
+                                  "an image's noise and seconds are at least 0, and one of them "
+                                  "is above 0, not {} and {}",
+                                  error, seconds);
+        if (max_samples < 32 || max_samples > 4096)
+            throw voxelume::Error(voxelume::ErrorKind::usage,
+                                  "an image whose noise is measured has from 32 to 4096 samples a "
+                                  "pixel, not {}",
+                                  max_samples);
+        voxelume::Scene scene = api::inside(*this);
+        scene.render.samples = max_samples;
+        scene.render.noise = {error, seconds};
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
+    });
+}
+
 Scene Scene::with_light(LightMode light) const {
     return api::guarded([&] {
         voxelume::Scene scene = api::inside(*this);

@@ -34,7 +34,8 @@ v1::RayCounts rays_of(const RenderReport& report) {
             .secondary_rays = report.secondary_rays,
             .ended_paths = report.ended_paths,
             .medium_overflows = report.medium_overflows,
-            .not_finite = report.not_finite};
+            .not_finite = report.not_finite,
+            .noise = report.noise.mean()};
 }
 
 v1::WorldReuse reuse_of(WorldChange change) {

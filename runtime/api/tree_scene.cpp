@@ -183,11 +183,19 @@ JsonValue tree(const v1::World& world) {
 
 JsonValue tree(const v1::Material& material) {
     ObjectTree object;
-    object.add("color", material.color).add("diffuse", material.diffuse);
-    object.add("specular", material.specular).add("shininess", material.shininess);
-    object.add("reflection", material.reflection).add("refraction", material.refraction);
-    object.add("ior", material.ior).add("fresnel", material.fresnel);
-    object.add("opacity", material.opacity).add("absorption", material.absorption);
+    if (material.base_color || material.metallic || material.roughness) {
+        object.add("base_color", material.base_color.value_or(material.color));
+        if (material.metallic) object.add("metallic", *material.metallic);
+        if (material.roughness) object.add("roughness", *material.roughness);
+    } else {
+        object.add("color", material.color).add("diffuse", material.diffuse);
+        object.add("specular", material.specular).add("shininess", material.shininess);
+        object.add("reflection", material.reflection).add("refraction", material.refraction);
+        object.add("fresnel", material.fresnel);
+    }
+    object.add("ior", material.ior)
+        .add("opacity", material.opacity)
+        .add("absorption", material.absorption);
     object.add("emission", material.emission);
     if (const auto& checker = material.checker) {
         ObjectTree inner;

@@ -13,10 +13,7 @@ double shininess_of(double rough) {
 }
 
 std::string metal_members(double metal, double rough) {
-    const double smooth = (1 - rough) * (1 - rough);
-    return fmt::format("\"diffuse\": {}, \"specular\": {}, \"shininess\": {}, \"reflection\": {}",
-                       rounded(1 - 0.5 * metal * smooth, 3), rounded(0.6 * metal, 3),
-                       shininess_of(rough), rounded(0.65 * metal * smooth, 3));
+    return fmt::format("\"metallic\": {}, \"roughness\": {}", rounded(metal, 3), rounded(rough, 3));
 }
 
 }  // namespace voxelume

@@ -2,7 +2,6 @@
 #include "runtime/import/gltf_values.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 
@@ -11,8 +10,6 @@
 
 namespace voxelume {
 namespace {
-
-constexpr double kDielectric = 0.04;  // what glass reflects straight on
 
 glm::dvec3 color_of(const GltfValue& value, const char* key, size_t count) {
     const std::vector<double> numbers = value.numbers(key, count);
@@ -46,7 +43,9 @@ Looks looks_of(const GltfValue& material) {
         s.metal = has_map ? 0 : std::clamp(from.number("metallicFactor", 1), 0.0, 1.0);
         s.rough = has_map ? 0.7 : std::clamp(from.number("roughnessFactor", 1), 0.0, 1.0);
     }
-    if (material.text("alphaMode", "OPAQUE") != "BLEND") s.opacity = 1;
+    const std::string mode = material.text("alphaMode", "OPAQUE");
+    if (mode == "MASK") s.opacity = s.opacity < material.number("alphaCutoff", 0.5) ? 0 : 1;
+    if (mode == "OPAQUE") s.opacity = 1;
     return s;
 }
 
@@ -57,6 +56,13 @@ double transmission_of(const GltfValue& material) {
 
 bool has_volume(const GltfValue& material) {
     return material.extension("KHR_materials_volume").number("thicknessFactor", 0) > 0;
+}
+
+/// The index of refraction of a clear coat, unless it is that of glass.
+std::string ior_member(const GltfValue& material) {
+    const double ior = material.extension("KHR_materials_ior").number("ior", 1.5);
+    if (ior == 1.5 || !(ior >= 1)) return "";
+    return fmt::format(", \"ior\": {}", rounded(std::min(ior, 10.0), 4));
 }
 
 /// Members of a body of glass. What has no volume is a pane, through which light goes straight on.
@@ -100,15 +106,11 @@ std::string gltf_values(const GltfValue& material) {
         text += glass_members(material, transmission);
     } else if (material.has_extension("KHR_materials_unlit")) {
         // It shows its colour in whatever light.
-    } else if (s.metal > 0.01) {
-        text += ", " + metal_members(s.metal, s.rough);
-    } else if (s.rough < 0.9) {
-        text +=
-            fmt::format(", \"specular\": {}, \"shininess\": {}",
-                        rounded(std::sqrt(kDielectric) * (1 - s.rough), 3), shininess_of(s.rough));
+    } else {
+        text += ", " + metal_members(s.metal, s.rough) + ior_member(material);
     }
     if (transmission == 0 && s.opacity < 1)
-        text += fmt::format(", \"opacity\": {}", rounded(std::max(s.opacity, 0.01), 3));
+        text += fmt::format(", \"opacity\": {}", rounded(s.opacity, 3));
     const glm::dvec3 emission = emission_of(material);
     if (emission != glm::dvec3(0))
         text += fmt::format(", \"emission\": {}", json_list(rounded(emission, 4)));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/main_memory.hpp"
 
 namespace voxelume {
 namespace {
@@ -47,6 +48,8 @@ std::string selector_or_default(std::string_view selector) {
 }
 
 void limit_memory(DeviceInfo& info) {
+    info.memory =
+        std::min(info.memory, info.kind == DeviceKind::cpu ? main_memory() : chosen_memory_limit());
     const auto limit = [](const char* name, uint64_t& bytes) {
         const auto megabytes = uint64_t(number_in_environment(name));
         if (megabytes != 0) bytes = std::min(bytes, megabytes << 20);

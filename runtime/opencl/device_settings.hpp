@@ -12,7 +12,8 @@ namespace voxelume {
 /// `selector`, or VOXELUME_DEVICE if it is empty, or else "auto".
 std::string selector_or_default(std::string_view selector);
 
-/// Limits a device's memory as VOXELUME_MEMORY_MB and VOXELUME_BUFFER_MB say.
+/// Limits a device's memory as VOXELUME_MEMORY_MB, VOXELUME_BUFFER_MB and the process's limits say.
+/// That of a CPU is main memory.
 void limit_memory(DeviceInfo& info);
 
 /// A device as it is opened: with `lanes`, or VOXELUME_LANES if these are 0, or else its own; with

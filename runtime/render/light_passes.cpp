@@ -46,6 +46,10 @@ Scene group_alone(const Scene& scene, const std::string& group) {
 /// Surfaces that scatter the light that comes to them, of their own colours, and nothing more.
 void make_matt(Scene& scene) {
     for (Material& m : scene.materials) {
+        m.color = color_of(m);
+        m.base_color.reset();
+        m.metallic.reset();
+        m.roughness.reset();
         m.diffuse = 1;
         m.specular = m.reflection = m.refraction = 0;
         m.fresnel = false;

@@ -29,6 +29,8 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.ended_paths += report.ended_paths;
     sum.medium_overflows += report.medium_overflows;
     sum.not_finite += report.not_finite;
+    sum.noise.squares += report.noise.squares;
+    sum.noise.tiles += report.noise.tiles;
 }
 
 namespace {
@@ -38,7 +40,7 @@ namespace {
 Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
-    features.filter = features.filtered_refraction = false;
+    features.filter = features.filtered_refraction = features.physical = false;
     features.sky = 0;
     return features;
 }
@@ -50,7 +52,8 @@ PathSampling path_sampling(const Scene& scene, const Camera& camera, uint32_t fi
             uint32_t(camera.samples),
             uint32_t(scene.render.bounces),
             uint32_t(camera.first_column),
-            uint32_t(camera.first_row)};
+            uint32_t(camera.first_row),
+            uint32_t(camera.first_sample)};
 }
 
 /// Notes what an image's rays came to in a world.
@@ -132,7 +135,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
                               const Tiles& tiles) {
     const glm::ivec2& size = scene.render.size;
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
-        Image image = image_of_tiles(scene, world, report, tiles);
+        Image image = sampled_image(scene, world, report, tiles);
         add_passes(scene, world, tiles, report, image);
         return image;
     });
@@ -148,7 +151,8 @@ void Renderer::add_passes(const Scene& scene, const BuiltWorld& world, const Til
         std::vector<TileRange> taken;
         Renderer renderer(device_, false);
         renderer.is_white_ = pass.is_white;
-        Image light = renderer.image_of_tiles(pass.scene, world, of_pass, {share, taken});
+        Image light = renderer.sampled_image(pass.scene, world, of_pass, {share, taken});
+        of_pass.noise = {};
         for (const char* color : {"R", "G", "B"})
             image.planes[fmt::format("{}.{}", pass.name, color)] =
                 std::move(light.planes.at(color));

@@ -8,6 +8,7 @@
 
 #include "runtime/image/image.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/render/noise.hpp"
 #include "runtime/render/tile_share.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"
@@ -38,6 +39,7 @@ struct RenderReport {
     uint64_t medium_overflows = 0;  ///< rays that entered more overlapping objects than they can
                                     ///< remember: the image is wrong there
     uint32_t not_finite = 0;        ///< values that became 0; more than 0 is a fault of the program
+    NoiseReached noise;             ///< only for images with a target
     bool is_kept = false;           ///< true if the frame shows the image of the frame before
     bool hits_are_kept = false;  ///< true if its sight rays meet what they met in the frame before
 };
@@ -99,6 +101,8 @@ class Renderer {
     WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
     void note_done(const TileRange& range, const Tiles& tiles) const;
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
+    Image sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
+                        const Tiles& tiles);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
     void add_passes(const Scene& scene, const BuiltWorld& world, const Tiles& tiles,

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/material.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace voxelume {
 
 std::span<const ValueRow<Material>> material_rows() {
     using M = Material;
-    static constexpr std::array<ValueRow<Material>, 11> rows = {{
+    static constexpr std::array<ValueRow<Material>, 14> rows = {{
         {"color", &M::color, kRatio},
         {"diffuse", &M::diffuse, kRatio},
         {"specular", &M::specular, kRatio},
@@ -19,6 +20,9 @@ std::span<const ValueRow<Material>> material_rows() {
         {"opacity", &M::opacity, kRatio, false, true, kIsSeenThrough},
         {"absorption", &M::absorption, kNotNegative, false, true, kAbsorbs},
         {"emission", &M::emission, kNotNegative, false, true, kEmits},
+        {"base_color", &M::base_color, kRatio, false, true, kIsPhysical},
+        {"metallic", &M::metallic, kRatio, false, true, kIsPhysical},
+        {"roughness", &M::roughness, kRatio, false, true, kIsPhysical},
     }};
     return rows;
 }
@@ -37,7 +41,41 @@ uint32_t effects_of(const Material& material) {
     uint32_t effects = 0;
     for (const ValueRow<Material>& row : material_rows())
         if (row.effect != 0 && !row.is_equal(material, plain)) effects |= row.effect;
+    if ((effects & kIsPhysical) != 0 && whitted_material(material).reflection > 0)
+        effects |= kReflects;
     return effects;
+}
+
+bool is_physical(const Material& material) {
+    return material.base_color || material.metallic || material.roughness;
+}
+
+glm::vec3 color_of(const Material& material) {
+    return material.base_color ? glm::vec3(*material.base_color) : material.color;
+}
+
+Material whitted_material(const Material& material) {
+    if (!is_physical(material)) return material;
+    constexpr double kGlint = 0.2;  // the root of what glass reflects straight on
+    const double metal = material.metallic.value_or(0);
+    const double rough = material.roughness.value_or(kRoughness);
+    const double smooth = (1 - rough) * (1 - rough), width = std::max(rough * rough, 0.04);
+    Material m = material;
+    m.color = color_of(material);
+    m.base_color.reset();
+    m.metallic.reset();
+    m.roughness.reset();
+    m.diffuse = float(1 - 0.5 * metal * smooth);
+    m.specular = float(0.6 * metal + kGlint * (1 - metal) * (1 - rough));
+    m.shininess = float(std::clamp(2 / (width * width) - 2, 2.0, 1000.0));
+    m.reflection = float(0.65 * metal * smooth);
+    return m;
+}
+
+std::span<const std::string_view> whitted_keys() {
+    static constexpr std::array<std::string_view, 6> keys = {
+        "diffuse", "specular", "shininess", "reflection", "refraction", "fresnel"};
+    return keys;
 }
 
 void check_checker(const Checker& checker, const Refuse& refuse) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface looks like: the values of Whitted's model, and a checker.
+// What a surface looks like: the values of Whitted's model or of a physically based one, and a
+// checker.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,9 @@ struct Checker {
     friend bool operator==(const Checker&, const Checker&) = default;
 };
 
+/// The roughness of physically based materials that give none.
+inline constexpr double kRoughness = 0.5;
+
 struct Material {
     std::string name;
     glm::vec3 color{0.8f};    ///< linear Rec. 709, 0..1
@@ -35,6 +39,10 @@ struct Material {
     glm::vec3 absorption{0};  ///< inside, per metre, >= 0
     glm::vec3 emission{0};    ///< radiance, >= 0
     std::optional<Checker> checker;
+    // One of these makes a material physically based:
+    std::optional<glm::dvec3> base_color;  ///< 0..1; otherwise `color`
+    std::optional<double> metallic;        ///< 0..1; otherwise 0
+    std::optional<double> roughness;       ///< 0..1; otherwise 0.5
 
     friend bool operator==(const Material&, const Material&) = default;
 };
@@ -47,6 +55,7 @@ enum MaterialEffect : uint32_t {
     kHasReflectance = 8,  ///< of Fresnel: by the angle
     kAbsorbs = 16,        ///< dims light on its way inside
     kEmits = 32,
+    kIsPhysical = 64,  ///< physically based
 };
 
 /// The values of a material but its checker. A value is added with a member above, a row here, and
@@ -56,6 +65,19 @@ std::span<const ValueRow<Checker>> checker_rows();
 
 /// The effects of the values that differ from the defaults.
 uint32_t effects_of(const Material& material);
+
+bool is_physical(const Material& material);
+
+/// The surface's own colour, whichever of the two keys names it.
+glm::vec3 color_of(const Material& material);
+
+/// A physically based material's place in Whitted's model, by which local light shows it; others as
+/// they are. Mirrors are sharp and colourless there, so a rough metal reflects less and shows more
+/// of its own colour.
+Material whitted_material(const Material& material);
+
+/// The keys that physically based materials have other keys for.
+std::span<const std::string_view> whitted_keys();
 
 /// Refuses a checker without blocks.
 void check_checker(const Checker& checker, const Refuse& refuse);

@@ -70,10 +70,20 @@ struct ImageCrop {
     friend bool operator==(const ImageCrop&, const ImageCrop&) = default;
 };
 
+/// When a flat image has samples enough. Tiles stop one by one.
+struct NoiseTarget {
+    double error = 0;    ///< the standard error of a tile's pixels over their mean; 0: none
+    double seconds = 0;  ///< that the image may take; 0: any
+
+    bool is_given() const { return error > 0 || seconds > 0; }
+    friend bool operator==(const NoiseTarget&, const NoiseTarget&) = default;
+};
+
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
     ImageCrop crop;             ///< not in scene files
-    int samples = 1;            ///< per pixel, 1..4096
+    int samples = 1;            ///< per pixel, 1..4096; at most so many where `noise` is given
+    int first_sample = 0;       ///< of the sequence of samples; not in scene files
     int depth = 5;              ///< reflections and refractions in a row, 0..64
     bool shadows = true;
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
@@ -81,6 +91,7 @@ struct RenderSettings {
     LightMode light = LightMode::local;
     int bounces = 8;  ///< global light: times that a path is scattered, 0..64
     LampSearch lamps = LampSearch::both;
+    NoiseTarget noise;       ///< not in scene files
     ImageChannels channels;  ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;

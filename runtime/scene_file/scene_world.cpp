@@ -27,6 +27,19 @@ Bounds read_bounds(const SceneValue& value) {
     return bounds;
 }
 
+/// Refuses values of Whitted's model that a physically based material has others for.
+void refuse_both_models(const SceneFields& fields) {
+    for (const char* key : {"base_color", "metallic", "roughness"}) {
+        if (!fields.has(key)) continue;
+        for (const std::string_view other : whitted_keys())
+            if (const auto value = fields.find(other))
+                value->fail(
+                    fmt::format("belongs to Whitted's model, and \"{}\" to the physically "
+                                "based one; leave one of them out",
+                                key));
+    }
+}
+
 Checker read_checker(const SceneValue& value) {
     const SceneFields fields(value, "checker");
     fields.get("size");
@@ -42,6 +55,8 @@ Material read_material(const std::string& name, const SceneValue& value) {
     const SceneFields fields(value, "material");
     Material m;
     m.name = name;
+    fields.refuse_both("color", "base_color");
+    refuse_both_models(fields);
     fields.read_rows(material_rows(), m);
     if (const auto checker = fields.find("checker")) m.checker = read_checker(*checker);
     return m;

@@ -4,6 +4,7 @@
 namespace voxelume {
 
 void bind(KernelArguments& to, const EmitterTable& emitters) {
+    if (!emitters.is_searched) return;
     to.add(emitters.count, emitters.records, emitters.slots, emitters.table, emitters.frames,
            emitters.volume);
 }

@@ -12,6 +12,7 @@ namespace voxelume {
 
 /// The emitters of a scene; no records if paths look for none.
 struct EmitterTable {
+    bool is_searched = false;  ///< by features with `emitters`: other kernels take none of this
     uint32_t count = 0;
     Buffer<EmitterRecord> records;
     uint32_t slots = 0;           ///< of `table`: a power of two

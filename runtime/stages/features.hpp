@@ -18,6 +18,7 @@ struct Features {
     bool colors = false;           ///< voxels have colours of their own
     bool medium = false;           ///< the environment absorbs light
     bool medium_grid = false;      ///< ... and its density varies
+    bool medium_colors = false;    ///< ... and so does its colour
     bool shadows = false;          ///< lights can be hidden
     bool area_samples = false;     ///< some light has an area
     bool checker = false;          ///< some material changes its colour from block to block
@@ -33,6 +34,7 @@ struct Features {
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
+    bool physical = false;             ///< ... and some material is physically based
     bool lens = false;                 ///< sight rays start all over a lens
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
@@ -65,6 +67,7 @@ struct Features {
                 {"VXL_COLORS", colors},
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
+                {"VXL_MEDIUM_COLORS", medium_colors},
                 {"VXL_SHADOWS", shadows},
                 {"VXL_AREA_SAMPLES", area_samples},
                 {"VXL_CHECKER", checker},
@@ -78,6 +81,7 @@ struct Features {
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
                 {"VXL_GLOBAL", global},
+                {"VXL_PHYSICAL", physical},
                 {"VXL_LENS", lens},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},

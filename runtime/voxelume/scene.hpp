@@ -103,6 +103,14 @@ class Scene {
     /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
+    /// Returns the scene with as many samples as its flat images need: those of each 4 x 4 pixels
+    /// are doubled, from 16 to at most `max_samples`, until their standard error is at most
+    /// `error` of their mean light, by half of what two halves of them differ by. With `seconds`
+    /// above 0 none are doubled for which an image's time won't suffice, and an `error` of 0 is
+    /// never reached. Throws Error::usage for numbers below 0, for two zeros and for samples that
+    /// aren't from 32 to 4096.
+    Scene with_noise(double error, double seconds = 0, int max_samples = 4096) const;
+
     /// Returns the scene in another light.
     Scene with_light(LightMode light) const;
 

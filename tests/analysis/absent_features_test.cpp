@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "kernels/shared/emitters.h"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program.hpp"
@@ -101,7 +102,10 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/light/emitters.h",
                                         "lib/light/emission_share.h",
                                         "lib/traverse/lens.h",
-                                        "lib/light/path_samples.h"};
+                                        "lib/light/path_samples.h",
+                                        "lib/light/ggx.h",
+                                        "lib/light/physical.h",
+                                        "lib/light/physical_light.h"};
 
 /// The kernels that frames of such a scene launch, by file.
 const std::map<std::string, std::set<std::string>> kLaunched = {
@@ -121,6 +125,55 @@ TEST(AbsentFeatures, AreNotInTheKernelsOfAPlainScene) {
         for (const std::string& kernel : kernels) program.kernel(kernel);
     }
     EXPECT_GT(functions, 60u);
+}
+
+/// The number of a kernel's parameters, which the refusal of a launch without arguments tells.
+int parameters_of(const char* file, const char* kernel, const Features& features) {
+    const Device& device = shared_device();
+    try {
+        Program(device, file, features.defines(device)).kernel(kernel).launch(WorkItem::light, 1);
+    } catch (const Error& error) {
+        std::smatch number;
+        const std::string text = error.what();
+        if (std::regex_search(text, number, std::regex("has ([0-9]+) parameters")))
+            return std::stoi(number[1]);
+    }
+    return -1;
+}
+
+TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
+    Features features = plain_features();
+    features.paths = features.global = features.area_samples = true;
+    features.emitters = VXL_EMITTERS_BOTH;
+    const std::set<std::string> removed = {"lib/light/ggx.h", "lib/light/physical.h",
+                                           "lib/light/physical_light.h"};
+    for (const auto& [file, kernel] : {std::pair("extend.cl", "extend_paths"),
+                                       {"light.cl", "add_light"},
+                                       {"area_light.cl", "add_area_light"}}) {
+        const Source source(file, {kernel}, removed);
+        EXPECT_GT(source.gutted_functions(), 8u) << file;
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device()))
+            .kernel(kernel);
+    }
+    features.physical = true;
+    const Source source("light.cl", {"add_light"}, removed);
+    EXPECT_THROW(
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
+        Error);
+}
+
+TEST(AbsentFeatures, TakeNoArgumentsOfKernels) {
+    Features with = plain_features();
+    with.paths = with.global = true;
+    const Features without = with;
+    with.emitters = VXL_EMITTERS_BOTH;
+    constexpr int kEmitterParameters = 6;
+    for (const auto& [file, kernel] :
+         {std::pair("shade.cl", "shade_surface"), std::pair("extend.cl", "extend_paths")}) {
+        const int fewer = parameters_of(file, kernel, without);
+        EXPECT_GT(fewer, 20) << kernel;
+        EXPECT_EQ(parameters_of(file, kernel, with), fewer + kEmitterParameters) << kernel;
+    }
 }
 
 TEST(AbsentFeatures, WouldBeMissedWhereASceneHasThem) {

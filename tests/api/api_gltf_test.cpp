@@ -56,14 +56,22 @@ TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
                         {{"baseColorFactor", {0.5, 0.25, 1, 0.5}},
                          {"metallicFactor", 0},
                          {"roughnessFactor", 0.5}}}}),
-        HasSubstr("\"m\": {\"color\": [0.5, 0.25, 1], \"specular\": 0.1, \"shininess\": 30}"));
+        HasSubstr("\"m\": {\"color\": [0.5, 0.25, 1], \"metallic\": 0, \"roughness\": 0.5}"));
     EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}}),
-                HasSubstr("\"diffuse\": 0.5, \"specular\": 0.6, \"shininess\": 1000, "
-                          "\"reflection\": 0.65"));
+                HasSubstr("\"metallic\": 1, \"roughness\": 0}"));
+    EXPECT_THAT(with_material({{"extensions", {{"KHR_materials_ior", {{"ior", 1.75}}}}}}),
+                HasSubstr("\"roughness\": 1, \"ior\": 1.75}"));
     EXPECT_THAT(with_material({{"alphaMode", "BLEND"},
                                {"pbrMetallicRoughness",
                                 {{"baseColorFactor", {1, 1, 1, 0.25}}, {"metallicFactor", 0}}}}),
                 HasSubstr("\"opacity\": 0.25"));
+    for (const double cutoff : {0.2, 0.4}) {
+        const std::string masked =
+            with_material({{"alphaMode", "MASK"},
+                           {"alphaCutoff", cutoff},
+                           {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.3}}}}});
+        EXPECT_EQ(masked.find("\"opacity\": 0") != masked.npos, cutoff == 0.4) << masked;
+    }
     const Json transmission = {{"transmissionFactor", 1}};
     EXPECT_THAT(with_material({{"extensions", {{"KHR_materials_transmission", transmission}}}}),
                 HasSubstr("\"opacity\": 0.05"));

@@ -93,6 +93,21 @@ TEST_F(StatisticsSchemaTest, HoldsForAVolumeAndForSeveralDevices) {
     EXPECT_EQ(shared["devices"].size(), 2u);
 }
 
+TEST_F(StatisticsSchemaTest, HasTheNoiseThatAnImageWithATargetReached) {
+    write_scene([](Json& scene) { scene["world"]["background"] = {1, 0.5, 0.25}; });
+    const Json noisy = statistics("-o a.exr --light global --noise 0.01 --samples 64");
+    EXPECT_EQ(faults(noisy), "");
+    ASSERT_TRUE(noisy.contains("noise"));
+    EXPECT_GT(noisy["noise"], 0);
+    EXPECT_LT(noisy["noise"], 0.5);
+    const ProgramResult info = run("info a.exr");
+    EXPECT_NE(info.out.find("noise"), info.out.npos) << info.out;
+    const Json timed = statistics("-o a.exr --light global --time 0.5 --samples 128");
+    EXPECT_GT(timed["noise"], 0);
+    EXPECT_FALSE(statistics("-o a.exr --light global --samples 4").contains("noise"));
+    EXPECT_EQ(run("render scene.json -o a.exr --noise 0.1 --samples 16").exit_code, 2);
+}
+
 TEST_F(StatisticsSchemaTest, RefusesAMissingKeyAndOneTooMany) {
     const Json good = statistics("-o a.png");
     for (const auto& [key, value] : good.items()) {

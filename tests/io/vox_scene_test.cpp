@@ -78,7 +78,9 @@ TEST_F(VoxSceneTest, MaterialsOfBothKindsAreGroupsAndMaterialsOfTheScene) {
         ADD_FAILURE() << name;
         return Material();
     };
-    EXPECT_GT(material("metal 2").reflection, 0.3f);
+    EXPECT_DOUBLE_EQ(material("metal 2").metallic.value(), 0.8);
+    EXPECT_DOUBLE_EQ(material("metal 2").roughness.value(), 0.1);
+    EXPECT_GT(whitted_material(material("metal 2")).reflection, 0.3f);
     EXPECT_FLOAT_EQ(material("glass 3").ior, 1.4f);
     EXPECT_FLOAT_EQ(material("glass 3").refraction, 0.75f);
     EXPECT_TRUE(material("glass 3").fresnel);

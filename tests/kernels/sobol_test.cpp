@@ -25,6 +25,12 @@ kernel void sample_square(uint count, global const uint* samples, global const u
     LANES_STORE(p.x, points, first);
     LANES_STORE(p.y, points, stride + first);
 }
+kernel void number_parts(uint count, global const uint* fractions, uint parts,
+                         global uint* numbers) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    LANES_STORE(part_of(LANES_LOAD(fractions, first), parts), numbers, first);
+}
 )";
 
 using Point = std::array<double, 2>;
@@ -132,6 +138,28 @@ TEST(Sobol, PointsAreThoseOfTheDefinitionOnAnyNumberOfLanes) {
             ASSERT_EQ(points[i], defined_point(uint32_t(i % 999), seeds[i / 999]))
                 << lanes << " lanes, point " << i;
     }
+}
+
+TEST(Sobol, AsManyPartsAsThereMayBeEmittersAreAlmostEqual) {
+    // The first and the last fraction of each part: 4096 or 4097 lie between them.
+    constexpr uint64_t kParts = (1u << 20) - 3;
+    std::vector<uint32_t> fractions;
+    for (uint64_t part = 0; part < kParts; part += 77) {
+        const auto first = [](uint64_t i) { return ((i << 32) + kParts - 1) / kParts; };
+        fractions.push_back(uint32_t(first(part)));
+        fractions.push_back(uint32_t(first(part + 1) - 1));
+    }
+    const auto count = uint32_t(fractions.size());
+    fractions.resize((count + 15) / 16 * 16);
+    const Device device = test_device();
+    Buffer<uint32_t> numbers(device, "numbers", fractions.size());
+    Program::from_text(device, kSource, {})
+        .kernel("number_parts")
+        .launch_packets(count, count,
+                        Buffer<uint32_t>(device, "fractions", std::span<const uint32_t>(fractions)),
+                        uint32_t(kParts), numbers);
+    const std::vector<uint32_t> found = numbers.read();
+    for (uint32_t i = 0; i < count; ++i) ASSERT_EQ(found[i], i / 2 * 77) << fractions[i];
 }
 
 TEST(Sobol, SuccessiveSamplesFillEveryDivisionIntoEqualBoxes) {

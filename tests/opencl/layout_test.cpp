@@ -27,11 +27,13 @@
 #define CAMERA_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) \
-    I(first_column) I(first_row) I(frame_width) I(frame_height) F(lens_radius) F(lens_slope)
+    I(first_column) I(first_row) I(frame_width) I(frame_height) F(lens_radius) F(lens_slope) \
+    I(first_sample) IA(unused, 3)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
-    FA(checker_scale, 3) FA(checker_shift, 3) FA(unused, 6)
+    FA(checker_scale, 3) FA(checker_shift, 3) F(metallic) F(width) F(reflectance) \
+    F(albedos) F(missing) F(matt)
 #define LIGHT_RECORD_FIELDS \
     V(position) V(direction) V(intensity) F(inner_cosine) F(outer_cosine) I(kind) F(spread)
 #define ENVIRONMENT_FIELDS V(background) V(ambient) V(absorption) V(color)
@@ -44,7 +46,7 @@
     I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
     FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
 #define PATH_SAMPLING_FIELDS I(first_tile) I(tiles_x) I(samples) I(bounces) I(first_column) \
-    I(first_row)
+    I(first_row) I(first_sample)
 #define LIGHT_AREA_RECORD_FIELDS V(axis_x) V(axis_y)
 #define SKY_RECORD_FIELDS \
     V(zenith) V(horizon) V(ground) V(sun_direction) V(sun_radiance) V(luminance) \
@@ -62,7 +64,7 @@
     FA(corner, 3) I(instance) I(voxel) I(sides) F(probability) F(own_share) I(alias) I(unused)
 #define EMITTER_FRAME_FIELDS \
     FA(object_from_world, 9) FA(world_from_object, 9) FA(center, 3) FA(image, 3) F(volume) \
-    FA(unused, 7)
+    F(width) FA(unused, 6)
 // clang-format on
 
 #define TEXT_OF(fields) TEXT_OF_(fields)

@@ -19,7 +19,8 @@ inline nlohmann::json full_scene() {
         "materials": {"red": {"color": [0.8, 0.1, 0.2], "diffuse": 0.9, "specular": 0.3,
             "shininess": 40, "reflection": 0.2, "refraction": 0.3, "ior": 1.4, "opacity": 0.7,
             "absorption": [1, 2, 3], "emission": [4, 5, 6],
-            "checker": {"color": [0.1, 0.2, 0.3], "size": [0.5, 0.6, 0.7], "origin": [1, 2, 3]}}},
+            "checker": {"color": [0.1, 0.2, 0.3], "size": [0.5, 0.6, 0.7], "origin": [1, 2, 3]}},
+            "brass": {"base_color": [0.7, 0.6, 0.3], "metallic": 0.9, "roughness": 0.3}},
         "models": {
             "block": {"shape": "difference", "parts": [
                 {"shape": "box", "size": [0.9, 0.5, 0.7]},
@@ -55,6 +56,8 @@ inline std::vector<std::pair<std::string, nlohmann::json>> other_parts() {
         {"/world/medium/density",
          parsed(R"({"kind": "grid", "file": "m.vdb", "position": [1, 2, 3], "turn": [10, 20, 30],
                     "scale": [1, 2, 3]})")},
+        {"/models/cut", parsed(R"({"mesh": "m.glb", "part": 1, "surface": "smooth",
+                                   "morph": {"weights": [0.5, -2, 3]}})")},
         {"/observer/display", parsed(R"({"shape": "pyramid", "angle": 40})")},
         {"/observer/display",
          parsed(R"({"shape": "sector", "angle": 240, "near": 0.1, "far": 3})")},

@@ -171,6 +171,31 @@ TEST(MaterialEffects, AreThoseOfValuesThatDifferFromTheDefaults) {
     material.fresnel = true;
     material.absorption.x = 1;
     EXPECT_EQ(effects_of(material), kReflects | kRefracts | kHasReflectance | kAbsorbs);
+    material = {};
+    material.roughness = 0.5;  // the one that counts without it, too
+    EXPECT_EQ(effects_of(material), kIsPhysical);
+    material.metallic = 1;
+    EXPECT_EQ(effects_of(material), kIsPhysical | kReflects);
+}
+
+TEST(PhysicalMaterials, HaveThePlaceInWhittedsModelThatTheManualTells) {
+    Material brass;
+    brass.base_color = {0.9, 0.7, 0.25};
+    brass.metallic = 0.75;
+    brass.roughness = 0.5;
+    brass.opacity = 0.5f;
+    const Material shown = whitted_material(brass);
+    EXPECT_FALSE(is_physical(shown));
+    EXPECT_EQ(shown.color, glm::vec3(0.9f, 0.7f, 0.25f));
+    EXPECT_FLOAT_EQ(shown.diffuse, 1 - 0.5f * 0.75f * 0.25f);
+    EXPECT_FLOAT_EQ(shown.specular, 0.6f * 0.75f + 0.2f * 0.25f * 0.5f);
+    EXPECT_FLOAT_EQ(shown.shininess, 30);
+    EXPECT_FLOAT_EQ(shown.reflection, 0.65f * 0.75f * 0.25f);
+    EXPECT_EQ(shown.refraction, 0);
+    EXPECT_EQ(shown.opacity, 0.5f);
+    Material plain;
+    plain.reflection = 0.25f;
+    EXPECT_EQ(whitted_material(plain), plain);
 }
 
 }  // namespace voxelume

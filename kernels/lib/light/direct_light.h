@@ -6,11 +6,8 @@
 #define VXL_DIRECT_LIGHT_H
 
 #include "lib/lanes/vector.h"
-#include "lib/surface/shading_normal.h"
-#include "lib/surface/surface_color.h"
-#include "lib/traverse/hit_attributes.h"
+#include "lib/light/physical_light.h"
 #include "lib/traverse/offset_origin.h"
-#include "lib/traverse/ray_batch.h"
 #include "lib/traverse/world.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
@@ -40,15 +37,6 @@ static inline lane_float area_sample_falloff(LightRecord light, Vector to_surfac
     const lane_float sum = LANES_SELECT(faces, squared + light.spread, (lane_float)1.0f);
     return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
 }
-
-/// The light as a packet of surface points sees it.
-typedef struct {
-    lane_int lit;       // mask: the light may contribute to the point
-    Vector to_light;    // in voxels: to the light; directional light: towards it
-    Vector l;           // the unit vector to it, in metres' space
-    lane_float cosine;  // between it and the shading normal
-    lane_float falloff;
-} Incidence;
 
 /// The light's falloff at the `lit` points, whose squared distance to it is `squared` metres.
 static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squared, lane_int lit) {
@@ -194,31 +182,6 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     }
 }
 
-/// Surface points that light may reach. Their shadow rays begin at `start`.
-typedef struct {
-    lane_int lit;  // mask
-    lane_uint voxel, material;
-    Vector position, normal, shading_normal, start;
-} LitPoints;
-
-/// Loads the points of hits. Returns false if none can be lit.
-static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints* p) {
-    const uint stride = batch->stride;
-    const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * stride + first);
-    p->lit = LANE_MASK(number != VXL_NO_VOXEL);
-    if (VXL_TRANSMISSION)
-        p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
-    if (!lanes_any(p->lit)) return false;
-    p->voxel = number & LANES_AS_UINT(p->lit);
-    p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);
-    p->position = load_vector(batch->positions, stride, first);
-    p->normal = load_vector(batch->normals, stride, first);
-    p->shading_normal = p->normal;
-    if (VXL_SHADING_NORMALS) p->shading_normal = load_vector(batch->shading, stride, first);
-    p->start = p->position;
-    return true;
-}
-
 /// Lifts the starts of rays off the surfaces, and unlights points that the light falls on from
 /// behind. Returns the mask of rays that leave a triangle, above which they begin, on its back.
 static inline lane_int start_off_surface(const WorldView* world, const RayBatch* batch, uint first,
@@ -265,8 +228,11 @@ static inline void shine_from(const WorldView* world, LightRecord light, Vector 
     const lane_float highlight = highlight_of(p.shading_normal, incidence.l, d, edge);
     LitRays r;
     aim_at_light(world->shape, light, &incidence, p.start, p.normal, &r);
-    const lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.voxel,
-                                      materials, world->surface.colors, r.contribution);
+    lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.voxel,
+                                materials, world->surface.colors, r.contribution);
+    if (VXL_PHYSICAL)
+        some = find_physical_shares(light, &incidence, &p, d, edge, materials,
+                                    world->surface.colors, some, r.contribution);
     send_or_add(queue, &r, p.lit & some, behind, batch, first);
 }
 

@@ -12,11 +12,16 @@
 #include "shared/emitters.h"
 #include "shared/instance.h"
 
-/// The parameters that `bind` of EmitterTable sets, in its order.
+/// The parameters that `bind` of EmitterTable sets, in its order: none where paths look for no
+/// emitters. A comma ends them.
+#if VXL_EMITTERS
 #define VXL_EMITTER_PARAMETERS                                                                  \
     uint emitter_count, global const float *restrict emitters, uint emitter_slots,              \
         global const uint *restrict emitter_table, global const float *restrict emitter_frames, \
-        float emitter_volume
+        float emitter_volume,
+#else
+#define VXL_EMITTER_PARAMETERS
+#endif
 
 /// The emitters of a scene. Without instances there is no table of frames.
 typedef struct {
@@ -29,8 +34,13 @@ typedef struct {
 } Emitters;
 
 /// The value of Emitters in a kernel with these parameters.
+#if VXL_EMITTERS
 #define VXL_EMITTER_TABLE \
     { emitter_count, emitters, emitter_slots, emitter_table, emitter_frames, emitter_volume }
+#else
+#define VXL_EMITTER_TABLE \
+    { 0, 0, 0, 0, 0, 0.0f }
+#endif
 
 /// Emitters' boxes as points see them: coordinates in which the box is the unit cube.
 typedef struct {
@@ -135,6 +145,7 @@ typedef struct {
     lane_int found;      // mask: the emitter has a side towards the point
     lane_uint number;    // of the emitter
     Vector direction;    // a unit vector in metres
+    lane_float metres;   // how far away the last point of the emitter's box can be
     lane_float density;  // the probability of the direction, per solid angle
 } EmitterRays;
 
@@ -146,19 +157,33 @@ static inline lane_float spread_again(lane_float x, lane_float share, lane_int y
     return clamp(exact_divide(x - low, safe), 0.0f, 0.99999994f);
 }
 
+/// How far away the last points of boxes can be, to which `way` in the world's voxels leads, which
+/// is so many `metres` long. No point of a box is farther from another than its diagonal, and rays
+/// begin less than a voxel away from where they are aimed.
+static inline lane_float farthest_point(const Emitters* e, const BoxView* b, Vector way,
+                                        lane_float metres, lane_int found) {
+    lane_float width = (lane_float)1.7320509f;
+    if (VXL_INSTANCES) width = LANES_GATHER_FLOAT(e->frames, b->frame + (uint)VXL_FRAME_WIDTH);
+    const lane_float voxels = exact_sqrt(dot_product(way, way));
+    const lane_int some = found & LANE_MASK(voxels > 0.0f);
+    const lane_float more =
+        exact_divide(width + 2.0f, LANES_SELECT(some, voxels, (lane_float)1.0f));
+    return fma(metres, more, metres);
+}
+
 /// Chooses an emitter by `choice`, and the point of its box's sides at `place`.
 static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float4 edge,
-                                         SquarePoint choice, SquarePoint place) {
-    const lane_float zero = (lane_float)0.0f;
-    const lane_uint slot = min(LANES_UINT(choice.x * (float)e->count), (lane_uint)(e->count - 1u));
+                                         SquareBits choice, SquarePoint place) {
+    const lane_float zero = (lane_float)0.0f, by_share = unit_interval(choice.y);
+    const lane_uint slot = part_of(choice.x, e->count);
     const lane_uint r = slot * (uint)VXL_EMITTER_WORDS;
     const lane_float share = LANES_GATHER_FLOAT(e->records, r + (uint)VXL_EMITTER_SHARE);
-    const lane_int own = LANE_MASK(choice.y < share);
+    const lane_int own = LANE_MASK(by_share < share);
     global const uint* words = (global const uint*)e->records;
     EmitterRays s;
     s.number = LANES_SELECT(own, slot, LANES_GATHER_UINT(words, r + (uint)VXL_EMITTER_ALIAS));
     const BoxView b = view_box(e, s.number, origin);
-    const lane_float side = spread_again(choice.y, share, own) * b.sum;
+    const lane_float side = spread_again(by_share, share, own) * b.sum;
     const lane_int x = LANE_MASK(side < b.weight.x);
     const lane_int y = LANE_MASK(side < b.weight.x + b.weight.y) & ~x;
     const lane_int z = ~(x | y);
@@ -170,11 +195,13 @@ static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float
     const Vector along = {target.x - b.at.x, target.y - b.at.y, target.z - b.at.z};
     const lane_float weight = LANES_SELECT(x, b.weight.x, LANES_SELECT(y, b.weight.y, b.weight.z));
     const lane_float across = LANES_SELECT(x, along.x, LANES_SELECT(y, along.y, along.z));
-    const Vector metric = scaled(framed(e, b.frame, (uint)VXL_FRAME_BACK, along), edge);
+    const Vector way = framed(e, b.frame, (uint)VXL_FRAME_BACK, along);
+    const Vector metric = scaled(way, edge);
     const lane_float metres = exact_sqrt(dot_product(metric, metric));
     s.density = side_density(&b, weight, (lane_float)1.0f, across, metres);
     s.direction = unit(metric);
     s.found = LANE_MASK(s.density > 0.0f);
+    s.metres = farthest_point(e, &b, way, metres, s.found);
     return s;
 }
 

@@ -4,13 +4,14 @@
 #define VXL_LOBES_H
 
 #include "lib/light/paths.h"
+#include "lib/light/physical.h"
 #include "lib/light/scatter_point.h"
 #include "lib/light/sobol.h"
 #include "lib/surface/surface_color.h"
 
 /// The parts of the light that a packet's surfaces return from each way on.
 typedef struct {
-    lane_float diffuse[3];
+    lane_float diffuse[3];  // in all directions, also all that physically based ones return
     lane_float reflected, refracted;
     lane_float straight;  // past the surface, which covers only a part
 } Lobes;
@@ -23,10 +24,22 @@ typedef struct {
     lane_float chance;  // of the diffuse way
 } Choice;
 
+/// The physically based ones of a packet's surfaces, as paths see them.
+static inline PhysicalView view_of_paths(const Surroundings* around,
+                                         global const uint* restrict colors, const RayBatch* batch,
+                                         uint first, const ScatterPoint* p) {
+    const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first);
+    const lane_uint color =
+        color_offset(around->materials, p->material, p->position.x, p->position.y, p->position.z);
+    return view_physical(around->materials, p->hit, p->material, color, colors,
+                         number & LANES_AS_UINT(p->hit), p->shading, opposite(p->way));
+}
+
 /// What the surfaces return. Those that a path meets after its last scattering only let it pass.
 static inline Lobes lobes_of(const Surroundings* around, global const uint* restrict colors,
                              const RayBatch* batch, uint first, ScatterPoint* p,
-                             const lane_float opacity, lane_int scatters) {
+                             const PhysicalView* view, const lane_float opacity,
+                             lane_int scatters) {
     const lane_float zero = (lane_float)0.0f;
     global const float* materials = around->materials;
     Scattered reflected, refracted;
@@ -41,6 +54,9 @@ static inline Lobes lobes_of(const Surroundings* around, global const uint* rest
     Lobes l;
     for (int c = 0; c < 3; ++c)
         l.diffuse[c] = diffuse * surface_color(materials, color, colors, voxel, c);
+    if (VXL_PHYSICAL)
+        for (int c = 0; c < 3; ++c)
+            l.diffuse[c] = LANES_SELECT(view->is, covered * view->albedo[c], l.diffuse[c]);
     l.reflected = covered * reflected.returned;
     l.refracted = covered * refracted.returned;
     l.straight = zero;

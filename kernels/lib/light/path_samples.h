@@ -21,13 +21,18 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     const lane_uint row = tile / tiles_x;
     const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u) + of->first_column;
     const lane_uint y = row * 4u + ((target >> 2) & 3u) + of->first_row;
-    const PathSamples s = {x | (y << 16), group % of->samples, state & VXL_STATE_MET};
+    const PathSamples s = {x | (y << 16), of->first_sample + group % of->samples, state & VXL_STATE_MET};
     return s;
 }
 
 /// The paths' points for a decision, one of VXL_DECISION_*.
 static inline SquarePoint path_point(const PathSamples* s, uint decision) {
     return sobol_point(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
+}
+
+/// The same points as 32-bit fractions.
+static inline SquareBits path_bits(const PathSamples* s, uint decision) {
+    return sobol_bits(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
 }
 
 #endif

@@ -15,6 +15,11 @@ typedef struct {
     lane_float x, y;
 } SquarePoint;
 
+/// Such a point, each coordinate times 2^32.
+typedef struct {
+    lane_uint x, y;
+} SquareBits;
+
 static inline lane_uint reversed_bits(lane_uint v) {
     v = (v >> 16) | (v << 16);
     v = ((v >> 8) & 0x00FF00FFu) | ((v & 0x00FF00FFu) << 8);
@@ -64,14 +69,26 @@ static inline lane_uint decision_seed(lane_uint pixel, lane_uint decision) {
     return mixed_bits(mixed_bits(pixel + 0x9E3779B9u) + decision);
 }
 
-/// The point of sample number `sample` in the sequence of a seed.
-static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
+/// The point of sample number `sample` in the sequence of a seed, as 32-bit fractions.
+static inline SquareBits sobol_bits(lane_uint sample, lane_uint seed) {
     const lane_uint shuffled = reversed_bits(flipped_from_below(reversed_bits(sample), seed));
     const lane_uint seed_x = mixed_bits(seed ^ 0xA511E9B3u), seed_y = mixed_bits(seed_x);
-    const lane_uint x = reversed_bits(flipped_from_below(shuffled, seed_x));
-    const lane_uint y = reversed_bits(flipped_from_below(shifted_polynomial(shuffled), seed_y));
-    const SquarePoint p = {unit_interval(x), unit_interval(y)};
+    const SquareBits p = {reversed_bits(flipped_from_below(shuffled, seed_x)),
+                          reversed_bits(flipped_from_below(shifted_polynomial(shuffled), seed_y))};
     return p;
+}
+
+/// The same point as numbers.
+static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
+    const SquareBits bits = sobol_bits(sample, seed);
+    const SquarePoint p = {unit_interval(bits.x), unit_interval(bits.y)};
+    return p;
+}
+
+/// Which of `count` equal parts of [0, 1) a 32-bit fraction lies in. Of 2^20 parts, no two differ
+/// by more than 1 in 4096 fractions; the 24 bits of a float would make some a sixteenth larger.
+static inline lane_uint part_of(lane_uint fraction, uint count) {
+    return mul_hi(fraction, (lane_uint)count);
 }
 
 #endif

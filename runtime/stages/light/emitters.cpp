@@ -154,6 +154,10 @@ EmitterFrame frame_of(const glm::dmat4& world_from_object, const GridFrame& mode
     frame.volume = float(std::abs(glm::determinant(linear)) * volume_of(model.voxel_edge));
     for (int column = 0; column < 3; ++column)
         linear[column] = linear[column] * model.voxel_edge[column] / world.voxel_edge;
+    // A voxel's diagonal is no longer than its edges together.
+    double width = 0;
+    for (int column = 0; column < 3; ++column) width += glm::length(linear[column]);
+    frame.width = std::nextafter(float(width), INFINITY);
     const glm::dmat3 back = glm::inverse(linear);
     copy_rows(back, frame.object_from_world);
     copy_rows(linear, frame.world_from_object);
@@ -172,6 +176,7 @@ std::vector<EmitterFrame> frames_of(const Scene& scene, const Pyramid& world) {
     copy_rows(glm::dmat3(1), own.object_from_world);
     copy_rows(glm::dmat3(1), own.world_from_object);
     own.volume = float(volume_of(world.frame.voxel_edge));
+    own.width = 3;
     std::vector<EmitterFrame> frames = {own};
     for (const Instance& instance : world.instances.list)
         frames.push_back(frame_of(scene.objects[instance.object].world_from_object,
@@ -207,6 +212,7 @@ int emitter_feature(const RenderSettings& render) {
 EmitterTable build_emitters(const Device& device, const Features& features, const Scene& scene,
                             const Pyramid& world) {
     EmitterTable table;
+    table.is_searched = true;
     table.volume = float(volume_of(world.frame.voxel_edge));
     std::vector<WeightedEmitter> emitters = emitters_of(device, features, scene, world);
     if (emitters.empty()) return table;

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <numeric>
 
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
+#include "runtime/stages/light/albedo_table.hpp"
 #include "runtime/stages/light/sky_light.hpp"
 
 namespace voxelume {
@@ -16,10 +19,47 @@ void copy(const glm::vec3& from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world) {
-    std::vector<MaterialRecord> records;
-    for (const Material& material : scene.materials)
-        records.push_back(material_record(material, world));
+/// A physically based material's record, which Whitted's model adds nothing to.
+MaterialRecord physical_record(const Material& material, const GridFrame& world,
+                               const AlbedoTable& table) {
+    Material plain = material;
+    plain.color = color_of(material);
+    plain.diffuse = plain.specular = plain.reflection = plain.refraction = 0;
+    MaterialRecord record = material_record(plain, world);
+    const double ior = material.ior;
+    record.metallic = float(material.metallic.value_or(0));
+    record.width = float(width_of(material.roughness.value_or(kRoughness)));
+    record.reflectance = float((ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)));
+    record.missing = float(table.missing);
+    record.matt = float((1 - double(record.metallic)) / passed_share(record.reflectance, table));
+    return record;
+}
+
+/// The records of all materials, and behind them the tables of those that are physically based, of
+/// which those of one width have one.
+std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world,
+                                             bool has_physical) {
+    std::vector<MaterialRecord> records, tables;
+    std::map<double, std::pair<AlbedoTable, size_t>> known;
+    for (const Material& material : scene.materials) {
+        if (!has_physical || !is_physical(material)) {
+            records.push_back(material_record(whitted_material(material), world));
+            continue;
+        }
+        const double width = width_of(material.roughness.value_or(kRoughness));
+        const auto [found, is_new] = known.try_emplace(width);
+        auto& [table, first] = found->second;
+        if (is_new) {
+            table = albedo_table(width);
+            first = scene.materials.size() + tables.size();
+            tables.resize(tables.size() + sizeof table.values / sizeof(MaterialRecord));
+            std::memcpy(&tables[first - scene.materials.size()], table.values.data(),
+                        sizeof table.values);
+        }
+        records.push_back(physical_record(material, world, table));
+        records.back().albedos = float(first * VXL_MATERIAL_FLOATS);
+    }
+    records.insert(records.end(), tables.begin(), tables.end());
     return records;
 }
 
@@ -76,8 +116,9 @@ Environment environment_of(const World& world) {
 ShadeStage::ShadeStage(const Device& device, const Features& features, const Scene& scene,
                        const GridFrame& world)
     : environment_(environment_of(scene.world)),
-      materials_(device, "materials",
-                 std::span<const MaterialRecord>(material_records(scene, world))),
+      materials_(
+          device, "materials",
+          std::span<const MaterialRecord>(material_records(scene, world, features.physical))),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
     if (features.sky != VXL_SKY_NONE) {

@@ -57,6 +57,7 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
     camera.frame_width = frame.x;
     camera.frame_height = frame.y;
     camera.samples = scene.render.samples;
+    camera.first_sample = scene.render.first_sample;
     camera.shape = shape.kernel_number;
     if (observer.aperture > 0) {
         camera.lens_radius = float(observer.aperture / 2);
@@ -78,10 +79,10 @@ double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame&
     return std::max(pixel.x, pixel.y) * metres / std::min({edge.x, edge.y, edge.z});
 }
 
-std::vector<float> sample_offsets(int samples) {
+std::vector<float> sample_offsets(int samples, int first) {
     constexpr double kPlastic = 1.32471795724474602596;
     std::vector<float> offsets;
-    for (int i = 0; i < samples; ++i) {
+    for (int i = first; i < first + samples; ++i) {
         for (const double step : {1 / kPlastic, 1 / (kPlastic * kPlastic)}) {
             const double x = 0.5 + i * step;
             offsets.push_back(float(x - std::floor(x)));
@@ -96,7 +97,8 @@ uint32_t tile_count(int width, int height) {
 
 SightStage::SightStage(const Device& device, const Features& features, const Camera& camera)
     : camera_(camera),
-      offsets_(device, "sample offsets", std::span<const float>(sample_offsets(camera.samples))),
+      offsets_(device, "sample offsets",
+               std::span<const float>(sample_offsets(camera.samples, camera.first_sample))),
       program_(device, "sight.cl", features.defines(device)),
       cast_(program_.kernel("cast_sight")) {}
 

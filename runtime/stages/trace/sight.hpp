@@ -20,7 +20,7 @@ double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame&
 /// The positions of the samples in a pixel: x and y in [0, 1), equal for all pixels. A single
 /// sample is the centre; several are the R2 sequence of Roberts 2018, which fills a square evenly
 /// for any number.
-std::vector<float> sample_offsets(int samples);
+std::vector<float> sample_offsets(int samples, int first = 0);
 
 /// The number of tiles of 4 x 4 pixels that cover an image.
 uint32_t tile_count(int width, int height);

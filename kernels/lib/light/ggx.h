@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rough surfaces as mirrors in all directions: GGX's microfacets, by Smith's shadowing that knows
+// heights (Walter et al. 2007; Heitz 2014).
+//
+// Directions are unit vectors in a surface's own frame, whose z is the normal. With
+// k(v) = sqrt(width^2 (x^2 + y^2) + z^2) the shares that other facets hide need no quotient:
+// G2 / (4 z_in z_out) = 1 / (2 (k_in z_out + k_out z_in)), and of facets seen from `out`,
+// G1 / (4 z_out) = 1 / (2 (z_out + k_out)).
+#ifndef VXL_GGX_H
+#define VXL_GGX_H
+
+#include "lib/lanes/vector.h"
+#include "lib/light/directions.h"
+
+/// Three unit vectors at right angles.
+typedef struct {
+    Vector x, y, z;
+} Frame;
+
+/// The axes of around_normal.
+static inline Frame frame_around(Vector n) {
+    const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
+    const Frame f = {around_normal(n, one, zero, zero), around_normal(n, zero, one, zero), n};
+    return f;
+}
+
+static inline Vector into_frame(const Frame* f, Vector v) {
+    const Vector result = {dot_product(f->x, v), dot_product(f->y, v), dot_product(f->z, v)};
+    return result;
+}
+
+static inline Vector out_of_frame(const Frame* f, Vector v) {
+    const Vector result = {fma(f->x.x, v.x, fma(f->y.x, v.y, f->z.x * v.z)),
+                           fma(f->x.y, v.x, fma(f->y.y, v.y, f->z.y * v.z)),
+                           fma(f->x.z, v.x, fma(f->y.z, v.y, f->z.z * v.z))};
+    return result;
+}
+
+/// k(v) above.
+static inline lane_float stretched_length(Vector v, lane_float width) {
+    const lane_float aside = fma(v.x, v.x, v.y * v.y);
+    return exact_sqrt(fma(width * width, aside, v.z * v.z));
+}
+
+/// How many facets face along h, which is of any length: their area per solid angle.
+static inline lane_float facet_density(Vector h, lane_float width) {
+    const lane_float aside = fma(h.x, h.x, h.y * h.y), squared = fma(h.z, h.z, aside);
+    const lane_float stretched = fma(width * width, h.z * h.z, aside);
+    const lane_float ratio = exact_divide(
+        width * squared, LANES_SELECT(LANE_MASK(stretched > 0.0f), stretched, (lane_float)1.0f));
+    return 0.318309886f * ratio * ratio;
+}
+
+/// The mirrored directions of `out` at facets that are seen from there, each as probable as it is
+/// visible (Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
+static inline Vector mirrored_by_facet(Vector out, lane_float width, SquarePoint p) {
+    const Vector stretched = {out.x * width, out.y * width, out.z};
+    const Vector view = unit(stretched);
+    const lane_float z = fma(1.0f - p.x, 1.0f + view.z, -view.z);
+    const lane_float radius = exact_sqrt(fmax(fma(-z, z, 1.0f), 0.0f));
+    lane_float sine, cosine;
+    exact_sincos(p.y * 6.28318531f, &sine, &cosine);
+    const Vector facet = {fma(radius, cosine, view.x) * width, fma(radius, sine, view.y) * width,
+                          z + view.z};
+    const Vector h = unit(facet);
+    const lane_float twice = 2.0f * dot_product(out, h);
+    const Vector in = {fma(twice, h.x, -out.x), fma(twice, h.y, -out.y), fma(twice, h.z, -out.z)};
+    return in;
+}
+
+#endif

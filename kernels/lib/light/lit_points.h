@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surface points that a light may reach, and how they see it.
+#ifndef VXL_LIT_POINTS_H
+#define VXL_LIT_POINTS_H
+
+#include "lib/lanes/vector.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/hit_attributes.h"
+#include "lib/traverse/ray_batch.h"
+#include "shared/trace.h"
+
+/// The light as a packet of surface points sees it.
+typedef struct {
+    lane_int lit;       // mask: the light may contribute to the point
+    Vector to_light;    // in voxels: to the light; directional light: towards it
+    Vector l;           // the unit vector to it, in metres' space
+    lane_float cosine;  // between it and the shading normal
+    lane_float falloff;
+} Incidence;
+
+/// Surface points that light may reach. Their shadow rays begin at `start`.
+typedef struct {
+    lane_int lit;  // mask
+    lane_uint voxel, material;
+    Vector position, normal, shading_normal, start;
+} LitPoints;
+
+/// Loads the points of hits. Returns false if none can be lit.
+static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints* p) {
+    const uint stride = batch->stride;
+    const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * stride + first);
+    p->lit = LANE_MASK(number != VXL_NO_VOXEL);
+    if (VXL_TRANSMISSION)
+        p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
+    if (!lanes_any(p->lit)) return false;
+    p->voxel = number & LANES_AS_UINT(p->lit);
+    p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);
+    p->position = load_vector(batch->positions, stride, first);
+    p->normal = load_vector(batch->normals, stride, first);
+    p->shading_normal = p->normal;
+    if (VXL_SHADING_NORMALS) p->shading_normal = load_vector(batch->shading, stride, first);
+    p->start = p->position;
+    return true;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of a source that physically based surfaces return.
+#ifndef VXL_PHYSICAL_LIGHT_H
+#define VXL_PHYSICAL_LIGHT_H
+
+#include "lib/light/lit_points.h"
+#include "lib/light/physical.h"
+#include "lib/surface/shading_normal.h"
+#include "shared/scene.h"
+
+/// Sets the light that physically based ones of the points return towards the viewer. Returns the
+/// mask of points, of all kinds, that return any.
+static inline lane_int find_physical_shares(LightRecord light, const Incidence* i,
+                                            const LitPoints* p, Vector d, float4 edge,
+                                            global const float* restrict materials,
+                                            global const uint* restrict colors, lane_int some,
+                                            lane_float* contribution) {
+    const Vector way = unit(scaled(d, edge));
+    Vector normal = p->normal;
+    if (VXL_SHADING_NORMALS)
+        normal = select_vector(are_different(p->shading_normal, normal),
+                               reflecting_normal(way, normal, p->shading_normal), normal);
+    const lane_uint color =
+        color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
+    const PhysicalView view = view_physical(materials, p->lit, p->material, color, colors, p->voxel,
+                                            normal, opposite(way));
+    if (!lanes_any(view.is)) return some;
+    lane_float value[3], density;
+    const lane_int above = physical_value(&view, i->l, value, &density);
+    const lane_float falloff =
+        i->falloff * surface_opacity(materials, p->material, colors, p->voxel);
+    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
+    lane_int any_contribution = (lane_int)0;
+    for (int c = 0; c < 3; ++c) {
+        const lane_float own = value[c] * falloff * intensity[c];
+        contribution[c] = LANES_SELECT(view.is, own, contribution[c]);
+        any_contribution |= LANE_MASK(own > 0.0f);
+    }
+    return LANES_SELECT(view.is, above & any_contribution, some);
+}
+
+#endif

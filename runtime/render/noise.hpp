@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How noisy an image is, by two halves of its samples.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "runtime/image/image.hpp"
+
+namespace voxelume {
+
+/// The noise of the tiles of an image.
+struct NoiseReached {
+    double squares = 0;  ///< of the tiles' relative standard errors, added up
+    uint64_t tiles = 0;
+
+    double mean() const { return tiles == 0 ? 0 : std::sqrt(squares / double(tiles)); }
+};
+
+/// Makes the light of a tile's pixels the mean of that of two images with as many samples each, of
+/// which the first keeps it. Returns the standard error of this mean in the tile's pixels, over
+/// their mean: a pixel's is half of what its two values differ by. 0 for black tiles.
+double average_tile(uint32_t tile, const Image& other, Image& image);
+
+}  // namespace voxelume

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image with as many samples as its scene says, or as each of its tiles needs.
+//
+// The samples of a tile are doubled until the two halves of them agree. A tile's bits depend on no
+// other tile, so neither devices nor threads change them.
+#include <algorithm>
+#include <chrono>
+
+#include "runtime/render/renderer.hpp"
+
+namespace voxelume {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The number of samples by which two halves are first compared.
+constexpr int kFirstSamples = 16;
+
+/// Adds a tile to those that ranges hold, in order.
+void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == tile)
+        ++ranges.back().count;
+    else
+        ranges.push_back({tile, 1});
+}
+
+/// Whether there is time for as much again as was spent since the start.
+bool has_time(const NoiseTarget& target, Clock::time_point start) {
+    const std::chrono::duration<double> spent = Clock::now() - start;
+    return target.seconds == 0 || 2 * spent.count() <= target.seconds;
+}
+
+/// The tiles of the image that need more samples, after those of `more` were added. `errors` has
+/// the noise of each tile.
+std::vector<TileRange> add_samples(const std::vector<TileRange>& tiles, const Image& more,
+                                   double target, std::vector<float>& errors, Image& image) {
+    std::vector<TileRange> left;
+    for (const TileRange& range : tiles)
+        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) {
+            const double error = average_tile(tile, more, image);
+            errors[tile] = float(error);
+            if (error > target) add_tile(tile, left);
+        }
+    return left;
+}
+
+}  // namespace
+
+Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
+                              const Tiles& tiles) {
+    const NoiseTarget target = scene.render.noise;
+    if (!target.is_given() || !scene.render.channels.color)
+        return image_of_tiles(scene, world, report, tiles);
+    const auto start = Clock::now();
+    Scene part = scene;
+    part.render.noise = {};
+    part.render.samples = std::min(kFirstSamples, scene.render.samples);
+    Image image = image_of_tiles(part, world, report, tiles);
+    std::vector<TileRange> left = tiles.taken;
+    std::vector<float> errors(tiles.share.tiles(), -1.0f);
+    for (int done = part.render.samples; !left.empty() && 2 * done <= scene.render.samples;
+         done *= 2) {
+        if (!has_time(target, start)) break;
+        part.render.first_sample = part.render.samples = done;
+        RenderReport of_more;
+        TileShare share(tiles.share, left);
+        std::vector<TileRange> taken;
+        Renderer renderer(device_, false);
+        renderer.is_white_ = is_white_;
+        const Image more = renderer.image_of_tiles(part, world, of_more, {share, taken});
+        if (tiles.share.is_closed()) break;
+        left = add_samples(left, more, target.error, errors, image);
+        add_counts(of_more, report);
+        report.image_seconds += of_more.image_seconds;
+    }
+    for (const float error : errors) {
+        if (error < 0) continue;
+        report.noise.squares += double(error) * double(error);
+        ++report.noise.tiles;
+    }
+    return image;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images whose samples are added until their noise is small enough.
+#include <gtest/gtest.h>
+
+#include "tests/pictures/global_light.hpp"
+
+namespace voxelume {
+namespace {
+
+/// A floor under a sky, half of which lies under a roof: smooth light beside noisy light, and above
+/// both the sky alone.
+Scene noisy_scene(double error, int samples) {
+    Json json = open_furnace(samples);
+    json["materials"]["clay"] = {{"color", {0.6, 0.5, 0.4}}};
+    json["world"]["sky"] = {
+        {"kind", "gradient"}, {"zenith", {0.2, 0.4, 1}}, {"horizon", {1, 0.8, 0.6}}};
+    json["render"]["bounces"] = 4;
+    add_thing(json, {{"shape", "box"}, {"size", {1.1, 0.1, 1.1}}, {"surface", "exact"}}, "clay",
+              {0, -0.4, 0});
+    add_thing(json, {{"shape", "box"}, {"size", {0.5, 0.02, 0.8}}, {"surface", "exact"}}, "clay",
+              {-0.3, -0.2, 0.1});
+    send_rays(json, {0, 0, -0.55}, {0, -0.2, 1}, 1, 32);
+    Scene scene = parse_scene(json.dump(), "noise", {});
+    scene.render.noise.error = error;
+    return scene;
+}
+
+struct Rendered {
+    Image image;
+    RenderReport report;
+};
+
+Rendered rendered_to(double error, int samples, int lanes = 0) {
+    Rendered r;
+    r.image = render(test_device(lanes), noisy_scene(error, samples), r.report);
+    return r;
+}
+
+/// The root mean square over tiles of their relative errors.
+double error_of(const Image& image, const Image& truth) {
+    double squares = 0;
+    for (int tile = 0; tile < 64; ++tile) {
+        double sum = 0, difference = 0;
+        for (int i = 0; i < 16; ++i) {
+            const int x = tile % 8 * 4 + i % 4, y = tile / 8 * 4 + i / 4;
+            const size_t at = size_t(y * 32 + x);
+            const auto luminance = [&](const Image& of) {
+                return 0.2126 * double(of.planes.at("R")[at]) +
+                       0.7152 * double(of.planes.at("G")[at]) +
+                       0.0722 * double(of.planes.at("B")[at]);
+            };
+            sum += luminance(truth);
+            difference += std::pow(luminance(image) - luminance(truth), 2);
+        }
+        squares += difference * 16 / (sum * sum) / 64;
+    }
+    return std::sqrt(squares);
+}
+
+TEST(Noise, IsWhatWasAskedForWithFewerSamplesWhereLightIsSmooth) {
+    const Rendered truth = rendered_to(0, 4096);
+    for (const double target : {0.08, 0.02}) {
+        const Rendered r = rendered_to(target, 4096);
+        const double error = error_of(r.image, truth.image);
+        fmt::print("asked {}, said {:.4f}, is {:.4f}, {:.1f} samples a pixel\n", target,
+                   r.report.noise.mean(), error, double(r.report.sight_rays) / 1024);
+        EXPECT_EQ(r.report.noise.tiles, 64u);
+        EXPECT_LE(r.report.noise.mean(), target);
+        EXPECT_LT(error, 1.5 * target);
+        EXPECT_GT(error, 0.2 * target);
+        EXPECT_LT(double(r.report.sight_rays), 0.5 * double(truth.report.sight_rays));
+    }
+    const Rendered coarse = rendered_to(0.08, 4096), fine = rendered_to(0.02, 4096);
+    EXPECT_GT(fine.report.sight_rays, 2 * coarse.report.sight_rays);
+}
+
+TEST(Noise, TakesNoMoreSamplesThanTheMaximum) {
+    const Rendered r = rendered_to(1e-6, 100);
+    EXPECT_LE(r.report.sight_rays, 64u * 1024);  // doubled from 16 on, but for the sky
+    EXPECT_GT(r.report.sight_rays, 40u * 1024);
+    EXPECT_GT(r.report.noise.mean(), 1e-6);
+    Scene scene = noisy_scene(1e-6, 4096);
+    scene.render.noise.seconds = 1e-9;
+    RenderReport report;
+    render(test_device(), scene, report);
+    EXPECT_EQ(report.sight_rays, 16u * 1024);
+    EXPECT_EQ(report.noise.tiles, 0u);
+}
+
+TEST(Noise, AddsSamplesToThoseOfAShorterRun) {
+    // The mean of both halves is the image of all samples but for rounding.
+    const Rendered both = rendered_to(1e-6, 32), once = rendered_to(0, 32);
+    for (const char* channel : {"R", "G", "B", "A"})
+        for (size_t i = 0; i < 1024; ++i)
+            ASSERT_NEAR(both.image.planes.at(channel)[i], once.image.planes.at(channel)[i], 1e-5f)
+                << channel << i;
+}
+
+TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
+    const Rendered whole = rendered_to(0.05, 256, 1);
+    for (const int lanes : {4, 16}) {
+        const Rendered other = rendered_to(0.05, 256, lanes);
+        EXPECT_EQ(other.report.sight_rays, whole.report.sight_rays);
+        EXPECT_TRUE(other.image.planes == whole.image.planes) << lanes;
+    }
+    Scene scene = noisy_scene(0.05, 256);
+    crop(scene, {8, 16}, {12, 8});
+    RenderReport report;
+    const Image part = render(test_device(), scene, report);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 12; ++x)
+            ASSERT_EQ(part.planes.at("G")[size_t(y * 12 + x)],
+                      whole.image.planes.at("G")[size_t((y + 16) * 32 + x + 8)]);
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Physically based materials in global light: furnaces, lights and lamps of one form, and bits.
+#include <gmock/gmock.h>
+
+#include "tests/oracles/image_hash.hpp"
+#include "tests/pictures/global_light.hpp"
+#include "tests/pictures/golden_hash.hpp"
+
+namespace voxelume {
+namespace {
+
+Json physical(double metallic, double roughness) {
+    return {{"base_color", {1, 1, 1}}, {"metallic", metallic}, {"roughness", roughness}};
+}
+
+Json ball_of(double radius, const char* surface) {
+    Json model = {{"shape", "sphere"}, {"radius", radius}, {"surface", surface}};
+    if (std::string(surface) == "cubes") model["set"] = "solid";
+    return model;
+}
+
+class PhysicalOnEverySurface : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(GlobalLight, PhysicalOnEverySurface,
+                         testing::Values("cubes", "smooth", "exact"));
+
+TEST_P(PhysicalOnEverySurface, WhiteOnesAreInvisibleUnderAWhiteSky) {
+    // Balls see the sky and themselves alone, so what they return is one scattering on `exact`
+    // ones, and several where cubes face each other.
+    for (const double roughness : {0.05, 0.2, 0.5, 0.8, 1.0}) {
+        Json scene = open_furnace(64);
+        scene["materials"]["metal"] = physical(1, roughness);
+        scene["materials"]["plastic"] = physical(0, roughness);
+        scene["materials"]["half metal"] = physical(0.5, roughness);
+        add_thing(scene, ball_of(0.2, GetParam()), "metal", {0.25, 0.25, 0.1});
+        add_thing(scene, ball_of(0.2, GetParam()), "plastic", {-0.25, 0.25, 0.1});
+        add_thing(scene, ball_of(0.2, GetParam()), "half metal", {0.25, -0.25, 0.1});
+        send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 64);
+        const Estimate e = estimate_of(channel_of(sense(scene), 1));
+        expect_mean(e, 1, "roughness " + std::to_string(roughness), 1e-3);
+        EXPECT_NEAR(e.mean, 1, 3e-3);
+    }
+}
+
+/// A floor of a material at y = 0, seen from above and aside, and a square above it that shines.
+Json shone_on(const Json& material, bool by_light, const char* lamps) {
+    Json scene = open_furnace(256);
+    scene["world"]["background"] = {0, 0, 0};
+    scene["materials"]["floor"] = material;
+    scene["materials"]["lamp"] = {{"color", {0, 0, 0}}, {"emission", {3, 2, 1}}};
+    scene["render"]["bounces"] = 1;
+    scene["render"]["lamps"] = lamps;
+    add_thing(scene, {{"shape", "box"}, {"size", {1.1, 0.1, 1.1}}, {"surface", "exact"}}, "floor",
+              {0, -0.3, 0});
+    if (!by_light)
+        add_thing(scene, {{"shape", "box"}, {"size", {0.3, 5e-5, 0.2}}, {"surface", "exact"}},
+                  "lamp", {0.1, 0.250025, 0.2});
+    scene["lights"] = Json::array();
+    if (by_light)
+        scene["lights"] = {{{"type", "rectangle"},
+                            {"position", {0.1, 0.25, 0.2}},
+                            {"direction", {0, -1, 0}},
+                            {"up", {0, 0, 1}},
+                            {"size", {0.3, 0.2}},
+                            {"color", {1, 2.0 / 3, 1.0 / 3}},
+                            {"intensity", 3 * 0.06 / std::numbers::pi}}};
+    send_rays(scene, {0, 0.1, -0.55}, {0, -0.5, 0.75}, 0.3, 24);
+    return scene;
+}
+
+TEST(PhysicalMaterials, ShowALampAndALightOfItsFormAlike) {
+    Json brass = {{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}};
+    Json lacquer = {{"base_color", {0.1, 0.5, 0.9}}, {"roughness", 0.25}, {"ior", 1.8}};
+    for (const Json& material : {brass, lacquer}) {
+        const std::vector<SensedRay> expected = sense(shone_on(material, true, "both"));
+        for (const char* lamps : {"both", "paths", "rays"}) {
+            const std::vector<SensedRay> found = sense(shone_on(material, false, lamps));
+            for (size_t quarter = 0; quarter < 4; ++quarter) {
+                std::vector<double> differences, light;
+                for (size_t i = quarter * found.size() / 4; i < (quarter + 1) * found.size() / 4;
+                     ++i) {
+                    differences.push_back(found[i].color[0] - expected[i].color[0]);
+                    light.push_back(expected[i].color[0]);
+                }
+                const Estimate e = estimate_of(differences);
+                const double mean = estimate_of(light).mean;
+                EXPECT_LE(std::abs(e.mean), 3.5 * e.error + 1e-3 * mean)
+                    << lamps << ", part " << quarter << ": " << e.mean << " of " << mean;
+                EXPECT_LT(e.error, 0.04 * mean) << lamps << quarter;
+            }
+        }
+    }
+}
+
+TEST(PhysicalMaterials, HaveTheSameBitsOnAnyNumberOfLanes) {
+    Json json = shone_on({{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}},
+                         false, "both");
+    json["materials"]["plastic"] = {{"base_color", {0.2, 0.6, 0.3}}, {"roughness", 0.1}};
+    json["lights"] = {{{"type", "point"}, {"position", {-0.3, 0.3, -0.3}}, {"intensity", 0.2}}};
+    add_thing(json, ball_of(0.15, "smooth"), "plastic", {-0.2, -0.1, 0.1});
+    add_thing(json, ball_of(0.1, "cubes"), "plastic", {0.2, -0.15, 0});
+    json["render"]["size"] = {15, 10};
+    json["render"]["samples"] = 4;
+    json["render"]["bounces"] = 4;
+    const Scene scene = parse_scene(json.dump(), "physical", {});
+    for (const int lanes : {1, 4, 8, 16}) {
+        RenderReport report;
+        const Image image = render(test_device(lanes), scene, report);
+        EXPECT_EQ(report.not_finite, 0u);
+        expect_golden("global/physical", oracle::image_hash(image));
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
