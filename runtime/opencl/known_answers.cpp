@@ -4,7 +4,7 @@
 namespace voxelume {
 namespace {
 
-constexpr KnownRow kQuestions[VXL_KNOWN_QUESTIONS] = {
+constexpr KnownRow kKnownQuestions[VXL_KNOWN_QUESTIONS] = {
     {"X",
      {0x3F7FFFFF, 0x3F800001, 0x3FFFFFFF, 0x40000001, 0x46D2EAC9, 0x4AACE1A9, 0x44B66410,
       0x3C60A3A9, 0x3EEE29BA, 0x46F1260F, 0x3F4280AD, 0x3BD95EEE, 0x49FC3264, 0x4ACC9C27,
@@ -51,7 +51,7 @@ constexpr KnownRow kQuestions[VXL_KNOWN_QUESTIONS] = {
       0xBF332438, 0xBDA00000}},
 };
 
-constexpr KnownRow kAnswers[VXL_KNOWN_ANSWERS] = {
+constexpr KnownRow kKnownAnswers[VXL_KNOWN_ANSWERS] = {
     {"reciprocals",
      {0x3F800001, 0x3F7FFFFE, 0x3F000001, 0x3EFFFFFE, 0x381B5C0E, 0x343D8A4E, 0x3A33A87A,
       0x4291DE91, 0x40099621, 0x3807E20B, 0x3FA87881, 0x4316BF3C, 0x3501EE25, 0x3420260B,
@@ -150,20 +150,20 @@ constexpr KnownRow kAnswers[VXL_KNOWN_ANSWERS] = {
       0x00000000, 0x00000000}},
 };
 
-constexpr std::array<uint8_t, 3> kVoxels[] = {
+constexpr std::array<uint8_t, 3> kKnownVoxels[] = {
     {3, 4, 5},  {4, 4, 5},   {7, 9, 2},    {15, 15, 15}, {16, 16, 16}, {17, 3, 11}, {2, 18, 6},
     {9, 1, 19}, {12, 12, 3}, {10, 10, 11}, {19, 19, 0},  {5, 14, 14},  {0, 7, 13},  {6, 17, 18}};
 
 }  // namespace
 
 std::span<const KnownRow> known_questions() {
-    return kQuestions;
+    return kKnownQuestions;
 }
 std::span<const KnownRow> known_answers() {
-    return kAnswers;
+    return kKnownAnswers;
 }
 std::span<const std::array<uint8_t, 3>> known_voxels() {
-    return kVoxels;
+    return kKnownVoxels;
 }
 
 }  // namespace voxelume

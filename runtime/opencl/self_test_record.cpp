@@ -79,7 +79,7 @@ std::optional<std::string> kept_fault(const DeviceInfo& info) {
     const std::lock_guard lock(results().mutex);
     const auto found = results().faults.find(key);
     if (found != results().faults.end()) return found->second;
-    const std::optional<std::string> fault = fault_store().read(key);
+    std::optional<std::string> fault = fault_store().read(key);
     if (fault) results().faults[key] = *fault;
     return fault;
 }
