@@ -15,6 +15,7 @@ Usage: ./bootstrap.sh COMMAND
   test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
+  drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
   farm    try the recipes for Slurm and GNU parallel of scenes/farm with the real programs
   lint    check the format of the code, the host code and each kernel
   python  build the Python package, build/python/wheels, and test it in a fresh environment
@@ -159,6 +160,7 @@ debian_package() {
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
+    drivers) install_packages packages.txt .ci/driver_packages.txt ;;
     farm) install_packages packages.txt .ci/farm_packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
     python) install_packages packages.txt .ci/python_packages.txt ;;
@@ -181,6 +183,10 @@ case "$1" in
         ;;
     test) run_tests "${2:-}" ;;
     fuzz) run_fuzzers "${2:-60}" ;;
+    drivers)
+        build_targets voxelume pictures_tests kernels_tests
+        .ci/drivers "$build"
+        ;;
     farm)
         build_targets voxelume
         ctest --test-dir "$build" --output-on-failure -R '^farm\.'

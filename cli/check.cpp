@@ -22,7 +22,7 @@ Action add_check(CLI::App& app) {
     app.add_flag("--json", options->json, "print the plan as JSON");
     app.add_flag("-q,--quiet", options->quiet, "print no warnings");
     return [options] {
-        watch_devices(options->scene);
+        set_limits(options->scene, "check");
         const Scene scene = read_with(options->scene, "check");
         print_plan(scene, Device::open(options->scene.device),
                    {.cache = cache_options(options->scene)},

@@ -33,6 +33,7 @@ void print_json(const std::vector<DeviceInfo>& devices, int chosen) {
                         {"max_allocation_bytes", info.max_allocation_bytes},
                         {"compute_units", info.compute_units},
                         {"lanes", info.lanes},
+                        {"self_test", name_of(info.self_test)},
                         {"usable", info.is_usable()},
                         {"chosen", info.index == chosen},
                         {"unusable_because", info.unusable_because},
@@ -41,15 +42,21 @@ void print_json(const std::vector<DeviceInfo>& devices, int chosen) {
     fmt::print("{}\n", list.dump(2, ' ', false, keep));
 }
 
-void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
+/// The device that renders without --device, or why there is none.
+struct Choice {
+    int index = -1;
+    std::string fault;
+};
+
+void print_table(const std::vector<DeviceInfo>& devices, const Choice& choice) {
     using Row = std::vector<std::string>;
     std::vector<Row> rows = {{"", "index", "kind", "name", "platform", "memory", "one buffer",
-                              "units", "lanes", "driver"}};
+                              "units", "lanes", "self-test", "driver"}};
     for (const DeviceInfo& info : devices)
-        rows.push_back({info.index == chosen ? "*" : "", std::to_string(info.index),
+        rows.push_back({info.index == choice.index ? "*" : "", std::to_string(info.index),
                         name_of(info.kind), info.name, info.platform, gigabytes(info.memory_bytes),
                         gigabytes(info.max_allocation_bytes), std::to_string(info.compute_units),
-                        std::to_string(info.lanes), info.driver});
+                        std::to_string(info.lanes), name_of(info.self_test), info.driver});
     std::vector<size_t> widths(rows[0].size(), 0);
     for (const Row& row : rows)
         for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
@@ -64,7 +71,9 @@ void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
         if (!info.is_usable()) fmt::print("   not usable: {}\n", info.unusable_because);
         if (!info.note.empty()) fmt::print("   {}\n", info.note);
     }
-    if (chosen >= 0)
+    if (choice.index < 0)
+        fmt::print("\n{}\n", choice.fault);
+    else
         fmt::print(
             "\n* renders unless --device or VOXELUME_DEVICE names another by auto, cpu, "
             "gpu, index or part of a name.\n"
@@ -72,13 +81,13 @@ void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
             "two halves of a CPU, too.\n");
 }
 
-/// The device that renders without --device; -1 when what VOXELUME_DEVICE names is not there.
-int chosen_index(const std::vector<DeviceInfo>& devices) {
+/// There is none when what VOXELUME_DEVICE names isn't there.
+Choice choice_of_device() {
     try {
-        return Device::open().info().index;
+        return {Device::open().info().index, {}};
     } catch (const Error& error) {
-        if (devices.empty() || error.kind() != ErrorKind::device) throw;
-        return -1;
+        if (error.kind() != ErrorKind::device || list_devices().empty()) throw;
+        return {-1, error.what()};
     }
 }
 
@@ -88,12 +97,12 @@ Action add_devices(CLI::App& app) {
     auto json = std::make_shared<bool>(false);
     app.add_flag("--json", *json, "print everything known of each device, as a JSON array");
     return [json]() -> int {
-        const std::vector<DeviceInfo> devices = list_devices();
-        const int chosen = chosen_index(devices);
+        const Choice choice = choice_of_device();
+        const std::vector<DeviceInfo> devices = list_devices();  // with the result of its self-test
         if (*json)
-            print_json(devices, chosen);
+            print_json(devices, choice.index);
         else
-            print_table(devices, chosen);
+            print_table(devices, choice);
         return 0;
     };
 }

@@ -100,6 +100,7 @@ Report device_row(const DeviceInfo& info) {
             {"memory", bytes_text(double(info.memory_bytes))},
             {"units", info.compute_units},
             {"lanes", info.lanes},
+            {"known bits", name_of(info.self_test)},
             {"state", info.is_usable() ? "usable" : info.unusable_because}};
 }
 
@@ -122,7 +123,6 @@ int run(const DoctorCommand& command) {
     report.update(cache_report(command.json));
     report["environment"] = environment_report();
     report["devices"] = Report::array();
-    for (const DeviceInfo& info : list_devices()) report["devices"].push_back(device_row(info));
     bool is_right = true;
     std::string fault;
     if (!command.no_test) {
@@ -134,6 +134,7 @@ int run(const DoctorCommand& command) {
             report["tested"] = fault = error.what();
         }
     }
+    for (const DeviceInfo& info : list_devices()) report["devices"].push_back(device_row(info));
     print_report(report, command.json);
     if (!fault.empty()) throw Error(ErrorKind::device, "no self-test: " + fault);
     return is_right ? 0 : 1;

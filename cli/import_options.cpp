@@ -82,6 +82,15 @@ Color color_of(const std::string& text, const char* command) {
         command, text);
 }
 
+Vec3 spacing_of(const std::string& text, const char* command) {
+    std::vector<double> numbers = numbers_of(text);
+    if (numbers.size() == 1) numbers.resize(3, numbers[0]);
+    if (numbers.size() == 3 && std::min({numbers[0], numbers[1], numbers[2]}) > 0)
+        return {numbers[0], numbers[1], numbers[2]};
+    fail_usage("{}: --spacing {}: give one number above 0 or three, in metres, as in 0.5,0.5,2",
+               command, text);
+}
+
 }  // namespace
 
 void add_import_options(CLI::App& app, ImportChoices& choices) {
@@ -105,6 +114,13 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
         ->check(in_range(1e-6, 1e6));
     app.add_option("--up", choices.up,
                    "of a model file: which axis is up, y or z; z by default for .stl alone");
+    app.add_option("--spacing", choices.spacing,
+                   "of a scan or stack of slices: metres from voxel to voxel, one number or X,Y,Z, "
+                   "instead of the file's")
+        ->type_name("METRES");
+    app.add_option("--clip", choices.clip,
+                   "of a glTF file: name of the clip that moves it; its first by default")
+        ->type_name("NAME");
 }
 
 ImportOptions options_of(const ImportChoices& choices, Size size, const char* command) {
@@ -119,6 +135,8 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
     options.own_camera = choices.view.empty() && !choices.angle;
     options.ground = choices.ground.value_or(true);
     if (!choices.background.empty()) options.background = color_of(choices.background, command);
+    options.clip = choices.clip;
+    if (!choices.spacing.empty()) options.spacing = spacing_of(choices.spacing, command);
     options.fit = choices.fit.value_or(0);
     if (!choices.up.empty())
         options.up = choose(choices.up, kAxes, fmt::format("{}: --up", command).c_str());
@@ -127,13 +145,15 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
 }
 
 void refuse_choices(const ImportChoices& choices, const char* command) {
-    const std::array<std::pair<const char*, bool>, 6> given = {
+    const std::array<std::pair<const char*, bool>, 8> given = {
         {{"--view", !choices.view.empty()},
          {"--fov", choices.angle.has_value()},
          {"--background", !choices.background.empty()},
          {"--ground", choices.ground.has_value()},
          {"--fit", choices.fit.has_value()},
-         {"--up", !choices.up.empty()}}};
+         {"--up", !choices.up.empty()},
+         {"--clip", !choices.clip.empty()},
+         {"--spacing", !choices.spacing.empty()}}};
     for (const auto& [name, is_given] : given)
         if (is_given)
             fail_usage(

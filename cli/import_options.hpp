@@ -15,7 +15,7 @@ class App;
 namespace voxelume::cli {
 
 struct ImportChoices {
-    std::string view, background, up;  ///< empty: not given
+    std::string view, background, up, clip, spacing;  ///< empty: not given
     std::optional<double> angle, fit;
     std::optional<bool> ground;
 };

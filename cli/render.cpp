@@ -66,7 +66,7 @@ int run(const RenderCommand& command) {
     if (!command.scene.size.empty()) parse_size(command.scene.size, "render");
     const std::vector<RenderJob> jobs = render_jobs(command);
     for (const RenderJob& job : jobs) check_options(job.command);
-    watch_devices(command.scene);
+    set_limits(command.scene, "render");
     LazyDevices devices(command.scene.device);
     if (jobs.size() > 1) return run_all(jobs, devices);
     render_job(jobs.front().command, devices, "rendering");

@@ -106,13 +106,19 @@ void RenderProgress::compiling(int kernel, int known) {
     const std::lock_guard lock(mutex_);
     const double now = seconds();
     left_.compiling(now);
-    const std::string text = fmt::format("compiling kernels: {} of {}", kernel, known);
+    const double compiled = left_.compile_seconds(now);
+    const std::string text =
+        fmt::format("compiling kernels: {} of {}, {:.0f} s so far", kernel, known, compiled);
     if (bar_)
         bar_->say(text);
     else if (style_ == ProgressStyle::plain && is_due(now, kPlainInterval))
         fmt::print(stderr, "{}: {}\n", label_, text);
     else if (style_ == ProgressStyle::json)
-        print_line({{"event", "compiling"}, {"job", label_}, {"kernel", kernel}, {"known", known}});
+        print_line({{"event", "compiling"},
+                    {"job", label_},
+                    {"kernel", kernel},
+                    {"known", known},
+                    {"compile_seconds", rounded(compiled)}});
 }
 
 void RenderProgress::written(const FrameFiles& files) {

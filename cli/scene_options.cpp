@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include "cli/checks.hpp"
 #include "cli/complaint.hpp"
@@ -42,6 +44,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--device-timeout", options.device_timeout,
                    "seconds after which a device that doesn't answer ends the run")
         ->check(in_range(1, 1e6));
+    app.add_option("--memory-limit", options.memory_limit,
+                   "most main memory that the run takes, and most of a device's own: 500MB, 2.5GB")
+        ->type_name("SIZE");
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
     app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
@@ -53,6 +58,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     add_import_options(app, options.import);
 }
 
+namespace {
+
 void watch_devices(const SceneOptions& options) {
     if (options.device_timeout == 0) return;
     v1::watch_devices(options.device_timeout, [](const std::string& sentence) {
@@ -60,6 +67,31 @@ void watch_devices(const SceneOptions& options) {
         remove_unfinished_files();
         std::_Exit(code);
     });
+}
+
+void limit_memory(const SceneOptions& options, const char* command) {
+    if (options.memory_limit.empty()) return;
+    struct Unit {
+        std::string_view name;
+        double bytes;
+    };
+    constexpr std::array kUnits = {Unit{"M", 1e6},  Unit{"MB", 1e6}, Unit{"MiB", 1 << 20},
+                                   Unit{"G", 1e9},  Unit{"GB", 1e9}, Unit{"GiB", 1 << 30},
+                                   Unit{"T", 1e12}, Unit{"TB", 1e12}};
+    const std::string& text = options.memory_limit;
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    const auto* unit = std::ranges::find(kUnits, std::string_view(end), &Unit::name);
+    if (unit != kUnits.end() && number > 0 && number <= 1e6)
+        return v1::limit_memory(uint64_t(number * unit->bytes));
+    fail_usage("{}: --memory-limit {}: give a size like 500MB or 2.5GB", command, quote(text));
+}
+
+}  // namespace
+
+void set_limits(const SceneOptions& options, const char* command) {
+    watch_devices(options);
+    limit_memory(options, command);
 }
 
 SceneChange setting_of(const std::string& text, const char* option, const char* command) {

@@ -26,6 +26,7 @@ struct SceneOptions {
     std::string light;  ///< empty: the scene's
     std::string device;
     double device_timeout = 0;  ///< seconds; 0: none
+    std::string memory_limit;   ///< "2.5GB"; empty: none
     bool no_cache = false;
     bool strict = false;
     std::vector<std::string> settings;  ///< PATH=VALUE, of --set
@@ -38,8 +39,10 @@ struct SceneOptions {
 /// Declares the options, but not the scene itself.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
-/// Ends the program with a sentence when the device doesn't answer within --device-timeout.
-void watch_devices(const SceneOptions& options);
+/// From now on the program ends with a sentence when the device doesn't answer within
+/// --device-timeout, and takes at most --memory-limit. Throws Error::usage for texts that are no
+/// sizes; `command` opens the message.
+void set_limits(const SceneOptions& options, const char* command);
 
 /// Reads "PATH=VALUE". Throws Error::usage; `command` and `option` open messages.
 SceneChange setting_of(const std::string& text, const char* option, const char* command);

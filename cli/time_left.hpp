@@ -24,6 +24,10 @@ class TimeLeft {
     std::optional<double> seconds() const;
     /// What compiling took so far.
     double compile_seconds() const { return compile_; }
+    /// The same, with what is being compiled now.
+    double compile_seconds(double now) const {
+        return compile_ + (compiling_since_ ? now - *compiling_since_ : 0);
+    }
 
   private:
     double first_part_;

@@ -65,7 +65,7 @@ int run(const WarmCommand& command) {
     if (folder.empty())
         fail_usage(
             "warm: there is no cache to fill: VOXELUME_CACHE_DIR names no folder to write to");
-    watch_devices(command.scene);
+    set_limits(command.scene, "warm");
     int code = 0;
     for (const std::string& input : command.inputs) {
         try {

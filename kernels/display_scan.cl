@@ -52,8 +52,8 @@ static inline void scan_way(const PyramidView* p, const SurfaceView* s, Walk* w,
 
 /// Scans the voxels of instance `number` as far as the `active` lines pass through them before
 /// t_end.
-static inline void scan_instance(const WorldView* world, uint number, lane_float inverse_squared,
-                                 lane_float t_end, lane_int active, ScanResult* r) {
+static INLINED void scan_instance(const WorldView* world, uint number, lane_float inverse_squared,
+                                  lane_float t_end, lane_int active, ScanResult* r) {
     global const InstanceRecord* record = world->instances.records + number;
     const lane_float zero = (lane_float)0.0f;
     const BoxPassage way = pass_box(record, r->origin, r->way, inverse_squared, zero);
@@ -71,8 +71,8 @@ static inline void scan_instance(const WorldView* world, uint number, lane_float
 }
 
 /// Scans the voxels of all instances that the `active` lines come to, in the order of their tree.
-static inline void scan_instances(const WorldView* world, const Walk* line, lane_float t_end,
-                                  lane_int active, ScanResult* r) {
+static INLINED void scan_instances(const WorldView* world, const Walk* line, lane_float t_end,
+                                   lane_int active, ScanResult* r) {
     const InstanceView* v = &world->instances;
     const SlabRay slab = slab_ray(line);
     const lane_float inverse_squared = exact_reciprocal(dot_product(r->way, r->way));

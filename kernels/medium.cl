@@ -38,6 +38,56 @@ static inline lane_float depth_of(PyramidShape shape, const DensityView* density
     return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
 }
 
+/// What a medium whose colour differs from voxel to voxel does to light, channel by channel.
+typedef struct {
+    lane_float depth, lost;  // sum of density times metres, as add_exactly has it
+    lane_float passed[3];    // share of the light behind that comes through
+    lane_float emitted[3];   // radiance that the medium adds
+} Veil;
+
+/// Adds a stretch of a voxel, whose density and colour are the means over it, behind all others.
+static inline void add_stretch(const DensityCell* cell, global const float* restrict colors,
+                               const float* absorption, lane_float depth, lane_int adding,
+                               Veil* veil) {
+    add_exactly(&veil->depth, &veil->lost, depth, adding);
+    for (int channel = 0; channel < 3; ++channel) {
+        const lane_float color = LANES_GATHER_FLOAT(colors, cell->place * 3u + (uint)channel);
+        const lane_float shown = veil->passed[channel] * exact_rise(absorption[channel] * depth);
+        veil->emitted[channel] = fma(shown, color, veil->emitted[channel]);
+        veil->passed[channel] = exact_exp(-absorption[channel] * (veil->depth - veil->lost));
+    }
+}
+
+/// The veil of the medium along the segments of the `active` lanes.
+static inline Veil veil_of(PyramidShape shape, const DensityView* density,
+                           global const float* restrict colors, const float* absorption,
+                           const Segment* s, lane_int active) {
+    Veil veil;
+    veil.depth = veil.lost = (lane_float)0.0f;
+    for (int channel = 0; channel < 3; ++channel) {
+        veil.passed[channel] = (lane_float)1.0f;
+        veil.emitted[channel] = (lane_float)0.0f;
+    }
+    const PyramidView p = grid_view(shape);
+    Walk walk = begin_walk(s->origin.x, s->origin.y, s->origin.z, s->direction.x, s->direction.y,
+                           s->direction.z);
+    const lane_float metres = metres_per_t(shape.edge, s->direction);
+    lane_float entered = s->t_first, entered_low = (lane_float)0.0f;
+    lane_int walking = active & in_grid(&p, &walk) & LANE_MASK(s->t_first < s->t_last);
+    while (lanes_any(walking)) {
+        const DensityCell cell = look_up_density(density, walk.x, walk.y, walk.z, walking);
+        const Stretch stretch = cross_cell(&p, density, &walk, &cell, s->t_first, s->t_last,
+                                           &entered, &entered_low, walking);
+        const lane_float depth = cell.density * stretch.length * metres;
+        const lane_int counts = stretch.counts & LANE_MASK(depth > 0.0f);
+        if (lanes_any(counts))
+            add_stretch(&cell, colors, absorption, LANES_SELECT(counts, depth, (lane_float)0.0f),
+                        counts, &veil);
+        walking &= ~stretch.ends & in_grid(&p, &walk);
+    }
+    return veil;
+}
+
 /// The rays' parts up to what they met. A ray that met nothing goes on to the far surface, or to
 /// the world's end.
 static inline Segment sight_segment(const RayBatch* batch, uint first) {
@@ -57,6 +107,7 @@ static inline Segment sight_segment(const RayBatch* batch, uint first) {
 /// Applies the medium between the start of each ray, or of its segment, and its end to the ray's
 /// radiance. Writes the part of the light that comes through to `transmittance`.
 kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
+                         global const float* restrict density_colors,
                          global const float* restrict materials, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
@@ -71,7 +122,8 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
     const lane_int in_object = LANE_MASK(material != 0u) & active;
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
     lane_float depth = (lane_float)0.0f;
-    if (VXL_MEDIUM) depth = depth_of(shape, &density, &segment, active & ~in_object);
+    if (VXL_MEDIUM & !VXL_MEDIUM_COLORS)
+        depth = depth_of(shape, &density, &segment, active & ~in_object);
     if (VXL_TRANSMISSION && lanes_any(in_object))
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
     depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
@@ -84,6 +136,9 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
     const float absorption[3] = {environment.absorption.x, environment.absorption.y,
                                  environment.absorption.z};
     const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
+    Veil veil;
+    if (VXL_MEDIUM_COLORS)
+        veil = veil_of(shape, &density, density_colors, absorption, &segment, active & ~in_object);
     for (int channel = 0; channel < 3; ++channel) {
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
@@ -97,9 +152,13 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
             shown = LANES_SELECT(in_object, (lane_float)0.0f, shown);
         }
         const lane_float tau = per_metre * depth;
-        const lane_float weight = exact_exp(-tau);
+        lane_float weight = exact_exp(-tau), added = shown * exact_rise(tau);
+        if (VXL_MEDIUM_COLORS) {
+            weight = LANES_SELECT(in_object, weight, veil.passed[channel]);
+            added = LANES_SELECT(in_object, added, veil.emitted[channel] * shows);
+        }
         const lane_float behind = LANES_LOAD(radiance, place);
-        LANES_STORE(fma(weight, behind, shown * exact_rise(tau)), radiance, place);
+        LANES_STORE(fma(weight, behind, added), radiance, place);
         if (VXL_PATHS) LANES_STORE(weight, transmittance, place);
     }
 }

@@ -21,6 +21,9 @@ void bind_info(py::module_& module) {
         .def_readonly("memory_bytes", &DeviceInfo::memory_bytes, "of its memory")
         .def_readonly("compute_units", &DeviceInfo::compute_units, "as OpenCL counts them")
         .def_readonly("lanes", &DeviceInfo::lanes, "rays that one work-item carries")
+        .def_property_readonly(
+            "self_test", [](const DeviceInfo& info) { return voxelume::name_of(info.self_test); },
+            "\"passed\", \"failed\", or \"unknown\" before it is first opened")
         .def_readonly("unusable_because", &DeviceInfo::unusable_because,
                       "why it can't render; empty when it can")
         .def_readonly("note", &DeviceInfo::note, "what its user should know; mostly empty")

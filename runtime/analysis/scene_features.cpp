@@ -111,6 +111,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
     features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
+    features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
     add_medium_set(scene, world, features);
 }

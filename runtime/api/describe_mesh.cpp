@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/memory/plan.hpp"
 
 namespace voxelume::api {
@@ -32,10 +35,31 @@ Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
             {"because", choice.reason}};
 }
 
+/// The clips of a glTF file, and how many nodes each moves.
+Report clips_in(const GltfFile& file) {
+    Report clips = Report::array();
+    for (size_t number = 0; number < file.root().size("animations"); ++number) {
+        const GltfClip clip = gltf_clip(file, number);
+        std::set<int> nodes;
+        for (const GltfTrack& track : clip.tracks) nodes.insert(track.node);
+        clips.push_back(
+            {{"name", clip.name}, {"seconds", clip.seconds}, {"nodes", nodes.size()}});
+    }
+    return clips;
+}
+
 }  // namespace
 
 Report describe_mesh(const std::filesystem::path& path) {
-    const Mesh mesh = read_mesh_file(path);
+    Report clips = Report::array();
+    Mesh mesh;
+    if (is_gltf_file(path)) {
+        const GltfFile file(read_mesh_bytes(path), path);
+        mesh = gltf_mesh(file, 0);
+        clips = clips_in(file);
+    } else {
+        mesh = read_mesh(path);
+    }
     const MeshSummary summary = summary_of(mesh);
     const Bounds& box = summary.surface;
     const uint64_t open = summary.topology.open_edges;
@@ -55,6 +79,7 @@ Report describe_mesh(const std::filesystem::path& path) {
     if (!mesh.textures.empty()) report["textures"] = Report::array();
     for (const Texture& texture : mesh.textures)
         report["textures"].push_back({texture.image->width, texture.image->height});
+    if (!clips.empty()) report["clips"] = clips;
     if (!mesh.notes.empty()) report["notes"] = mesh.notes;
     if (box.min == box.max) return report;
     report["as voxels"] = Report::array();

@@ -32,6 +32,7 @@ v1::DeviceInfo api::info_for_callers(const DeviceInfo& info) {
     result.max_allocation_bytes = info.max_allocation;
     result.compute_units = info.compute_units;
     result.lanes = info.lanes;
+    result.self_test = static_cast<v1::SelfTest>(info.self_test);
     result.unusable_because = info.unusable;
     result.note = info.note;
     return result;
@@ -49,6 +50,12 @@ namespace v1 {
 
 const char* name_of(DeviceKind kind) {
     return kind == DeviceKind::cpu ? "cpu" : kind == DeviceKind::gpu ? "gpu" : "other";
+}
+
+const char* name_of(SelfTest result) {
+    return result == SelfTest::passed   ? "passed"
+           : result == SelfTest::failed ? "failed"
+                                        : "unknown";
 }
 
 std::vector<DeviceInfo> list_devices() {

@@ -25,7 +25,6 @@ namespace {
 
 /// Where hashes of files are asked for.
 struct FileHashes {
-    std::function<void(const std::filesystem::path&)> add_file;
     std::function<void(const std::filesystem::path&)> add_mesh;    ///< with all that it leads to
     std::function<void(const std::filesystem::path&)> add_voxels;  ///< likewise
     std::function<void(const Model&)> add_given;                   ///< voxels in memory
@@ -42,7 +41,7 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
         if (model.morph && !model.morph->mesh.empty()) hashes.add_mesh(model.morph->mesh);
     }
     if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
-        hashes.add_file(grid->file);
+        hashes.add_voxels(grid->file);
 }
 
 /// The hash of a mesh's file and of the libraries, textures and buffers that it leads to; empty for
@@ -61,8 +60,10 @@ std::string read_voxels_hash(const std::filesystem::path& file) {
     try {
         const VoxelFileFormat* format = voxel_file_format(file);
         if (!format || !format->array) return hash;
-        const std::filesystem::path data = format->array(file).data;
-        if (data != file) hash += hash_of_file(data);
+        const CellArray array = format->array(file);
+        if (array.data != file) hash += hash_of_file(array.data);
+        for (size_t slice = 1; slice < array.slices.size(); ++slice)
+            hash += hash_of_file(array.slices[slice]);
     } catch (const Error&) {
         return hash;
     }
@@ -116,8 +117,7 @@ std::string FrameHashes::hash(int frame, bool is_of_volume) {
         if (is_new) entry->second = hash_of_voxels(*model.given);
         key.add_text(entry->second);
     };
-    add_files(scene_at(scene, frame),
-              {adder(hash_of_file), adder(read_mesh_hash), adder(read_voxels_hash), add_given});
+    add_files(scene_at(scene, frame), {adder(read_mesh_hash), adder(read_voxels_hash), add_given});
     const std::array<std::string_view, 1> parts = {key.bytes()};
     return cache_key(parts);
 }

@@ -28,11 +28,14 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     inside.is_parallel = options.parallel;
     inside.is_lattice = options.lattice;
     inside.has_own_camera = options.own_camera;
+    inside.clip = options.clip;
     inside.turns = options.turns;
     inside.angle = options.angle;
     inside.has_ground = options.ground;
     if (options.background) inside.background = color_of(*options.background);
     inside.fit = options.fit;
+    if (options.spacing)
+        inside.spacing = {(*options.spacing)[0], (*options.spacing)[1], (*options.spacing)[2]};
     inside.up = static_cast<UpAxis>(options.up);
     inside.size = api::vector_of(options.size);
     return inside;

@@ -8,6 +8,7 @@
 
 #include "runtime/api/guarded.hpp"
 #include "runtime/base/disk_cache.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/base/temporary_files.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
@@ -52,6 +53,10 @@ void configure(const ProcessOptions& options) {
         const std::lock_guard lock(options_mutex);
         apply(options);
     });
+}
+
+void limit_memory(uint64_t bytes) {
+    limit_main_memory(bytes);
 }
 
 void watch_devices(double seconds, std::function<void(const std::string& sentence)> late) {

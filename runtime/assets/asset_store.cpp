@@ -8,6 +8,7 @@
 #include "runtime/geometry/mesh_morph.hpp"
 #include "runtime/geometry/winding_number.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/gltf/gltf_targets.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
@@ -134,10 +135,25 @@ const Mesh& AssetStore::morphed_mesh(const Model& model) {
     const Morph& morph = *model.morph;
     const FileMap& map = model.object_from_file;
     const Mesh& from = mesh(model.mesh, map, model.part);
+    if (!morph.weights.empty())
+        return entry.mesh.emplace(
+            moved_by_targets(from, targets_of(model), morph.weights, map.scale));
     entry.mesh = morph.mesh.empty()
                      ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
                      : ::voxelume::morphed(from, mesh(morph.mesh, map), morph.amount, model.where);
     return *entry.mesh;
+}
+
+const std::vector<MorphTarget>& AssetStore::targets_of(const Model& model) {
+    std::optional<std::vector<MorphTarget>>& targets = file({model.mesh, model.part}).targets;
+    if (!targets) {
+        const LoadTimer timer(load_seconds_);
+        targets = gltf_targets(gltf_file(model.mesh), model.part);
+    }
+    if (model.morph->weights.size() > targets->size())
+        throw Error(ErrorKind::input, "{}: has {} weights, and its mesh has {} targets",
+                    model.where, model.morph->weights.size(), targets->size());
+    return *targets;
 }
 
 const MeshSummary& AssetStore::morphed_summary(const Model& model) {
@@ -206,8 +222,11 @@ Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
         plain.surface = surface_of_voxels(plain).surface;
     const Bounds box = plain.voxels.empty() ? summary_of_file({name, plain.part}).surface
                                             : occupied_bounds(voxels(plain));
+    const bool has_targets = model.morph && !model.morph->weights.empty();
+    const Bounds reached =
+        has_targets ? box_of_targets(box, targets_of(model), model.morph->weights) : box;
     if (!keeps && !was_loaded) forget(name);
-    return box;
+    return reached;
 }
 
 AssetStore AssetStore::recounted() const {

@@ -16,6 +16,7 @@
 #include "runtime/assets/model_cache.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
+#include "runtime/geometry/mesh_targets.hpp"
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/gltf/gltf_file.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
@@ -86,6 +87,7 @@ class AssetStore {
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
         std::optional<MeshShape> shape;
+        std::optional<std::vector<MorphTarget>> targets;
         std::map<MapKey, MappedMesh> mapped;
 
         void forget_meshes();
@@ -125,6 +127,8 @@ class AssetStore {
     Morphed& morphed(const Model& model);
     const Mesh& morphed_mesh(const Model& model);
     const MeshSummary& morphed_summary(const Model& model);
+    /// The targets of a morph by weights, which has at most as many weights.
+    const std::vector<MorphTarget>& targets_of(const Model& model);
 
     ModelCache cache_;
     std::map<MeshName, MeshFile> files_;

@@ -6,6 +6,7 @@
 namespace voxelume {
 void AssetStore::MeshFile::forget_meshes() {
     mesh.reset();
+    targets.reset();
     for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
 }
 
@@ -15,6 +16,9 @@ uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
     for (const auto& [of, file] : files_) {
         if (of.first != name) continue;
         if (file.mesh) bytes += mesh_bytes(*file.mesh);
+        if (file.targets)
+            for (const MorphTarget& target : *file.targets)
+                bytes += (target.positions.size() + target.normals.size()) * sizeof(glm::vec3);
         for (const auto& [map, mapped] : file.mapped)
             if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
     }

@@ -99,6 +99,7 @@ std::string mapped_source(const std::string& source, const FileMap& map) {
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
     CacheKey words;
     words.add_all(morph.center).add(morph.radius).add(morph.amount);
+    for (const double weight : morph.weights) words.add(weight);
     return key_of({from, to, words.bytes()});
 }
 

@@ -109,7 +109,9 @@ void RunWarnings::add(const FrameResult& result) {
 
 void RunWarnings::add_view_warning(const Scene& scene) {
     const bool has_objects = std::ranges::any_of(scene.objects, &Object::visible);
-    if (!has_objects && scene.world.medium.color != glm::vec3(0)) return;  // a picture of fog
+    const Medium& medium = scene.world.medium;
+    if (!has_objects && (medium.color != glm::vec3(0) || has_medium_colors(medium)))
+        return;  // a picture of fog, or of a scan
     const Bounds objects = box_of_objects(scene, AssetStore(cache_));
     const bool is_in_world = objects.min.x <= objects.max.x;
     if (has(WarningKind::no_voxels) || (has_objects && !is_in_world)) return;  // known already

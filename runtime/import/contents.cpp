@@ -19,6 +19,11 @@ std::string json_text(std::string_view text) {
     return out + '"';
 }
 
+std::string target_name(const std::string& name) {
+    if (name.find_first_of(".[]\"") == std::string::npos) return name;
+    return json_text(name);
+}
+
 std::string json_size(const glm::dvec3& v) {
     return v.x == v.y && v.y == v.z ? fmt::format("{}", v.x) : json_list(v);
 }

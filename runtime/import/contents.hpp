@@ -73,6 +73,9 @@ Contents vox_contents(const ImportedFile& file);
 /// A text in quotes, as JSON has it.
 std::string json_text(std::string_view text);
 
+/// A name in a track's target.
+std::string target_name(const std::string& name);
+
 /// "[1, 2.5, 3]".
 template <class Vector>
 std::string json_list(const Vector& v) {

@@ -9,17 +9,17 @@
 #include <map>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
+#include "runtime/import/gltf_morphs.hpp"
 #include "runtime/import/gltf_sight.hpp"
+#include "runtime/import/gltf_tracks.hpp"
 #include "runtime/import/gltf_values.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
 
 namespace voxelume {
 namespace {
-
-/// Voxels along the longest side: textures show in voxels.
-constexpr int kVoxelsAlong = 256, kTexturedVoxelsAlong = 512;
 
 /// Whether a mesh has triangles, and not points and lines alone.
 bool has_faces(const GltfValue& mesh) {
@@ -39,27 +39,45 @@ bool can_be_placed(const glm::dmat4& map) {
     return std::isfinite(most) && least > 1e-4 * most && volume > 1e-9 * most * most * most;
 }
 
-std::string matrix_text(const glm::dmat4& m) {
-    std::array<std::string, 3> rows;
-    for (int row = 0; row < 3; ++row)
-        rows[size_t(row)] =
-            fmt::format("[{}, {}, {}, {}]", m[0][row], m[1][row], m[2][row], m[3][row]);
-    return fmt::format("[{}]", fmt::join(rows, ", "));
+/// The clip that the options choose; an empty one where the file has none.
+GltfClip clip_of(const GltfFile& gltf, const std::string& wanted) {
+    const std::vector<std::string> names = gltf_clip_names(gltf);
+    if (wanted.empty()) return names.empty() ? GltfClip{} : gltf_clip(gltf, 0);
+    const auto found = std::ranges::find(names, wanted);
+    if (found != names.end()) return gltf_clip(gltf, size_t(found - names.begin()));
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw Error(ErrorKind::usage, "{}: has no clip {}{}", SourcePlace(gltf.path().string()),
+                quote(wanted), known.empty() ? "; nothing in it moves" : suggest(wanted, known));
 }
+
+/// A model, which is written when all objects that show it are known.
+struct MeshModel {
+    std::string name;
+    int number = 0;      ///< of the mesh in the file
+    double stretch = 0;  ///< largest of an object that moves; 0: none does
+    GltfMorph morph;
+};
 
 class SceneOfGltf {
   public:
     explicit SceneOfGltf(const ImportedFile& file)
-        : file_(file), gltf_(file.assets.gltf_file(file.path)), root_(gltf_.root()) {
+        : file_(file),
+          gltf_(file.assets.gltf_file(file.path)),
+          root_(gltf_.root()),
+          clip_(clip_of(gltf_, file.options.clip)),
+          motion_(gltf_, clip_),
+          frames_{motion_, clip_.tracks.empty() ? 1 : frame_count(clip_.seconds)} {
         for (size_t i = 0; i < gltf_.material_names().size(); ++i)
             material_numbers_.emplace(gltf_.material_names()[i], i);
     }
 
     Contents read() {
         contents_.box = {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-        const std::vector<GltfNode> nodes = gltf_nodes(gltf_);
-        for (const GltfNode& node : nodes)
+        std::vector<GltfNode> nodes = gltf_nodes(gltf_);
+        for (GltfNode& node : nodes) {
+            if (motion_.moves(node.number)) node.world_from_node = frames_.map_at(node, 1);
             if (node.mesh >= 0) add_object(node);
+        }
         if (contents_.objects.empty() || !(longest_side(contents_.box) > 0))
             throw Error(ErrorKind::input, "{}: has no triangles to show",
                         SourcePlace(file_.path.string()));
@@ -67,15 +85,23 @@ class SceneOfGltf {
         contents_.materials.insert(contents_.materials.begin(),
                                    fmt::format("\"default\": {{\"color\": {}, \"specular\": 0.1}}",
                                                has_colors_ ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
+        for (const MeshModel& model : models_) contents_.models.push_back(model_text(model));
         contents_.observer = gltf_observer(gltf_, nodes, contents_.box, file_.options.size);
-        contents_.lights = gltf_light_items(gltf_, nodes, contents_.box);
+        contents_.lights = gltf_light_items(gltf_, nodes, contents_.box, frames_, contents_.tracks);
+        if (file_.options.has_own_camera && !file_.options.is_lattice)
+            add_observer_tracks(gltf_, nodes, frames_, contents_.tracks);
+        if (!contents_.tracks.empty()) contents_.frames = frames_.count;
+        contents_.fps = kGltfFrameRate;
         return std::move(contents_);
     }
 
   private:
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
-        if (!has_faces(mesh) || !can_be_placed(node.world_from_node)) return;
+        if (!has_faces(mesh)) return;
+        std::vector<glm::dmat4> maps = frames_.maps_of(node);
+        std::erase_if(maps, [](const glm::dmat4& map) { return !can_be_placed(map); });
+        if (maps.empty()) return;
         Model model;
         model.mesh = file_.path;
         model.part = node.mesh + 1;
@@ -83,29 +109,63 @@ class SceneOfGltf {
         has_textures_ |= summary.paint.textures > 0;
         has_colors_ |= summary.paint.is_there();
         const std::string wanted = node.name.empty() ? mesh.text("name") : node.name;
-        contents_.objects.push_back(fmt::format(
-            "{{\"name\": {}, \"model\": {}{}{}}}",
-            json_text(objects_.unique(wanted.empty() ? "object" : wanted)),
-            json_text(model_name(node.mesh, mesh)), materials_member(summary),
-            node.world_from_node == glm::dmat4(1)
-                ? ""
-                : fmt::format(",\n     \"matrix\": {}", matrix_text(node.world_from_node))));
+        const std::string name = objects_.unique(wanted.empty() ? "object" : wanted);
+        MeshModel& shown = model_of(node, mesh);
+        std::string place = place_text(node, name);
+        contents_.objects.push_back(fmt::format("{{\"name\": {}, \"model\": {}{}{}}}",
+                                                json_text(name), json_text(shown.name),
+                                                materials_member(summary), place));
+        const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface);
+        for (const glm::dmat4& map : maps) {
+            add_box(map, box);
+            if (motion_.moves(node.number))
+                shown.stretch = std::max(shown.stretch, stretch_of(glm::dmat3(map)).max);
+        }
+    }
+
+    /// What places the object, whose tracks the contents get.
+    std::string place_text(const GltfNode& node, const std::string& name) {
+        if (motion_.moves(node.number)) {
+            GltfPlace place = gltf_place(motion_, node, name);
+            for (std::string& track : place.tracks) contents_.tracks.push_back(std::move(track));
+            return place.members;
+        }
+        if (node.world_from_node == glm::dmat4(1)) return {};
+        return fmt::format(",\n     \"matrix\": {}", matrix_text(node.world_from_node));
+    }
+
+    void add_box(const glm::dmat4& map, const Bounds& box) {
         for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p(node.world_from_node * glm::dvec4(corner(summary.surface, i), 1));
+            const glm::dvec3 p(map * glm::dvec4(corner(box, i), 1));
             contents_.box = {glm::min(contents_.box.min, p), glm::max(contents_.box.max, p)};
         }
     }
 
-    const std::string& model_name(int number, const GltfValue& mesh) {
-        const auto [entry, is_new] = models_.try_emplace(number);
-        if (!is_new) return entry->second;
-        const std::string name = mesh.text("name");
-        entry->second =
-            model_names_.unique(name.empty() ? fmt::format("mesh {}", number + 1) : name);
-        contents_.models.push_back(
-            fmt::format("{}: {{\"mesh\": {}, \"part\": {}, \"surface\": \"exact\"}}",
-                        json_text(entry->second), json_text(file_.name), number + 1));
-        return entry->second;
+    /// The model of the node's mesh, which nodes with weights of their own don't share.
+    MeshModel& model_of(const GltfNode& node, const GltfValue& mesh) {
+        GltfMorph morph = gltf_morph(gltf_, clip_, node);
+        const std::pair key(node.mesh, morph.owner);
+        const auto [entry, is_new] = model_numbers_.try_emplace(key, models_.size());
+        if (!is_new) return models_[entry->second];
+        const std::string wanted = mesh.text("name");
+        const std::string name =
+            model_names_.unique(wanted.empty() ? fmt::format("mesh {}", node.mesh + 1) : wanted);
+        if (morph.keys)
+            contents_.tracks.push_back(
+                keys_track(fmt::format("models.{}.morph.weights", target_name(name)), *morph.keys));
+        models_.push_back({name, node.mesh, 0, std::move(morph)});
+        return models_.back();
+    }
+
+    /// What moves keeps voxels of its own, which are to be as large as the world's.
+    std::string model_text(const MeshModel& model) const {
+        const std::string voxels =
+            model.stretch > 0 ? fmt::format(", \"voxel_size\": {}",
+                                            rounded(contents_.voxel_size.x / model.stretch, 4))
+                              : "";
+        return fmt::format("{}: {{\"mesh\": {}, \"part\": {}, \"surface\": \"exact\"{}{}}}",
+                           json_text(model.name), json_text(file_.name), model.number + 1,
+                           morph_member(model.morph), voxels);
     }
 
     /// The materials of an object's groups, each of which is written once.
@@ -133,10 +193,14 @@ class SceneOfGltf {
     const ImportedFile& file_;
     const GltfFile& gltf_;
     GltfValue root_;
+    GltfClip clip_;
+    GltfMotion motion_;
+    GltfFrames frames_;
     Contents contents_;
-    std::map<int, std::string> models_;
-    std::map<std::string, size_t> material_numbers_;  ///< by group
-    std::map<std::string, std::string> materials_;    ///< by group
+    std::map<std::pair<int, int>, size_t> model_numbers_;  ///< by mesh and owner of weights
+    std::vector<MeshModel> models_;                        ///< in the order of their first objects
+    std::map<std::string, size_t> material_numbers_;       ///< by group
+    std::map<std::string, std::string> materials_;         ///< by group
     NameList objects_{{"ground"}}, model_names_{{"ground"}};
     NameList material_names_{{"default", "ground"}};
     bool has_textures_ = false, has_colors_ = false;

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "runtime/import/contents.hpp"
+#include "runtime/import/gltf_tracks.hpp"
 
 namespace voxelume {
 namespace {
@@ -22,8 +23,40 @@ glm::dvec3 position_of(const GltfNode& node) {
 }
 
 /// Cameras and lights look along -Z.
+glm::dvec3 direction_of(const glm::dmat4& world_from_node) {
+    return -unit(world_from_node[2]);
+}
 glm::dvec3 direction_of(const GltfNode& node) {
-    return -unit(node.world_from_node[2]);
+    return direction_of(node.world_from_node);
+}
+
+/// Appends a track of what a node's maps give, where they aren't all alike.
+template <class Value>
+void add_track(const std::string& target, const std::vector<glm::dmat4>& maps, const Value& value,
+               std::vector<std::string>& tracks) {
+    std::vector<glm::dvec3> values;
+    values.reserve(maps.size());
+    for (const glm::dmat4& map : maps) values.push_back(value(map));
+    if (std::ranges::all_of(values, [&](const glm::dvec3& v) { return v == values.front(); }))
+        return;
+    tracks.push_back(baked_track(target, values));
+}
+
+std::vector<glm::dmat4> all_maps(const GltfFrames& frames, const GltfNode& node) {
+    std::vector<glm::dmat4> maps;
+    maps.reserve(size_t(frames.count));
+    for (int frame = 1; frame <= frames.count; ++frame) maps.push_back(frames.map_at(node, frame));
+    return maps;
+}
+
+std::vector<GltfNode>::const_iterator first_camera(const std::vector<GltfNode>& nodes) {
+    return std::ranges::find_if(nodes, [](const GltfNode& n) { return n.camera >= 0; });
+}
+
+/// How far before a camera its picture begins that has parallel rays.
+double near_of(const GltfValue& camera) {
+    if (camera.text("type") != "orthographic") return 0;
+    return std::max(camera.at("orthographic").number("znear", 0), 0.0);
 }
 
 std::string perspective_display(const GltfValue& camera, const glm::ivec2& size) {
@@ -80,6 +113,18 @@ std::string light_item(const GltfNode& node, const GltfValue& light, const std::
     return text + fmt::format(", \"intensity\": {}}}", rounded(brightness(light) * scale, 6));
 }
 
+void add_light_tracks(const std::string& target, const std::string& type,
+                      const std::vector<glm::dmat4>& maps, std::vector<std::string>& tracks) {
+    if (type != "directional")
+        add_track(
+            target + ".position", maps, [](const glm::dmat4& m) { return glm::dvec3(m[3]); },
+            tracks);
+    if (type != "point")
+        add_track(
+            target + ".direction", maps, [](const glm::dmat4& m) { return direction_of(m); },
+            tracks);
+}
+
 bool is_shown(const GltfValue& light) {
     const std::string type = light.text("type");
     return (type == "point" || type == "spot" || type == "directional") && brightness(light) > 0;
@@ -87,9 +132,26 @@ bool is_shown(const GltfValue& light) {
 
 }  // namespace
 
+int frame_count(double seconds) {
+    constexpr int kMaxFrames = 1'000'000;
+    const double last = std::floor(seconds * kGltfFrameRate + 1e-4);
+    return 1 + int(std::clamp(last, 0.0, double(kMaxFrames - 1)));
+}
+
+std::vector<glm::dmat4> GltfFrames::maps_of(const GltfNode& node) const {
+    constexpr int kMaxMaps = 500;
+    if (!motion.moves(node.number)) return {node.world_from_node};
+    std::vector<glm::dmat4> maps;
+    const int some = std::min(count, kMaxMaps);
+    maps.reserve(size_t(some));
+    for (int i = 0; i < some; ++i)
+        maps.push_back(map_at(node, 1 + int(int64_t(i) * (count - 1) / std::max(some - 1, 1))));
+    return maps;
+}
+
 std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
                           const Bounds& box, const glm::ivec2& size) {
-    const auto node = std::ranges::find_if(nodes, [](const GltfNode& n) { return n.camera >= 0; });
+    const auto node = first_camera(nodes);
     if (node == nodes.end()) return {};
     const GltfValue camera = file.root().item("cameras", size_t(node->camera));
     const glm::dvec3 towards = direction_of(*node), up = unit(node->world_from_node[1]);
@@ -100,7 +162,7 @@ std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nod
     std::string display;
     if (camera.text("type") == "orthographic") {
         const GltfValue values = camera.at("orthographic");
-        const double near = std::max(values.number("znear", 0), 0.0);
+        const double near = near_of(camera);
         position += near * towards;
         const double far = values.number("zfar", near + depth) - near;
         depth = std::max(std::min(far, 1.01 * depth), 1e-3);
@@ -116,8 +178,26 @@ std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nod
         json_list(rounded(up, 9)), display);
 }
 
+void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& nodes,
+                         const GltfFrames& frames, std::vector<std::string>& tracks) {
+    const auto node = first_camera(nodes);
+    if (node == nodes.end() || !frames.motion.moves(node->number)) return;
+    const double near = near_of(file.root().item("cameras", size_t(node->camera)));
+    const std::vector<glm::dmat4> maps = all_maps(frames, *node);
+    const auto position = [near](const glm::dmat4& map) {
+        return glm::dvec3(map[3]) + near * direction_of(map);
+    };
+    add_track("observer.position", maps, position, tracks);
+    add_track(
+        "observer.look_at", maps,
+        [&](const glm::dmat4& map) { return position(map) + direction_of(map); }, tracks);
+    add_track(
+        "observer.up", maps, [](const glm::dmat4& map) { return unit(map[1]); }, tracks);
+}
+
 std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vector<GltfNode>& nodes,
-                                          const Bounds& box) {
+                                          const Bounds& box, const GltfFrames& frames,
+                                          std::vector<std::string>& tracks) {
     const std::vector<GltfValue> lights = gltf_lights(file);
     const glm::dvec3 middle = (box.min + box.max) / 2.0;
     double sum = 0;
@@ -128,8 +208,12 @@ std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vecto
     NameList names({});
     for (const GltfNode& node : nodes) {
         if (node.light < 0 || !is_shown(lights[size_t(node.light)])) continue;
-        const std::string name = node.name.empty() ? "light" : node.name;
-        items.push_back(light_item(node, lights[size_t(node.light)], names.unique(name), 1 / sum));
+        const GltfValue& light = lights[size_t(node.light)];
+        const std::string name = names.unique(node.name.empty() ? "light" : node.name);
+        items.push_back(light_item(node, light, name, 1 / sum));
+        if (frames.motion.moves(node.number))
+            add_light_tracks("lights." + target_name(name), light.text("type"),
+                             all_maps(frames, node), tracks);
     }
     return items;
 }

@@ -6,20 +6,44 @@
 #include <string>
 #include <vector>
 
-#include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/io/gltf/gltf_motion.hpp"
 #include "runtime/scene/bounds.hpp"
 
 namespace voxelume {
+
+inline constexpr double kGltfFrameRate = 24;  ///< frames a second; a file has none
+
+/// How many frames show a clip.
+int frame_count(double seconds);
+
+/// The frames of a scene in which a clip moves nodes.
+struct GltfFrames {
+    const GltfMotion& motion;
+    int count = 1;
+
+    glm::dmat4 map_at(const GltfNode& node, int frame) const {
+        return motion.world_from_node(node, (frame - 1) / kGltfFrameRate);
+    }
+    /// The maps of a node at all frames, or at some of them, evenly spread, where they are very
+    /// many; one for a node that stands still.
+    std::vector<glm::dmat4> maps_of(const GltfNode& node) const;
+};
 
 /// The observer of the file's first camera; empty where there is none. An image of another shape
 /// than the camera's keeps its height.
 std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
                           const Bounds& box, const glm::ivec2& size);
 
+/// Appends the tracks of that observer, frame by frame, where its camera moves.
+void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& nodes,
+                         const GltfFrames& frames, std::vector<std::string>& tracks);
+
 /// The file's lights, as bright in proportion to each other as they are there: together they give
 /// the middle of the box an irradiance of 1, for files have them in candela and lux and say
 /// nothing of exposure.
+/// Tracks of those that move are appended, frame by frame.
 std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vector<GltfNode>& nodes,
-                                          const Bounds& box);
+                                          const Bounds& box, const GltfFrames& frames,
+                                          std::vector<std::string>& tracks);
 
 }  // namespace voxelume

@@ -43,7 +43,9 @@ Looks looks_of(const GltfValue& material) {
         s.metal = has_map ? 0 : std::clamp(from.number("metallicFactor", 1), 0.0, 1.0);
         s.rough = has_map ? 0.7 : std::clamp(from.number("roughnessFactor", 1), 0.0, 1.0);
     }
-    if (material.text("alphaMode", "OPAQUE") != "BLEND") s.opacity = 1;
+    const std::string mode = material.text("alphaMode", "OPAQUE");
+    if (mode == "MASK") s.opacity = s.opacity < material.number("alphaCutoff", 0.5) ? 0 : 1;
+    if (mode == "OPAQUE") s.opacity = 1;
     return s;
 }
 
@@ -108,7 +110,7 @@ std::string gltf_values(const GltfValue& material) {
         text += ", " + metal_members(s.metal, s.rough) + ior_member(material);
     }
     if (transmission == 0 && s.opacity < 1)
-        text += fmt::format(", \"opacity\": {}", rounded(std::max(s.opacity, 0.01), 3));
+        text += fmt::format(", \"opacity\": {}", rounded(s.opacity, 3));
     const glm::dvec3 emission = emission_of(material);
     if (emission != glm::dvec3(0))
         text += fmt::format(", \"emission\": {}", json_list(rounded(emission, 4)));

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
 #include "runtime/import/studio.hpp"
@@ -180,7 +181,18 @@ bool is_model_file(const std::filesystem::path& file) {
 
 std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
                           const ImportOptions& options, AssetStore& assets) {
-    return scene_of(reader_of(file)({file, name, options, assets}), options);
+    const auto read = reader_of(file);
+    if (!options.clip.empty() && read != gltf_contents)
+        throw Error(ErrorKind::usage, "{}: only glTF files have clips; leave {} out",
+                    SourcePlace(file.string()), quote(options.clip));
+    if (options.spacing && read != voxel_contents)
+        throw Error(ErrorKind::usage,
+                    "{}: only scans, arrays and files of voxels of one model have a spacing",
+                    SourcePlace(file.string()));
+    if (options.spacing && options.fit > 0)
+        throw Error(ErrorKind::usage, "{}: a size and a spacing; leave one of them out",
+                    SourcePlace(file.string()));
+    return scene_of(read({file, name, options, assets}), options);
 }
 
 std::string scene_of_voxels(const std::shared_ptr<const VoxelModel>& voxels,

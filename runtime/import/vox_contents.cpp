@@ -66,12 +66,6 @@ std::string turn_text(const QuarterTurns& turns) {
     return fmt::format("[{}, {}, {}]", degrees(0), degrees(1), degrees(2));
 }
 
-/// A name in a track's target.
-std::string target_name(const std::string& name) {
-    if (name.find_first_of(".[]\"") == std::string::npos) return name;
-    return json_text(name);
-}
-
 class VoxContents {
   public:
     explicit VoxContents(const ImportedFile& file)

@@ -74,6 +74,17 @@ const char* turn_up(Contents& contents) {
     return ", \"turn\": [0, -90, 0]";
 }
 
+/// Sets voxels of such an edge apart as the options ask for. Returns the object's member that does
+/// it.
+std::string set_apart(const glm::dvec3& edge, const ImportOptions& options, Contents& contents) {
+    if (!options.spacing) return {};
+    const glm::dvec3 scale = *options.spacing / edge;
+    contents.box = {contents.box.min * scale, contents.box.max * scale};
+    contents.lattice *= scale;
+    contents.voxel_size = *options.spacing;
+    return fmt::format(", \"scale\": {}", json_list(scale));
+}
+
 /// `chosen` are members of the scene's model.
 Contents contents_of(const Model& model, const std::string& chosen, const ImportedFile& file) {
     const Bounds box = file.assets.box_of_file(model, true);
@@ -91,9 +102,10 @@ Contents contents_of(const Model& model, const std::string& chosen, const Import
     contents.models.push_back(fmt::format(
         "{}: {{\"voxels\": {}, \"surface\": \"{}\"{}{}}}", json_text(name), json_text(file.name),
         kind_of(model.surface).name, chosen, fit_member(file.options)));
-    const char* turn = file.options.up == UpAxis::z ? turn_up(contents) : "";
+    std::string place = set_apart(voxels.frame.voxel_edge, file.options, contents);
+    if (file.options.up == UpAxis::z) place += turn_up(contents);
     contents.objects.push_back(fmt::format(
-        "{{\"name\": {0}, \"model\": {0}, \"material\": {0}{1}}}", json_text(name), turn));
+        "{{\"name\": {0}, \"model\": {0}, \"material\": {0}{1}}}", json_text(name), place));
     return contents;
 }
 

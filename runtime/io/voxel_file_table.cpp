@@ -10,10 +10,11 @@
 namespace voxelume {
 namespace {
 
-constexpr std::array<VoxelFileFormat, 8> kVoxelFiles = {{
+constexpr std::array<VoxelFileFormat, 9> kVoxelFiles = {{
     {"numpy array", {".npy"}, "\x93NUMPY", read_npy_header, nullptr},
     {"NRRD array", {".nrrd", ".nhdr"}, "NRRD000", read_nrrd_header, nullptr},
     {"NIfTI scan", {".nii", ".nii.gz"}, "", read_nifti_header, nullptr},
+    {"stack of PNG slices", {".png"}, "", read_png_stack_header, nullptr, true},
     {"Qubicle file", {".qb"}, "", nullptr, read_qb},
     {"KV6 voxel model", {".kv6"}, "Kvxl", nullptr, read_kv6},
     {"binvox file", {".binvox"}, "#binvox", nullptr, read_binvox},
@@ -26,7 +27,9 @@ bool is_named(const VoxelFileFormat& format, const std::filesystem::path& path) 
     std::ranges::transform(name, name.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
     return std::ranges::any_of(format.endings, [&](std::string_view ending) {
-        return !ending.empty() && name.size() > ending.size() && name.ends_with(ending);
+        if (ending.empty() || name.size() <= ending.size() || !name.ends_with(ending)) return false;
+        const char before = name[name.size() - ending.size() - 1];
+        return !format.is_numbered || (before >= '0' && before <= '9');
     });
 }
 

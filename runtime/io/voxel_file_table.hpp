@@ -23,6 +23,8 @@ struct VoxelFileFormat {
     std::string_view mark;                    ///< the file's first bytes; empty if it has none
     CellArray (*array)(const std::filesystem::path& path);  ///< null where it has voxels alone
     VoxelArt (*art)(const std::filesystem::path& path);     ///< null where it has an array
+    bool is_numbered =
+        false;  ///< only names with a digit before the ending are those of the format
 };
 
 std::span<const VoxelFileFormat> voxel_file_table();

@@ -27,7 +27,7 @@ DisplayLight count_light(const Device& device, const Scene& scene, const Feature
     DisplayLight light;
     light.rays = allocate_rays(device, features, counts);
     light.tables = count_tables(device, scene);
-    if (features.medium_grid) light.density = allocate_density(device, medium.slots, medium.places);
+    if (features.medium_grid) light.density = allocate_density(device, medium.size);
     return light;
 }
 

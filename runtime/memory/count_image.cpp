@@ -101,8 +101,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
                 count_light_beams(device, scene, world, *of,
                                   light_beams_that_pay(world.frame, rays, camera.samples, pixel));
     }
-    if (features.medium_grid)
-        memory.density = allocate_density(device, medium.slots, medium.places);
+    if (features.medium_grid) memory.density = allocate_density(device, medium.size);
     memory.image = allocate_image(device, scene.render.size, scene.render.channels);
     memory.mattes = allocate_mattes(device, scene.render.size, scene.render.channels);
     return memory;

@@ -3,9 +3,6 @@
 
 #include <CL/opencl.hpp>
 
-#include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -13,9 +10,8 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/device_call.hpp"
-#include "runtime/opencl/platforms.hpp"
+#include "runtime/opencl/device_settings.hpp"
 #include "runtime/opencl/program_cache.hpp"
-#include "runtime/opencl/selector.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
@@ -23,59 +19,15 @@ namespace {
 
 constexpr size_t kTimesKept = 256;  // events that wait to be read; each holds driver memory
 
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-}
-
-std::string selector_or_default(std::string_view selector) {
-    const std::string by_default = environment("VOXELUME_DEVICE");
-    if (!selector.empty()) return std::string(selector);
-    return by_default.empty() ? "auto" : by_default;
-}
-
-/// The lanes that the caller asks for, else those of VOXELUME_LANES, else the device's own.
-int lanes_for(const DeviceInfo& info, int asked) {
-    const std::string text = asked != 0 ? std::to_string(asked) : environment("VOXELUME_LANES");
-    if (text.empty()) return info.lanes;
-    for (const int lanes : {1, 4, 8, 16})
-        if (text == std::to_string(lanes)) return lanes;
-    throw Error(ErrorKind::usage, "{} lanes per work-item: there are kernels for 1, 4, 8 and 16",
-                text);
-}
-
-/// The number, at least 1, in an environment variable; 0 if it isn't set.
-int number_in_environment(const char* name) {
-    const std::string text = environment(name);
-    if (text.empty()) return 0;
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || number < 1)
-        throw Error(ErrorKind::usage, "{}={}: must be a whole number from 1 to {}, in digits", name,
-                    text, std::numeric_limits<int>::max());
-    return number;
-}
-
 /// The part of a device with VOXELUME_UNITS compute units, or all of it if that isn't set.
 cl::Device part_of(const cl::Device& device) {
-    const int units = number_in_environment("VOXELUME_UNITS");
+    const int units = units_to_use();
     if (units == 0) return device;
     const cl_device_partition_property properties[] = {CL_DEVICE_PARTITION_BY_COUNTS, units,
                                                        CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     std::vector<cl::Device> parts;
     cl::Device(device).createSubDevices(properties, &parts);
     return parts.at(0);
-}
-
-/// Limits a device's memory as VOXELUME_MEMORY_MB and VOXELUME_BUFFER_MB say.
-void limit_memory(DeviceInfo& info) {
-    const auto limit = [](const char* name, uint64_t& bytes) {
-        const auto megabytes = uint64_t(number_in_environment(name));
-        if (megabytes != 0) bytes = std::min(bytes, megabytes << 20);
-    };
-    limit("VOXELUME_MEMORY_MB", info.memory);
-    limit("VOXELUME_BUFFER_MB", info.max_allocation);
-    info.max_allocation = std::min(info.max_allocation, info.memory);
 }
 
 }  // namespace
@@ -139,40 +91,9 @@ struct Device::Queue {
     }
 };
 
-std::vector<DeviceInfo> list_devices() {
-    std::vector<DeviceInfo> infos;
-    for (Candidate& candidate : find_candidates()) {
-        infos.push_back(std::move(candidate.info));
-        limit_memory(infos.back());
-    }
-    return infos;
-}
-
-Device Device::open(std::string_view selector, int lanes, const Device* beside) {
-    const std::string wanted = selector_or_default(selector);
-    const std::vector<Candidate> candidates = find_candidates();
-    const Candidate& chosen = choose(candidates, wanted);
-    return open(chosen.device, chosen.info, lanes, beside);
-}
-
-std::vector<Device> Device::open_all(std::string_view selector, int lanes) {
-    const std::string wanted = selector_or_default(selector);
-    const int parts = parts_of_all(wanted);
-    if (parts == 0) return {open(wanted, lanes)};
-    std::vector<Device> devices;
-    for (const Candidate& chosen : choose_all(find_candidates(), parts))
-        devices.push_back(open(chosen.device, chosen.info, lanes, nullptr));
-    return devices;
-}
-
-Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes,
-                    const Device* beside) {
+Device Device::open(const cl::Device& device, DeviceInfo info, const Device* beside) {
     auto opened = std::make_shared<Opened>();
-    opened->info = info;
-    opened->info.lanes = lanes_for(info, lanes);
-    limit_memory(opened->info);
-    opened->info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
-    opened->info.build_options = environment("VOXELUME_BUILD_OPTIONS");
+    opened->info = std::move(info);
     try {
         opened->device = part_of(device);
         const bool shares = beside && beside->handle()() == opened->device();

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,11 @@
 namespace voxelume {
 
 enum class DeviceKind { cpu, gpu, other };
+
+/// Whether a device's driver gave the bits that are known, when it was first opened.
+enum class SelfTest { unknown, passed, failed };
+
+struct Candidate;
 
 /// A device as its OpenCL platform describes it, and whether Voxelume can render on it.
 struct DeviceInfo {
@@ -35,8 +41,9 @@ struct DeviceInfo {
     int work_group = 0;  ///< number of work-items in every group; 0: chosen by kernel and kind of
                          ///< device
     std::string build_options;  ///< added to the options of every program
-    std::string unusable;       ///< the reason why it can't render; empty if it can
-    std::string note;           ///< a note for its user; mostly empty
+    SelfTest self_test = SelfTest::unknown;
+    std::string unusable;  ///< the reason why it can't render; empty if it can
+    std::string note;      ///< a note for its user; mostly empty
 };
 
 /// The name of PoCL's platform for CPUs.
@@ -78,6 +85,9 @@ class Device {
     /// VOXELUME_BUFFER_MB in one buffer. For the search of drivers' faults, VOXELUME_WORK_GROUP
     /// sets the size of every work-group, VOXELUME_UNITS limits the compute units (a sub-device),
     /// and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
+    ///
+    /// A device whose driver is new is asked first what is known, see self_test.hpp. If it answers
+    /// wrong, it is refused as one that can't render: another that matches is opened in its place.
     ///
     /// If the device is that of `beside`, both share an OpenCL context: PoCL reads its library of
     /// functions, 0.7 s, once for each context. Throws Error::device if nothing matches; the
@@ -139,8 +149,10 @@ class Device {
   private:
     struct Opened;
     struct Queue;
-    static Device open(const cl::Device& device, const DeviceInfo& info, int lanes,
-                       const Device* beside);
+    static Device open(const cl::Device& device, DeviceInfo info, const Device* beside);
+    /// Nothing if the driver's self-test found a fault.
+    static std::optional<Device> open_tested(const Candidate& chosen, int lanes,
+                                             const Device* beside, std::string& fault);
     void tell_compiling(const std::string& kernel) const;
     explicit Device(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
     std::shared_ptr<Queue> queue_;

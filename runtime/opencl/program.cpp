@@ -20,6 +20,7 @@ std::string build_options(const Device& device, const KernelSource& source, Defi
     std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
     if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
         defines.emplace_back("VXL_LANES", device.lanes());
+    std::ranges::sort(defines);  // in any order, they make the same program
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
     // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM's optimizer adds.
@@ -137,6 +138,23 @@ void Program::build_together(const Device& device, std::span<const char* const> 
         build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
                       {source.text(), build_options(device, source, defines)}, parts);
     for (cl::Program* place : places) *place = program;
+}
+
+void Program::build_together(const Device& device, std::span<const ProgramFile> files) {
+    if (device.is_counting()) return;
+    std::vector<const char*> names;
+    Defines all;
+    for (const auto& [file, defines] : files) {
+        names.push_back(file);
+        for (const auto& define : defines)
+            if (std::ranges::find(all, define.first, &Defines::value_type::first) == all.end())
+                all.push_back(define);
+    }
+    for (const auto& [file, defines] : files) {
+        const KernelSource& source = kernel_source(file);
+        if (build_options(device, source, defines) != build_options(device, source, all)) return;
+    }
+    build_together(device, names, all);
 }
 
 Program Program::from_text(const Device& device, const std::string& source,

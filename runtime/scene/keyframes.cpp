@@ -25,7 +25,16 @@ class Curve {
         return value(key) + t * t * (3 - 2 * t) * rise + t * (1 - t) * ((1 - t) * start - t * end);
     }
 
+    double spline(size_t key, double t) const {
+        const double rise = value(key + 1) - value(key), span = length(key);
+        const double start = slope(keys_.out, key) * span, end = slope(keys_.in, key + 1) * span;
+        return value(key) + t * t * (3 - 2 * t) * rise + t * (1 - t) * ((1 - t) * start - t * end);
+    }
+
   private:
+    double slope(const std::vector<double>& slopes, size_t key) const {
+        return slopes[key * keys_.width + column_];
+    }
     double value(size_t key) const { return keys_.values[key * keys_.width + column_]; }
     double length(size_t key) const { return keys_.frames[key + 1] - keys_.frames[key]; }
     double slope_after(size_t key) const { return (value(key + 1) - value(key)) / length(key); }
@@ -43,14 +52,28 @@ class Curve {
     size_t column_;
 };
 
+std::vector<double> turn_of(const glm::dquat& orientation) {
+    const glm::dvec3 turn = turn_from_rotation(glm::mat3_cast(glm::normalize(orientation)));
+    return {turn.x, turn.y, turn.z};
+}
+
+/// Of four numbers x, y, z and w.
+glm::dquat quaternion(const double* row) {
+    return {row[3], row[0], row[1], row[2]};
+}
+
 std::vector<double> slerp(const Keyframes& keys, size_t key, double share) {
     const auto orientation = [&](size_t number) {
-        const double* turn = &keys.values[3 * number];
-        return glm::quat_cast(rotation_from_turn({turn[0], turn[1], turn[2]}));
+        const double* row = &keys.values[keys.width * number];
+        return keys.has_quaternions ? glm::normalize(quaternion(row))
+                                    : glm::quat_cast(rotation_from_turn({row[0], row[1], row[2]}));
     };
-    const glm::dquat between = glm::slerp(orientation(key), orientation(key + 1), share);
-    const glm::dvec3 turn = turn_from_rotation(glm::mat3_cast(glm::normalize(between)));
-    return {turn.x, turn.y, turn.z};
+    return turn_of(glm::slerp(orientation(key), orientation(key + 1), share));
+}
+
+/// A row of numbers, or the turn of a quaternion.
+std::vector<double> finished(const Keyframes& keys, const std::vector<double>& row) {
+    return keys.has_quaternions ? turn_of(quaternion(row.data())) : row;
 }
 
 }  // namespace
@@ -65,17 +88,25 @@ std::vector<double> values_at(const Keyframes& keys, double frame) {
     const bool is_on_key = frame <= keys.frames[key] || key + 1 == keys.frames.size();
     if (is_on_key || keys.interpolation == Interpolation::step) {
         const auto row = keys.values.begin() + std::ptrdiff_t(key * keys.width);
-        return {row, row + std::ptrdiff_t(keys.width)};
+        return finished(keys, {row, row + std::ptrdiff_t(keys.width)});
     }
     const double share = (frame - keys.frames[key]) / (keys.frames[key + 1] - keys.frames[key]);
     if (keys.interpolation == Interpolation::slerp) return slerp(keys, key, share);
     std::vector<double> row(keys.width);
     for (size_t column = 0; column < keys.width; ++column) {
         const Curve curve(keys, column);
-        row[column] = keys.interpolation == Interpolation::linear ? curve.linear(key, share)
-                                                                  : curve.cubic(key, share);
+        switch (keys.interpolation) {
+            case Interpolation::linear:
+                row[column] = curve.linear(key, share);
+                break;
+            case Interpolation::spline:
+                row[column] = curve.spline(key, share);
+                break;
+            default:
+                row[column] = curve.cubic(key, share);
+        }
     }
-    return row;
+    return finished(keys, row);
 }
 
 }  // namespace voxelume

@@ -13,7 +13,8 @@ enum class Interpolation : uint8_t {
     step,    ///< the earlier key's value
     linear,  ///< number by number
     cubic,   ///< number by number, with a continuous speed and never beyond the keys on both sides
-    slerp    ///< of turns: about one axis, at an even speed, the shorter way round
+    slerp,   ///< of turns: about one axis, at an even speed, the shorter way round
+    spline   ///< number by number, with the slopes that the keys have; quaternions are normalized
 };
 
 /// Rows of numbers at frames.
@@ -23,6 +24,10 @@ struct Keyframes {
     std::vector<double>
         values;  ///< `width` numbers per frame; of slerp 3 angles in degrees, a turn
     size_t width = 1;
+    /// Of spline, as `values`: slopes a frame before and behind the keys.
+    std::vector<double> in = {}, out = {};
+    /// Rows are quaternions [x, y, z, w] of turns, for which values_at() gives three angles.
+    bool has_quaternions = false;
 };
 
 /// Number of the last key at or before a frame; 0 before the first.
@@ -33,7 +38,7 @@ size_t key_before(const std::vector<double>& frames, double frame);
 /// Cubic is a Hermite spline that is at rest at the first and the last key and wherever a number
 /// turns back; elsewhere its slope is the weighted harmonic mean of the slopes on both sides, which
 /// keeps it monotone between keys (Fritsch & Butland 1984). At a key the row is the key's own, bit
-/// by bit.
+/// by bit, unless it is a quaternion.
 std::vector<double> values_at(const Keyframes& keys, double frame);
 
 }  // namespace voxelume

@@ -41,9 +41,7 @@ void MovedPart::form() {
         case ScenePart::model:
             return form_model();
         case ScenePart::object:
-            for (const MovingPlacement& placement : placements_)
-                scene_.objects[part_.place].world_from_object = placed(placement);
-            return;
+            return place_object();
         case ScenePart::light: {
             Light& light = scene_.lights[part_.place];
             return set_light(type_of(light), light_, refusal(""), light);
@@ -60,6 +58,18 @@ void MovedPart::build_world() {
         check_ball(*ball, refusal("medium.density."));
     for (const MovingPlacement& placement : placements_)
         std::get<GridDensity>(density).world_from_grid = placed(placement);
+}
+
+void MovedPart::place_object() {
+    if (placements_.empty()) return;
+    std::vector<glm::dmat4> links = part_.links;
+    for (const MovingPlacement& placement : placements_) {
+        const std::vector<size_t>& parent = placement.solid.parts;
+        links[parent.empty() ? links.size() - 1 : parent.front()] = placed(placement);
+    }
+    const glm::dmat4 map = product_of(links);
+    if (links.size() > 1) check_map(map, "parents", refusal(""));
+    scene_.objects[part_.place].world_from_object = map;
 }
 
 void MovedPart::form_model() {

@@ -21,6 +21,7 @@ class MovedPart {
     void set(const Track& track);
     void form();
     void build_world();
+    void place_object();
     void form_model();
     void form_display(Observer& observer);
 

@@ -12,8 +12,9 @@ std::span<const ValueRow<Model>> model_rows() {
 }
 
 std::span<const ValueRow<Morph>> morph_rows() {
-    static constexpr std::array<ValueRow<Morph>, 3> rows = {
-        {{"amount", &Morph::amount, kRatio},
+    static constexpr std::array<ValueRow<Morph>, 4> rows = {
+        {{"weights", &Morph::weights, {-1000, 1000}},
+         {"amount", &Morph::amount, kRatio},
          {"center", &Morph::center, kCoordinate},
          {"radius", &Morph::radius, kLength}}};
     return rows;

@@ -30,6 +30,8 @@ struct Morph {
     glm::dvec3 center{0};        ///< metres in object space
     double radius = 1;           ///< metres, > 0
     double amount = 0;           ///< share of the way, 0..1
+    /// Of each target of a glTF file's mesh, instead: how far it pulls. Empty: the way above.
+    std::vector<double> weights;
     bool operator==(const Morph&) const = default;
 };
 

@@ -64,6 +64,12 @@ glm::dmat4 affine_from_factors(glm::dvec3 position, glm::dvec3 turn, glm::dvec3 
             glm::dvec4(r[2] * scale.z, 0), glm::dvec4(position, 1)};
 }
 
+glm::dmat4 product_of(std::span<const glm::dmat4> links) {
+    glm::dmat4 map = links.front();
+    for (const glm::dmat4& link : links.subspan(1)) map = map * link;
+    return map;
+}
+
 // Turns pairs of columns until all are orthogonal; their lengths are then the singular values
 // (one-sided Jacobi, Hestenes 1958). Convergence is quadratic: four sweeps suffice for three
 // columns, eight leave no doubt.

@@ -32,6 +32,9 @@ inline glm::dmat4 affine_from_factors(const Factors& factors) {
     return affine_from_factors(factors.position, factors.turn, factors.scale);
 }
 
+/// The map of what stands in the last of some places, each of which stands in the one before.
+glm::dmat4 product_of(std::span<const glm::dmat4> links);
+
 /// Smallest and largest length of the images of unit vectors: the singular values of a map.
 struct Stretch {
     double min;

@@ -64,7 +64,7 @@ struct FileSequence {
 
 /// The placement of an object, a density, or a part of a solid, before its tracks change it.
 struct MovingPlacement {
-    SolidPath solid;   ///< of a model
+    SolidPath solid;   ///< of a model; of an object the number of the parent, or nothing
     std::string path;  ///< in front of its keys, as messages have it: "parts[1]."
     Factors factors;
 };
@@ -85,6 +85,9 @@ struct MovingPart {
     std::vector<FileSequence> sequences;
     /// What the tracks change of that which the scene has only the outcome of.
     std::vector<MovingPlacement> placements;
+    /// Of an object: the maps of its parents, the outermost first, and its own, before tracks
+    /// change them.
+    std::vector<glm::dmat4> links;
     std::variant<std::monostate, LightParameters, ObserverParameters> parameters;
     std::vector<ValueOrigin> origins;
 };

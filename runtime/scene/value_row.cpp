@@ -24,6 +24,13 @@ struct Writer {
         throw std::logic_error("a file is not set by numbers");
     }
 
+    void operator()(std::vector<double>* list) const {
+        if (item >= 0)
+            list->at(size_t(item)) = numbers[0];
+        else
+            list->assign(numbers.begin(), numbers.end());
+    }
+
     template <glm::length_t kSize, class T>
     void operator()(glm::vec<kSize, T>* vector) const {
         if (item >= 0) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace voxelume {
 
@@ -35,20 +36,21 @@ inline constexpr Range kDegrees{-1e6, 1e6};
 /// Where a value lies. An optional one has no value where the scene doesn't give it.
 using Slot = std::variant<double*, float*, int*, bool*, glm::dvec2*, glm::dvec3*, glm::vec3*,
                           std::optional<double>*, std::optional<glm::dvec2>*,
-                          std::optional<glm::dvec3>*, std::filesystem::path*>;
+                          std::optional<glm::dvec3>*, std::vector<double>*, std::filesystem::path*>;
 
 /// Sets a value by one number for each of its components, or by one that stands for all of them;
-/// true is any number but 0. With an `item` from 0 on it sets that number of a vector alone. Not
-/// for files.
+/// true is any number but 0, and a list gets as many numbers as there are. With an `item` from 0 on
+/// it sets that number of a vector alone. Not for files.
 void put(const Slot& slot, std::span<const double> numbers, int item = -1);
 
 /// A value of a part of the scene.
 template <class Part>
 struct ValueRow {
-    using Member = std::variant<double Part::*, float Part::*, int Part::*, bool Part::*,
-                                glm::dvec2 Part::*, glm::dvec3 Part::*, glm::vec3 Part::*,
-                                std::optional<double> Part::*, std::optional<glm::dvec2> Part::*,
-                                std::optional<glm::dvec3> Part::*, std::filesystem::path Part::*>;
+    using Member =
+        std::variant<double Part::*, float Part::*, int Part::*, bool Part::*, glm::dvec2 Part::*,
+                     glm::dvec3 Part::*, glm::vec3 Part::*, std::optional<double> Part::*,
+                     std::optional<glm::dvec2> Part::*, std::optional<glm::dvec3> Part::*,
+                     std::vector<double> Part::*, std::filesystem::path Part::*>;
 
     std::string_view key;     ///< in scene files
     Member member;            ///< its default is that of a part without keys

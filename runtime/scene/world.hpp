@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "runtime/base/source_place.hpp"
 #include "runtime/scene/bounds.hpp"
@@ -35,11 +36,26 @@ struct BallDensity {
     friend bool operator==(const BallDensity&, const BallDensity&) = default;
 };
 
-/// A float grid of an OpenVDB file, which has a transform of its own to metres.
+/// What light meets where a scan has a value.
+struct TransferPoint {
+    double value = 0;
+    double absorption = 0;  ///< per metre, >= 0
+    glm::vec3 color{1};     ///< radiance that an infinitely deep medium of this value shows, >= 0
+
+    friend bool operator==(const TransferPoint&, const TransferPoint&) = default;
+};
+
+/// A float grid of an OpenVDB file, or an array of values, which have transforms of their own to
+/// metres.
 struct GridDensity {
     std::filesystem::path file;
     std::string grid;               ///< name in the file
     glm::dmat4 world_from_grid{1};  ///< from the grid's metres; affine and safely invertible
+    /// By which values become densities and colours; their values increase. Empty: values are
+    /// densities.
+    std::vector<TransferPoint> transfer;
+    /// With a transfer: where light travels that brings out its surfaces, a unit vector; 0: none.
+    glm::dvec3 lit{0};
     SourcePlace where;
 
     friend bool operator==(const GridDensity&, const GridDensity&) = default;
@@ -80,6 +96,12 @@ struct World {
 /// The box that the world's whole voxels fill.
 inline Bounds lattice_bounds(const World& world) {
     return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
+}
+
+/// Whether the medium's colour differs from voxel to voxel.
+inline bool has_medium_colors(const Medium& medium) {
+    const auto* grid = std::get_if<GridDensity>(&medium.density);
+    return grid && !grid->transfer.empty();
 }
 
 /// Whether the sky has a sun that shines.

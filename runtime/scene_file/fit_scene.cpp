@@ -95,6 +95,9 @@ class ObjectsBox {
     /// The box in object space. A vertex that morphs lies as far between the two boxes as it has
     /// gone.
     Bounds file_model_box(const Model& model, bool is_first) {
+        // The file's box holds what weights reach, and changes with them.
+        if (model.morph && !model.morph->weights.empty())
+            return model.object_from_file(file_boxes_(model, is_first));
         const Bounds box = model.object_from_file(file_box(model, is_first));
         if (!model.morph) return box;
         const Morph& morph = *model.morph;

@@ -9,7 +9,7 @@ namespace {
 
 /// What places the object of a part: little is copied for each key of thousands of objects.
 JsonValue placement_of(const JsonValue& object) {
-    static constexpr std::string_view kKeys[] = {"position", "turn", "scale", "matrix"};
+    static constexpr std::string_view kKeys[] = {"position", "turn", "scale", "matrix", "parents"};
     JsonValue placement;
     placement.type = object.type;
     placement.at = object.at;
@@ -54,7 +54,7 @@ class PartCheck {
                 return;
             case ScenePart::object:
                 if (part_.only_placed) {
-                    read_placement(SceneFields(value, "object"));
+                    read_object_place(SceneFields(value, "object"));
                 } else {
                     ObjectReader(scene_).read(value, part_.place);
                 }

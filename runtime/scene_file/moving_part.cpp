@@ -56,6 +56,7 @@ class PartMaker {
         const SceneValue value(*from_.value, part_.path, file_);
         if (part_.part == ScenePart::light) part_.parameters = read_light_parameters(value);
         if (part_.part == ScenePart::observer) part_.parameters = read_observer_parameters(value);
+        if (part_.part == ScenePart::object) part_.links = read_links(SceneFields(value, "object"));
         for (const DocumentTrack& track : from_.tracks) add_track(track);
         if (part_.part == ScenePart::model) add_mesh_sequence(value);
         if (part_.part == ScenePart::world) add_density_sequence(value);
@@ -161,7 +162,7 @@ class PartMaker {
         const JsonValue& json = value_of(*from_.value, steps);
         const std::string path = path_of(steps);
         const SceneValue value(json, path.empty() ? part_.path : part_.path + "." + path, file_);
-        std::string table = "object";
+        std::string table = solid.parts.empty() ? "object" : "parent";
         if (part_.part == ScenePart::world) table = "density:grid";
         if (part_.part == ScenePart::model)
             table = fmt::format("part:{}", scene_kinds("part")[kind_of(value, "shape", "part")]);

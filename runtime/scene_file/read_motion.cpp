@@ -28,7 +28,8 @@ bool overlap(const TrackTarget& a, const TrackTarget& b) {
 }
 
 bool is_placement(const DocumentTrack& track) {
-    return find_row(factor_rows(), track.target.steps.front().key) != nullptr;
+    const std::string& key = track.target.steps.front().key;
+    return key == "parents" || find_row(factor_rows(), key) != nullptr;
 }
 
 /// Collects what moves, one entry per part of the scene.

@@ -136,6 +136,10 @@ struct SlotReader {
         *vector = is_uniform ? value.number_or_vector(range) : value.vector(range);
     }
     void operator()(glm::vec3* color) const { *color = glm::vec3(value.vector(range)); }
+    void operator()(std::vector<double>* list) const {
+        list->clear();
+        for (const SceneValue& item : value.items()) list->push_back(item.number(range));
+    }
     void operator()(std::filesystem::path*) const {
         throw std::logic_error("a file is not read as a number");
     }

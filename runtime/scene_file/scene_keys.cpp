@@ -55,6 +55,7 @@ std::vector<KeyTable> make_tables() {
         {"medium", keys_of(medium_rows()) + Keys{"density"}},
     };
     add_kinds("density", {"kind"}, density_kinds(), {}, tables);
+    tables.push_back({"transfer", {"value", "color", "absorption"}});
     add_kinds("sky", {"kind"}, sky_types(), {}, tables);
     tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});
     tables.push_back({"checker", keys_of(checker_rows())});
@@ -64,19 +65,20 @@ std::vector<KeyTable> make_tables() {
     tables.push_back(
         {"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface", "iso", "label"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
-    tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
+    tables.push_back({"morph", {"mesh", "center", "radius", "amount", "weights"}});
     add_kinds("model", {"shape"}, solid_types(), lattice, tables);
     add_kinds("part", {"shape"}, solid_types(), placement, tables);
     tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",
-                                     "placement", "visible"} +
+                                     "placement", "visible", "parents"} +
                                     placement});
+    tables.push_back({"parent", placement});
     add_kinds("light", {"name", "type", "group", "color", "intensity"}, light_types(), {}, tables);
     tables.push_back({"observer", keys_of(observer_rows()) + Keys{"display"}});
     add_kinds("display", {"shape", "voxels", "layout", "visibility", "seen_along", "clip"},
               display_shapes(), {}, tables);
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"track", {"target", "keys", "interpolation"}});
-    tables.push_back({"key", {"frame", "time", "value"}});
+    tables.push_back({"key", {"frame", "time", "value", "in", "out"}});
     tables.push_back({"render",
                       {"size", "samples", "depth", "shadows", "shadow", "least_weight", "light",
                        "bounces", "lamps"}});

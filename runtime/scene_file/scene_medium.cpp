@@ -7,6 +7,33 @@
 namespace voxelume {
 namespace {
 
+TransferPoint read_point(const SceneValue& value) {
+    const SceneFields fields(value, "transfer");
+    TransferPoint point;
+    point.value = fields.get("value").number({-1e30, 1e30});
+    point.absorption = fields.get("absorption").number(kNotNegative);
+    if (const auto color = fields.find("color")) point.color = color->vector(kNotNegative);
+    return point;
+}
+
+/// The points of a transfer function, whose values increase.
+std::vector<TransferPoint> read_transfer(const SceneValue& value) {
+    constexpr size_t kMaxPoints = 1024;
+    std::vector<TransferPoint> points;
+    const auto items = value.items();
+    if (items.empty()) value.fail("needs at least one point");
+    if (items.size() > kMaxPoints)
+        value.fail(fmt::format("has {} points; at most {} are allowed", items.size(), kMaxPoints));
+    for (const SceneValue& item : items) {
+        const TransferPoint point = read_point(item);
+        if (!points.empty() && !(point.value > points.back().value))
+            item.fail(fmt::format("has the value {}, not above that of the point before it, {}",
+                                  point.value, points.back().value));
+        points.push_back(point);
+    }
+    return points;
+}
+
 GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
     const SceneValue file = fields.get("file");
     GridDensity density;
@@ -14,6 +41,12 @@ GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
     const auto grid = fields.find("grid");
     density.grid = grid ? grid->text() : "density";
     density.world_from_grid = read_placement(fields);
+    if (const auto transfer = fields.find("transfer")) density.transfer = read_transfer(*transfer);
+    if (const auto lit = fields.find("lit")) {
+        if (density.transfer.empty())
+            lit->fail("is of colours; give the density a \"transfer\", or leave it out");
+        density.lit = unit_vector(lit->vector(kCoordinate), "lit", fields.refusal());
+    }
     density.where = file.where();
     return density;
 }
@@ -43,6 +76,8 @@ Medium read_medium(const SceneValue& value, const AssetSearch& search) {
     fields.read_rows(medium_rows(), medium);
     if (const auto density = fields.find("density"))
         medium.density = read_density(*density, search);
+    // Points have absorptions of their own.
+    if (has_medium_colors(medium) && !fields.has("absorption")) medium.absorption = glm::vec3(1);
     return medium;
 }
 

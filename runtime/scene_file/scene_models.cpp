@@ -134,6 +134,14 @@ void read_mesh_part(const SceneFields& fields, Model& model) {
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     const SceneFields fields(value, "morph");
     Morph morph;
+    if (const auto weights = fields.find("weights")) {
+        for (const std::string_view key : {"mesh", "center", "radius", "amount"})
+            if (const auto found = fields.find(key))
+                found->fail("is no part of a morph by \"weights\"; leave it out");
+        if (weights->items().empty()) weights->fail("needs a number for each target");
+        weights->read_into(&morph.weights, find_row(morph_rows(), "weights")->range, false);
+        return morph;
+    }
     morph.amount = fields.number("amount", kRatio, 0);
     if (const auto mesh = fields.find("mesh")) {
         for (const std::string_view key : {"center", "radius"}) {
@@ -218,6 +226,9 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         read_file_size(fields, model);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
+        if (model.morph && !model.morph->weights.empty() && model.part == 0)
+            fields.get("morph").fail(
+                "has weights, which are those of one mesh of a glTF file; name its \"part\"");
         read_lattice(fields, context.world_voxel_size, model);
         model.shading = read_shading(fields);
         if (const auto cut = fields.find("cut")) {
@@ -262,7 +273,7 @@ Object ObjectReader::read(const SceneValue& value, size_t number) const {
         object.placement =
             static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
     if (const auto visible = fields.find("visible")) object.visible = visible->boolean();
-    object.world_from_object = read_placement(fields);
+    object.world_from_object = read_object_place(fields);
     return object;
 }
 

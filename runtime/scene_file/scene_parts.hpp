@@ -86,4 +86,10 @@ Factors read_factors(const SceneFields& fields);
 /// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
 glm::dmat4 read_placement(const SceneFields& fields);
 
+/// The maps of an object's `parents`, the outermost first, and its own.
+std::vector<glm::dmat4> read_links(const SceneFields& object);
+
+/// All of them, one in the other. Refuses a map that is singular.
+glm::dmat4 read_object_place(const SceneFields& object);
+
 }  // namespace voxelume

@@ -61,36 +61,4 @@ std::vector<Solid> read_cuts(const SceneValue& value) {
     return SolidReader().read_list(value);
 }
 
-Factors read_factors(const SceneFields& fields) {
-    Factors factors;
-    fields.read_rows(factor_rows(), factors);
-    return factors;
-}
-
-glm::dmat4 read_placement(const SceneFields& fields) {
-    for (const std::string_view factor : {"position", "turn", "scale"})
-        fields.refuse_both(factor, "matrix");
-
-    glm::dmat4 map(1);
-    if (const auto matrix = fields.find("matrix")) {
-        const auto rows = matrix->items();
-        if (rows.size() != 3)
-            matrix->fail(fmt::format("needs 3 rows of 4 numbers, not {}", rows.size()));
-        for (int row = 0; row < 3; ++row) {
-            const auto numbers = rows[row].items();
-            if (numbers.size() != 4) {
-                rows[row].fail(fmt::format("needs 4 numbers, not {}", numbers.size()));
-            }
-            for (int column = 0; column < 4; ++column) {
-                map[column][row] = numbers[column].number(kCoordinate);
-            }
-        }
-    } else {
-        map = affine_from_factors(read_factors(fields));
-    }
-
-    check_map(map, fields.has("matrix") ? "matrix" : "scale", fields.refusal());
-    return map;
-}
-
 }  // namespace voxelume

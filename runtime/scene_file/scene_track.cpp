@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace voxelume {
 namespace {
 
-constexpr std::array<std::string_view, 4> kInterpolations = {"step", "linear", "cubic", "slerp"};
+constexpr std::array<std::string_view, 5> kInterpolations = {"step", "linear", "cubic", "slerp",
+                                                             "spline"};
 constexpr double kFarthestFrame = 1e9;
 constexpr Range kFrames{-kFarthestFrame, kFarthestFrame};
 
@@ -39,13 +41,40 @@ void check_form(const SceneValue& value) {
     }
 }
 
+/// The numbers of a value: none for texts, true and false.
+std::vector<double> numbers_of(const JsonValue& json) {
+    std::vector<double> numbers;
+    if (json.type == JsonType::number) numbers.push_back(json.number);
+    for (const JsonValue& number : json.items) numbers.push_back(number.number);
+    return numbers;
+}
+
+/// Appends one of a key's slopes, a frame; 0 where the key has none.
+void add_slope(const SceneFields& fields, std::string_view name, double fps, size_t width,
+               std::vector<double>& slopes) {
+    const auto given = fields.find(name);
+    if (!given) return slopes.resize(slopes.size() + width);
+    check_form(*given);
+    const std::vector<double> numbers = numbers_of(given->json());
+    if (numbers.size() != width)
+        given->fail(
+            fmt::format("has {} numbers, and the key's value has {}", numbers.size(), width));
+    for (const double number : numbers) slopes.push_back(number / fps);
+}
+
+/// Whether the track's lists are the quaternions of turns.
+bool has_quaternions(const DocumentTrack& track) {
+    return track.target.steps.back().key == "turn" && track.values.front().items.size() == 4;
+}
+
 void add_key(const SceneValue& item, double fps, DocumentTrack& track) {
     const double frame = read_frame(item, fps);
     std::vector<double>& frames = track.keys.frames;
     if (!frames.empty() && !(frame > frames.back()))
         item.fail(fmt::format("comes at frame {}, not after the key before it, which comes at {}",
                               frame, frames.back()));
-    const SceneValue value = SceneFields(item, "key").get("value");
+    const SceneFields fields(item, "key");
+    const SceneValue value = fields.get("value");
     check_form(value);
     const JsonValue& json = value.json();
     if (!track.values.empty()) {
@@ -57,22 +86,40 @@ void add_key(const SceneValue& item, double fps, DocumentTrack& track) {
     }
     frames.push_back(frame);
     track.values.push_back(json);
-    if (json.type == JsonType::number) track.keys.values.push_back(json.number);
-    for (const JsonValue& number : json.items) track.keys.values.push_back(number.number);
-    track.keys.width = track.keys.values.size() / frames.size();
+    const std::vector<double> numbers = numbers_of(json);
+    track.keys.values.insert(track.keys.values.end(), numbers.begin(), numbers.end());
+    track.keys.width = numbers.size();
+    add_slope(fields, "in", fps, numbers.size(), track.keys.in);
+    add_slope(fields, "out", fps, numbers.size(), track.keys.out);
+    if (has_quaternions(track) && std::ranges::count(numbers, 0.0) == 4)
+        value.fail("is no quaternion [x, y, z, w]: one of its numbers isn't 0");
+}
+
+/// Refuses slopes of keys of a track that isn't a spline.
+void refuse_slopes(const SceneValue& keys) {
+    for (const SceneValue& item : keys.items())
+        for (const std::string_view name : {"in", "out"})
+            if (const auto slope = SceneFields(item, "key").find(name))
+                slope->fail("is a slope of a spline; write \"interpolation\": \"spline\"");
 }
 
 void read_interpolation(const SceneFields& fields, DocumentTrack& track) {
     const bool steps = is_text_or_switch(track.values.front());
-    track.keys.interpolation = steps ? Interpolation::step : Interpolation::linear;
+    track.keys.has_quaternions = has_quaternions(track);
+    track.keys.interpolation = steps                        ? Interpolation::step
+                               : track.keys.has_quaternions ? Interpolation::slerp
+                                                            : Interpolation::linear;
     const auto value = fields.find("interpolation");
     if (!value) return;
     track.keys.interpolation = static_cast<Interpolation>(value->choice(kInterpolations));
     if (steps && track.keys.interpolation != Interpolation::step)
         value->fail("there is nothing between two texts, or true and false; write \"step\"");
     if (track.keys.interpolation == Interpolation::slerp &&
-        (track.target.steps.back().key != "turn" || track.keys.width != 3))
+        (track.target.steps.back().key != "turn" || track.keys.width < 3))
         value->fail("is for turns [psi, theta, gamma] only; write \"linear\" or \"cubic\"");
+    if (track.keys.has_quaternions && (track.keys.interpolation == Interpolation::linear ||
+                                       track.keys.interpolation == Interpolation::cubic))
+        value->fail("is no way between quaternions; write \"slerp\" or \"spline\"");
 }
 
 }  // namespace
@@ -87,6 +134,7 @@ DocumentTrack read_track(const SceneValue& value, const JsonValue& document, dou
     if (items.empty()) keys.fail("needs at least one key");
     for (const SceneValue& item : items) add_key(item, fps, track);
     read_interpolation(fields, track);
+    if (track.keys.interpolation != Interpolation::spline) refuse_slopes(keys);
     return track;
 }
 
@@ -95,6 +143,7 @@ JsonValue value_at(const DocumentTrack& track, double frame) {
     if (track.keys.values.empty()) return value;
     const std::vector<double> row = values_at(track.keys, frame);
     if (value.type == JsonType::number) value.number = row.front();
+    if (track.keys.has_quaternions) value.items.resize(row.size());
     for (size_t i = 0; i < value.items.size(); ++i) value.items[i].number = row[i];
     return value;
 }

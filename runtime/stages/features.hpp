@@ -18,6 +18,7 @@ struct Features {
     bool colors = false;           ///< voxels have colours of their own
     bool medium = false;           ///< the environment absorbs light
     bool medium_grid = false;      ///< ... and its density varies
+    bool medium_colors = false;    ///< ... and so does its colour
     bool shadows = false;          ///< lights can be hidden
     bool area_samples = false;     ///< some light has an area
     bool checker = false;          ///< some material changes its colour from block to block
@@ -66,6 +67,7 @@ struct Features {
                 {"VXL_COLORS", colors},
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
+                {"VXL_MEDIUM_COLORS", medium_colors},
                 {"VXL_SHADOWS", shadows},
                 {"VXL_AREA_SAMPLES", area_samples},
                 {"VXL_CHECKER", checker},

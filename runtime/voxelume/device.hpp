@@ -16,22 +16,34 @@ enum class DeviceKind { cpu, gpu, other };
 /// "cpu", "gpu" or "other".
 const char* name_of(DeviceKind kind);
 
+/// Whether a device's driver computed what is known when it was first opened: arithmetic, and the
+/// ways of rays through a small world.
+enum class SelfTest {
+    unknown,  ///< it wasn't opened yet
+    passed,   ///< every bit was right
+    failed    ///< it can't render; DeviceInfo::unusable_because says what was wrong
+};
+
+/// "unknown", "passed" or "failed".
+const char* name_of(SelfTest result);
+
 /// What an OpenCL platform says of a device, and whether Voxelume can render on it.
 struct DeviceInfo {
     int index = 0;  ///< its number in list_devices(), which Device::open takes
-    DeviceKind kind = DeviceKind::other;  ///< CPU, GPU or other
-    std::string name{};                   ///< as its driver gives it
-    std::string vendor{};                 ///< as its driver gives it
-    std::string platform{};               ///< name of the OpenCL platform that it belongs to
-    std::string platform_version{};       ///< OpenCL version of that platform
-    std::string version{};                ///< of OpenCL
-    std::string driver{};                 ///< version of its driver
-    uint64_t memory_bytes = 0;            ///< at most VOXELUME_MEMORY_MB, where that is set
-    uint64_t max_allocation_bytes = 0;    ///< in one buffer; at most VOXELUME_BUFFER_MB likewise
-    int compute_units = 0;                ///< as OpenCL counts them
-    int lanes = 1;                        ///< rays that one work-item carries
-    std::string unusable_because{};       ///< why it can't render; empty when it can
-    std::string note{};                   ///< what its user should know; mostly empty
+    DeviceKind kind = DeviceKind::other;     ///< CPU, GPU or other
+    std::string name{};                      ///< as its driver gives it
+    std::string vendor{};                    ///< as its driver gives it
+    std::string platform{};                  ///< name of the OpenCL platform that it belongs to
+    std::string platform_version{};          ///< OpenCL version of that platform
+    std::string version{};                   ///< of OpenCL
+    std::string driver{};                    ///< version of its driver
+    uint64_t memory_bytes = 0;               ///< at most VOXELUME_MEMORY_MB, where that is set
+    uint64_t max_allocation_bytes = 0;       ///< in one buffer; at most VOXELUME_BUFFER_MB likewise
+    int compute_units = 0;                   ///< as OpenCL counts them
+    int lanes = 1;                           ///< rays that one work-item carries
+    SelfTest self_test = SelfTest::unknown;  ///< kept for its driver's version
+    std::string unusable_because{};          ///< why it can't render; empty when it can
+    std::string note{};                      ///< what its user should know; mostly empty
 
     /// True if it can render.
     bool is_usable() const { return unusable_because.empty(); }
@@ -55,6 +67,9 @@ class Device {
     /// a part of the name of a device or its platform. An empty selector stands for the environment
     /// variable VOXELUME_DEVICE, and without that for "auto": a GPU rather than a CPU, then the
     /// most compute units.
+    ///
+    /// A device whose driver is new is tested first, in a third of a second or less. One that
+    /// computes something wrong is refused; another that fits is opened in its place.
     ///
     /// Throws Error::device when nothing fits; the sentence names what is there, or the package to
     /// install.

@@ -48,6 +48,12 @@ void remove_unfinished_files();
 /// kernels during calls, which takes seconds.
 void watch_devices(double seconds, std::function<void(const std::string& sentence)> late);
 
+/// Has later plans and renders take at most `bytes` of main memory, and at most as many of a
+/// device's own: what needs more throws Error::limit before memory is taken. 0: as much as the
+/// machine, the process's control group and its resource limits allow, as without this call.
+/// Devices that are open already keep what they had. Any thread may call it.
+void limit_memory(uint64_t bytes);
+
 /// The user's folder for compiled kernels, models and worlds: the last one of VOXELUME_CACHE_DIR,
 /// or else XDG_CACHE_HOME/voxelume, or else ~/.cache/voxelume. Empty if nothing is kept.
 std::filesystem::path user_cache_folder();

@@ -65,6 +65,13 @@ TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
                                {"pbrMetallicRoughness",
                                 {{"baseColorFactor", {1, 1, 1, 0.25}}, {"metallicFactor", 0}}}}),
                 HasSubstr("\"opacity\": 0.25"));
+    for (const double cutoff : {0.2, 0.4}) {
+        const std::string masked =
+            with_material({{"alphaMode", "MASK"},
+                           {"alphaCutoff", cutoff},
+                           {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.3}}}}});
+        EXPECT_EQ(masked.find("\"opacity\": 0") != masked.npos, cutoff == 0.4) << masked;
+    }
     const Json transmission = {{"transmissionFactor", 1}};
     EXPECT_THAT(with_material({{"extensions", {{"KHR_materials_transmission", transmission}}}}),
                 HasSubstr("\"opacity\": 0.05"));

@@ -119,8 +119,10 @@ class Tracing {
   private:
     static Device opened(const char* options) {
         setenv("VOXELUME_BUILD_OPTIONS", options, 1);
+        setenv("VOXELUME_SELF_TEST", "off", 1);
         const Device device = Device::open();
         unsetenv("VOXELUME_BUILD_OPTIONS");
+        unsetenv("VOXELUME_SELF_TEST");
         return device;
     }
 

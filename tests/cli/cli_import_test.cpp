@@ -92,6 +92,11 @@ TEST_F(CliImportTest, ChoicesThatMakeNoSenseAreUsageErrors) {
     EXPECT_THAT(refused("render wedge.obj -o a.png --view iso --fov 30"), HasSubstr("parallel"));
     EXPECT_THAT(refused("render wedge.obj -o a.png --background red"), HasSubstr("#rrggbb"));
     EXPECT_THAT(refused("render wedge.obj -o a.png --up x"), HasSubstr("--up"));
+    EXPECT_THAT(refused("render scene.json -o a.png --clip walk"), HasSubstr("--clip"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --spacing 1"), HasSubstr("have a spacing"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --spacing 1,2"), HasSubstr("0.5,0.5,2"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --clip walk"),
+                HasSubstr("only glTF files have clips; leave \"walk\" out"));
     EXPECT_THAT(refused("import scene.json -o b.json"), HasSubstr("model file"));
     EXPECT_EQ(run("render none.obj -o a.png").exit_code, 4);
 }

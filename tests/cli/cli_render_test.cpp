@@ -237,31 +237,6 @@ TEST_F(CliRenderTest, CheckAndADryRunSayThePlanAndWriteNothing) {
     EXPECT_GT(plan["stages"][4]["MB"], 0);
 }
 
-TEST_F(CliRenderTest, CheckTellsProgramsWhetherTheSceneFits) {
-    write_scene([](Json& scene) {
-        const Json ball = {{"shape", "sphere"}, {"radius", 0.45}};
-        scene["models"]["thing"] = {{"shape", "intersection"}, {"parts", {ball, ball}}};
-        scene["world"]["voxel_size"] = 0.016;
-    });
-    const auto plan = [&](const char* option, int code) {
-        const ProgramResult result = run(fmt::format("check scene.json --json {}", option));
-        EXPECT_EQ(result.exit_code, code) << result.err;
-        return Json::parse(result.out);
-    };
-    const Json fits = plan("", 0);
-    EXPECT_EQ(fits["verdict"], "fits");
-    EXPECT_LE(fits["most MB"], fits["device MB"]);
-    setenv("VOXELUME_MEMORY_MB", "1", 1);
-    const Json may = plan("", 0), not_at_all = plan("--size 800x600", 8);
-    unsetenv("VOXELUME_MEMORY_MB");
-    EXPECT_EQ(may["verdict"], "may fit");
-    EXPECT_EQ(may["device MB"], 1.05);
-    EXPECT_LT(may["least MB"], 1.05);
-    EXPECT_GT(may["most MB"], 1.05);
-    EXPECT_EQ(not_at_all["verdict"], "doesn't fit");
-    EXPECT_GT(not_at_all["least MB"], 1.05);
-}
-
 TEST_F(CliRenderTest, AMeshBecomesAModelAndAVolumeAtOnce) {
     put_bytes(folder / "t.obj", kTetrahedron);
     const ProgramResult result = run("voxelize -o t.vxm t.obj --resolution 40 -o t.vdb");

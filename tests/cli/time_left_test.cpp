@@ -23,9 +23,13 @@ TEST(TimeLeft, CompilingIsToldApartAndForetellsNothing) {
     left.compiling(2);
     left.compiling(5);
     EXPECT_EQ(left.compile_seconds(), 0);
+    EXPECT_EQ(left.compile_seconds(6), 4);
     left.advance(12, 0.3);
     EXPECT_EQ(left.compile_seconds(), 10);
+    EXPECT_EQ(left.compile_seconds(20), 10);
     EXPECT_DOUBLE_EQ(left.seconds().value(), 3.5);  // a fifth took one second
+    left.compiling(21);
+    EXPECT_EQ(left.compile_seconds(23), 12);
 }
 
 TEST(TimeLeft, OfFramesIsUnknownBeforeTheFirstIsDone) {

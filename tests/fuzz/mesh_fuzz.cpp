@@ -2,6 +2,7 @@
 // A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence. It is
 // built once per format.
 #include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/gltf/gltf_motion.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "tests/fuzz/refusals.hpp"
 #include "tests/support/mesh_invariants.hpp"
@@ -10,8 +11,11 @@ namespace {
 
 voxelume::Mesh mesh_of(const std::string& bytes) {
     using namespace voxelume;
-    return is_gltf_file(VXL_FUZZ_NAME) ? gltf_mesh(GltfFile(bytes, VXL_FUZZ_NAME), 0)
-                                       : parse_mesh(bytes, VXL_FUZZ_NAME);
+    if (!is_gltf_file(VXL_FUZZ_NAME)) return parse_mesh(bytes, VXL_FUZZ_NAME);
+    const GltfFile file(bytes, VXL_FUZZ_NAME);
+    for (size_t clip = 0; clip < file.root().size("animations"); ++clip)
+        GltfMotion(file, gltf_clip(file, clip));
+    return gltf_mesh(file, 0);
 }
 
 }  // namespace

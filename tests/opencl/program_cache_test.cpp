@@ -170,7 +170,7 @@ TEST_F(ProgramCacheFiles, DamagedEntriesAreCompiledAgain) {
             fs::resize_file(entry.path(), uintmax_t(double(entry.file_size()) * kept));
             ++entries;
         }
-        ASSERT_EQ(entries, 2);
+        ASSERT_EQ(entries, 3) << "the driver's self-test, too";
         EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2}) << kept;
         EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0}) << kept;
     }
@@ -222,7 +222,8 @@ TEST_F(ProgramCacheFiles, KernelsOfAFileServeEveryProgramThatItIsJoinedTo) {
 TEST_F(ProgramCacheFiles, LeavesNoFolderOfPoclBehind) {
     compiled_by_processes(2, "VOXELUME_CACHE_DIR=" + folder.string());
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        EXPECT_EQ(entry.path().filename(), "programs");
+        EXPECT_TRUE(entry.path().filename() == "programs" || entry.path().filename() == "drivers")
+            << entry.path();
 }
 
 }  // namespace

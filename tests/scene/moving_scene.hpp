@@ -56,6 +56,8 @@ inline std::vector<std::pair<std::string, nlohmann::json>> other_parts() {
         {"/world/medium/density",
          parsed(R"({"kind": "grid", "file": "m.vdb", "position": [1, 2, 3], "turn": [10, 20, 30],
                     "scale": [1, 2, 3]})")},
+        {"/models/cut", parsed(R"({"mesh": "m.glb", "part": 1, "surface": "smooth",
+                                   "morph": {"weights": [0.5, -2, 3]}})")},
         {"/observer/display", parsed(R"({"shape": "pyramid", "angle": 40})")},
         {"/observer/display",
          parsed(R"({"shape": "sector", "angle": 240, "near": 0.1, "far": 3})")},

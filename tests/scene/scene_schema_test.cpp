@@ -56,7 +56,7 @@ class SceneSchema : public FileTest {
   protected:
     void SetUp() override {
         FileTest::SetUp();
-        for (const char* file : {"bunny.obj", "m.obj", "smoke.vdb", "s.1.vdb", "s.2.vdb"})
+        for (const char* file : {"bunny.obj", "m.obj", "m.glb", "smoke.vdb", "s.1.vdb", "s.2.vdb"})
             put_bytes(folder / file, "v 0 0 0\n");
     }
 
@@ -126,6 +126,13 @@ bool is_beyond_a_schema(const std::string& objection) {
                              "has another form",
                              "there is nothing between",
                              "is for turns",
+                             "not above that of the point before it",
+                             "give the density a \"transfer\"",
+                             "name its \"part\"",
+                             "is a slope of a spline",
+                             "numbers, and the key's value has",
+                             "is no way between quaternions",
+                             "is no quaternion",
                              "goes on behind",
                              "changes this value already",
                              "so nothing tells how large the world is",

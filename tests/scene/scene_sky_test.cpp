@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Scene scene_with(const std::string& sky, const std::string& render = "") {
+Scene scene_with_sky(const std::string& sky, const std::string& render = "") {
     return parse_scene(R"({"voxelume": 1, "world": {"voxel_size": 0.1,
 "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]})" +
                            (sky.empty() ? "" : ", \"sky\": " + sky) + R"(},
@@ -24,15 +24,15 @@ Scene scene_with(const std::string& sky, const std::string& render = "") {
 }
 
 Sky sky_of(const std::string& text) {
-    return scene_with(text).world.sky.value();
+    return scene_with_sky(text).world.sky.value();
 }
 
 std::string objection(const std::string& sky, const std::string& render = "") {
-    return error_of([&] { scene_with(sky, render); }).what();
+    return error_of([&] { scene_with_sky(sky, render); }).what();
 }
 
 TEST(SceneSky, HasTheValuesOfItsKeys) {
-    EXPECT_FALSE(scene_with("").world.sky.has_value());
+    EXPECT_FALSE(scene_with_sky("").world.sky.has_value());
     const Sky constant = sky_of(R"({"kind": "constant", "color": [1, 2, 3], "strength": 4})");
     EXPECT_EQ(constant.kind, SkyKind::constant);
     EXPECT_EQ(constant.color, glm::vec3(1, 2, 3));
@@ -67,12 +67,12 @@ TEST(SceneSky, ObjectsToWhatNoSkyHas) {
 }
 
 TEST(SceneSky, GlobalLightIsASetting) {
-    EXPECT_EQ(scene_with("").render.light, LightMode::local);
-    const RenderSettings render = scene_with("", R"("light": "global", "bounces": 3)").render;
+    EXPECT_EQ(scene_with_sky("").render.light, LightMode::local);
+    const RenderSettings render = scene_with_sky("", R"("light": "global", "bounces": 3)").render;
     EXPECT_EQ(render.light, LightMode::global);
     EXPECT_EQ(render.bounces, 3);
     EXPECT_EQ(render.lamps, LampSearch::both);
-    EXPECT_EQ(scene_with("", R"("lamps": "rays")").render.lamps, LampSearch::rays);
+    EXPECT_EQ(scene_with_sky("", R"("lamps": "rays")").render.lamps, LampSearch::rays);
     EXPECT_THAT(objection("", R"("lamps": "all")"), HasSubstr("\"all\""));
     EXPECT_THAT(objection("", R"("light": "dim")"), HasSubstr("\"dim\""));
     EXPECT_THAT(objection("", R"("bounces": 65)"), HasSubstr("bounces"));

@@ -3,8 +3,9 @@
 // has one of them fail, or never return.
 //
 // VXL_FAULT=NAME:N:CODE has the N-th call of the function NAME (from 1 on) do nothing and return
-// the status CODE; with `hang` for a code it never returns. VXL_FAULT_COUNTS=FILE writes the number
-// of calls of each function to FILE when the program ends.
+// the status CODE; with `hang` for a code it never returns. VXL_FAULT=clEnqueueReadBuffer:N:wrong
+// has the N-th reading give another first bit than was there. VXL_FAULT_COUNTS=FILE writes the
+// number of calls of each function to FILE when a program ends that made some.
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_1_APIS
 #include <CL/cl.h>
@@ -20,6 +21,8 @@
 #include <string>
 
 namespace {
+
+constexpr cl_int kWrong = 1;  // no status: those of failures are negative
 
 struct Fault {
     std::string name;
@@ -37,13 +40,14 @@ Fault requested_fault() {
     if (std::sscanf(text, "%63[^:]:%ld:%15s", name, &fault.number, code) != 3) std::abort();
     fault.name = name;
     fault.hangs = std::strcmp(code, "hang") == 0;
-    fault.code = std::atoi(code);
+    fault.code = std::strcmp(code, "wrong") == 0 ? kWrong : std::atoi(code);
     return fault;
 }
 
 class Calls {
   public:
     ~Calls() {
+        if (counts_.empty()) return;  // of `timeout`, which ends after the program that it starts
         const char* const file = std::getenv("VXL_FAULT_COUNTS");
         FILE* const out = file ? std::fopen(file, "w") : nullptr;
         if (!out) return;
@@ -164,8 +168,16 @@ VXL_STATUS_CALL(clEnqueueNDRangeKernel,
                 (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset,
                  const size_t* items, const size_t* group, VXL_WAITS),
                 (queue, kernel, dimensions, offset, items, group, waits, events, event))
-VXL_STATUS_CALL(clEnqueueReadBuffer, (VXL_TRANSFER, void* to, VXL_WAITS),
-                (queue, buffer, blocks, offset, size, to, waits, events, event))
+extern "C" cl_int clEnqueueReadBuffer(VXL_TRANSFER, void* to, VXL_WAITS) {
+    static auto* const real = next<decltype(clEnqueueReadBuffer)>("clEnqueueReadBuffer");
+    const std::optional<cl_int> fault = calls.count("clEnqueueReadBuffer");
+    const bool is_wrong = fault && *fault == kWrong;
+    if (fault && !is_wrong) return *fault;
+    const cl_int status =
+        real(queue, buffer, is_wrong ? CL_TRUE : blocks, offset, size, to, waits, events, event);
+    if (is_wrong) *static_cast<char*>(to) ^= 1;
+    return status;
+}
 VXL_STATUS_CALL(clEnqueueWriteBuffer, (VXL_TRANSFER, const void* from, VXL_WAITS),
                 (queue, buffer, blocks, offset, size, from, waits, events, event))
 VXL_STATUS_CALL(clEnqueueCopyBuffer,

@@ -122,9 +122,9 @@ static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint vo
 }
 
 /// Keeps the crossings with solid `number` between t and t_exit.
-static inline void scan_solid(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                              lane_uint number, lane_int tested, lane_float t, lane_float t_exit,
-                              ScanResult* r) {
+static INLINED void scan_solid(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                               lane_uint number, lane_int tested, lane_float t, lane_float t_exit,
+                               ScanResult* r) {
     const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
     for (int i = 0; i < VXL_SOLID_CROSSINGS && lanes_any(tested); ++i) {
         lane_float at = t_exit;
@@ -189,8 +189,8 @@ static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, c
 
 /// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these. A cube
 /// that other surfaces come before is one where the line crosses none of them in its voxel.
-static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                   lane_uint leaf, lane_int tested, ScanResult* r) {
+static INLINED lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                                    lane_uint leaf, lane_int tested, ScanResult* r) {
     const lane_uint voxel =
         voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
         LANES_AS_UINT(tested);

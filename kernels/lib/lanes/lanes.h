@@ -19,6 +19,14 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
+// Functions that most kernels' deepest calls pass. PoCL 3.1 copies a kernel's functions anew along
+// each chain of calls, of which these would make millions. Its optimizer resolves them by itself.
+#if defined(__clang__) && !defined(__OPTIMIZE__)
+#define INLINED inline __attribute__((always_inline))
+#else
+#define INLINED inline
+#endif
+
 #define VXL_JOIN_(a, b) a##b
 #define VXL_JOIN(a, b) VXL_JOIN_(a, b)
 

@@ -101,8 +101,8 @@ static inline lane_int combine_top(lane_int stack, uint operation) {
     return operation == VXL_SOLID_UNION ? below | top : below & (top | ~1);
 }
 
-static inline SolidEvent event_at(global const SolidShape* solids, uint number, const SolidRay* ray,
-                                  lane_float t) {
+static INLINED SolidEvent event_at(global const SolidShape* solids, uint number,
+                                   const SolidRay* ray, lane_float t) {
     const uint count = solids[number].shape_count;
     lane_int before = (lane_int)0, after = (lane_int)0;
     SolidEvent event;
@@ -128,8 +128,8 @@ static inline SolidEvent event_at(global const SolidShape* solids, uint number, 
 }
 
 /// The solid of one shape: its ends in order, without asking for events.
-static inline lane_float first_end_of_shape(global const SolidShape* s, const SolidRay* ray,
-                                            lane_float t_first, lane_int known, lane_int inside) {
+static INLINED lane_float first_end_of_shape(global const SolidShape* s, const SolidRay* ray,
+                                             lane_float t_first, lane_int known, lane_int inside) {
     const ShapePath path = shape_path(s, ray);
     const TorusSpans spans = shape_spans(s, &path);
     const lane_float a0 = spans.first.enter, a1 = spans.first.leave;
@@ -149,9 +149,9 @@ static inline lane_float first_end_of_shape(global const SolidShape* s, const So
 ///
 /// In the lanes of `known` the ray is known to travel `inside` (mask) of the solid or outside of it
 /// from t_first on, see goes_inside; in the others the point at t_first itself tells.
-static inline lane_float solid_crossing(global const SolidShape* solids, uint number,
-                                        const SolidRay* ray, lane_float t_first, lane_int known,
-                                        lane_int inside, lane_int tested) {
+static INLINED lane_float solid_crossing(global const SolidShape* solids, uint number,
+                                         const SolidRay* ray, lane_float t_first, lane_int known,
+                                         lane_int inside, lane_int tested) {
     const lane_float far = (lane_float)INFINITY;
     if (solids[number].shape_count == 1u)
         return LANES_SELECT(tested,

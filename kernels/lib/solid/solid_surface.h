@@ -126,9 +126,9 @@ static inline lane_int goes_inside(global const SolidShape* solids, uint number,
 /// The hit is the first of the whole ray, wherever the voxel that lists the solid lies. A ray that
 /// is known to travel inside or outside of the solid from t_first on says so in `known` and
 /// `inside`; then a surface point at t_first is not met again.
-static inline lane_int hit_solids(global const SolidShape* solids, lane_uint number,
-                                  const SolidRay* ray, lane_float t_first, lane_int known,
-                                  lane_int inside, lane_int tested, lane_float* t) {
+static INLINED lane_int hit_solids(global const SolidShape* solids, lane_uint number,
+                                   const SolidRay* ray, lane_float t_first, lane_int known,
+                                   lane_int inside, lane_int tested, lane_float* t) {
     lane_int closer = (lane_int)0, left = tested;
     while (lanes_any(left)) {
         const uint one = lanes_min(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));

@@ -85,11 +85,11 @@ static inline lane_float float_before(lane_float t) {
 /// Tests solid `number` of each lane in `tested`; hits in the world that are closer than *t replace
 /// it. Hits at t_first itself count only for the lanes of `at_least`. Lanes that are `entering`
 /// begin one unit of t before their origin.
-static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
-                                           const Walk* w, lane_uint number,
-                                           const RayState* ray_state, lane_int tested,
-                                           lane_int from_solid, lane_int at_least,
-                                           lane_int entering, lane_float* t) {
+static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
+                                            const Walk* w, lane_uint number,
+                                            const RayState* ray_state, lane_int tested,
+                                            lane_int from_solid, lane_int at_least,
+                                            lane_int entering, lane_float* t) {
     lane_int closer = (lane_int)0;
     const lane_int nothing = (lane_int)0;
     const lane_int early = tested & entering;
@@ -241,9 +241,9 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
 }
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
-static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
-                                     lane_int tested, const RayState* ray_state,
-                                     SurfaceHit* found) {
+static INLINED lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                      lane_int tested, const RayState* ray_state,
+                                      SurfaceHit* found) {
     const lane_int all = tested;
     const lane_uint voxel = voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested,
                                          w->y & tested, w->z & tested) &

@@ -28,6 +28,7 @@ typedef struct {
 typedef struct {
     lane_float density;
     lane_int log2_size;  // of the aligned cube of cells around it that has one density
+    lane_uint place;     // of the density among the values
 } DensityCell;
 
 /// The density at voxel (x,y,z); lanes that are not `active` read something harmless.
@@ -43,6 +44,7 @@ static inline DensityCell look_up_density(const DensityView* d, lane_int x, lane
     const lane_uint place = LANES_SELECT(alike, word & VXL_DENSITY_SLOT, (word << 12) | cell);
     DensityCell result;
     result.density = LANES_GATHER_FLOAT(d->values, place);
+    result.place = place;
     result.log2_size = LANES_AS_INT((word >> VXL_DENSITY_SIZE_SHIFT) & 31u) & alike;
     return result;
 }
@@ -82,6 +84,30 @@ static inline void add_exactly(lane_float* sum, lane_float* lost, lane_float ter
     *sum = LANES_SELECT(adding, next, *sum);
 }
 
+/// A ray's way through the voxels that it leaves.
+typedef struct {
+    lane_float length;  // t, >= 0
+    lane_int counts;    // whether some of it lies behind t_first
+    lane_int ends;      // whether it is the last
+} Stretch;
+
+/// Leaves the voxels around the walk's own that have one density. `entered` plus `entered_low` is
+/// where the stretch begins, and then where the next one does.
+static inline Stretch cross_cell(const PyramidView* p, const DensityView* d, Walk* w,
+                                 const DensityCell* cell, lane_float t_first, lane_float t_last,
+                                 lane_float* entered, lane_float* entered_low, lane_int walking) {
+    leave_cells(p, d, w, cell->log2_size, walking);
+    Stretch stretch;
+    stretch.counts = walking & LANE_MASK(w->t > t_first);
+    stretch.ends = LANE_MASK(w->t >= t_last);
+    const lane_float left = LANES_SELECT(stretch.ends, t_last, w->t);
+    const lane_float left_low = LANES_SELECT(stretch.ends, (lane_float)0.0f, time_remainder(w));
+    stretch.length = fmax((left - *entered) + (left_low - *entered_low), 0.0f);
+    *entered = LANES_SELECT(stretch.counts, left, *entered);
+    *entered_low = LANES_SELECT(stretch.counts, left_low, *entered_low);
+    return stretch;
+}
+
 /// The sum of density times t over the voxels between t_first and t_last >= t_first of the `active`
 /// walks, which begin at their rays' origins.
 static inline lane_float walk_density(const PyramidView* p, const DensityView* d, Walk* w,
@@ -91,16 +117,10 @@ static inline lane_float walk_density(const PyramidView* p, const DensityView* d
     lane_int walking = active & in_grid(p, w) & LANE_MASK(t_first < t_last);
     while (lanes_any(walking)) {
         const DensityCell cell = look_up_density(d, w->x, w->y, w->z, walking);
-        leave_cells(p, d, w, cell.log2_size, walking);
-        const lane_int counts = walking & LANE_MASK(w->t > t_first);
-        const lane_int ends = LANE_MASK(w->t >= t_last);
-        const lane_float left = LANES_SELECT(ends, t_last, w->t);
-        const lane_float left_low = LANES_SELECT(ends, (lane_float)0.0f, time_remainder(w));
-        const lane_float length = (left - entered) + (left_low - entered_low);
-        add_exactly(&sum, &lost, cell.density * fmax(length, 0.0f), counts);
-        entered = LANES_SELECT(counts, left, entered);
-        entered_low = LANES_SELECT(counts, left_low, entered_low);
-        walking &= ~ends & in_grid(p, w);
+        const Stretch stretch =
+            cross_cell(p, d, w, &cell, t_first, t_last, &entered, &entered_low, walking);
+        add_exactly(&sum, &lost, cell.density * stretch.length, stretch.counts);
+        walking &= ~stretch.ends & in_grid(p, w);
     }
     return sum - lost;
 }

@@ -187,10 +187,10 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
 
 /// Replaces what lanes have found by closer hits on instances. Lanes that look for `any` are done
 /// with the first.
-static inline void meet_instances(const PyramidView* world, const SurfaceView* s,
-                                  const InstanceView* v, const Walk* ray, lane_float t_end,
-                                  lane_int active, bool any, const RayState* ray_state,
-                                  SurfaceHit* best, Walk* at) {
+static INLINED void meet_instances(const PyramidView* world, const SurfaceView* s,
+                                   const InstanceView* v, const Walk* ray, lane_float t_end,
+                                   lane_int active, bool any, const RayState* ray_state,
+                                   SurfaceHit* best, Walk* at) {
     const SlabRay slab = slab_ray(ray);
     const Vector d = {ray->dx, ray->dy, ray->dz};
     const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
@@ -257,8 +257,8 @@ static inline void begin_anew(const PyramidView* p, Walk* w, lane_float t, lane_
 
 /// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.
 /// The walk ends in the cell of the surface, in the instance's voxels if it is one's.
-static inline SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_float t_end,
-                                      lane_int active, bool any, const RayState* ray_state) {
+static INLINED SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_float t_end,
+                                       lane_int active, bool any, const RayState* ray_state) {
     const PyramidView* p = &world->pyramid;
     const SurfaceView* s = &world->surface;
     if (!VXL_INSTANCES) return find_first(p, s, w, t_end, active, ray_state);

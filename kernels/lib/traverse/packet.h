@@ -68,9 +68,9 @@ static inline void walk_on(const PyramidView* p, Walk* w, lane_float t_end, Surf
 }
 
 /// Tests the surfaces in the voxels of the `waiting` lanes; those that miss them walk on.
-static inline void meet_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
-                                 lane_float t_end, const RayState* ray_state, SurfaceHit* found,
-                                 lane_int* walking, lane_int* waiting) {
+static INLINED void meet_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                  lane_float t_end, const RayState* ray_state, SurfaceHit* found,
+                                  lane_int* walking, lane_int* waiting) {
     const lane_int accepted = test_surfaces(p, s, w, *waiting, ray_state, found) & *waiting;
     found->hit |= accepted;
     lane_int moving = *waiting & ~accepted;

@@ -177,8 +177,8 @@ static inline void trace_refilled_shadows(const WorldView* world, const Surround
 #else
 
 /// The mask of the `active` rays that reach their light.
-static inline lane_int find_lights(const WorldView* world, const Surroundings* around,
-                                   lane_int active, ShadowPacket* f) {
+static INLINED lane_int find_lights(const WorldView* world, const Surroundings* around,
+                                    lane_int active, ShadowPacket* f) {
     Packet* packet = &f->packet;
     lane_int passing = active, arrived = (lane_int)0;
     while (lanes_any(passing)) {

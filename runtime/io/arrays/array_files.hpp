@@ -22,6 +22,11 @@ bool is_volume_nrrd(const std::filesystem::path& path);
 /// A NIfTI 1 or 2 file (.nii, .nii.gz), turned likewise. Of several volumes it is the first.
 CellArray read_nifti_header(const std::filesystem::path& path);
 
+/// A stack of PNG slices, whose names have consecutive numbers: that of the file and those of its
+/// followers. A cell is 1 m long; X goes along rows, Y from the last row up, and slices lie behind
+/// one another as seen from +Z.
+CellArray read_png_stack_header(const std::filesystem::path& path);
+
 // All of them throw Error::input for a file that is damaged, truncated, or of a kind that isn't
 // read.
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "runtime/io/image/png_values.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -97,7 +99,9 @@ int ArraySlabs::next() {
     if (layers_ == 0) return 0;
     const size_t each = bytes_of(array_.type);
     const size_t layer = size_t(array_.counts.x) * size_t(array_.counts.y) * each;
-    if (array_.is_planar) {
+    if (!array_.slices.empty()) {
+        read_slices();
+    } else if (array_.is_planar) {
         plane_ = layer * size_t(layers_);
         bytes_.resize(plane_ * size_t(array_.channels));
         for (int c = 0; c < array_.channels; ++c)
@@ -111,6 +115,17 @@ int ArraySlabs::next() {
     }
     if (array_.is_swapped) swap_bytes(bytes_.data(), bytes_.size(), each);
     return layers_;
+}
+
+void ArraySlabs::read_slices() {
+    const PngShape shape{array_.counts.x, array_.counts.y, int(8 * bytes_of(array_.type)),
+                         array_.channels};
+    bytes_.clear();
+    for (int slice = first_; slice < first_ + layers_; ++slice) {
+        const std::vector<std::byte> values = read_png_values(array_.slices[size_t(slice)], shape);
+        bytes_.insert(bytes_.end(), values.begin(), values.end());
+    }
+    plane_ = bytes_.size();
 }
 
 }  // namespace voxelume

@@ -51,6 +51,8 @@ class ArraySlabs {
     const std::byte* values(int c = 0) const { return bytes_.data() + size_t(c) * plane_; }
 
   private:
+    void read_slices();
+
     const CellArray& array_;
     const InputFile& file_;
     ByteStream stream_;

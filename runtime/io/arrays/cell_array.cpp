@@ -30,7 +30,7 @@ constexpr std::array<TypeRow, 11> kTypes = {{{"bool", 1},
 
 constexpr uint64_t kMaxDeflated = 1032;  // bytes that a byte of gzip becomes, at most
 constexpr uint64_t kMaxSkip = uint64_t{1} << 28;
-constexpr double kMaxLength = 1e9;  // metres, as in scenes
+constexpr double kMaxExtent = 1e9;  // metres, as in scenes
 
 /// Gives each axis of the model the axis of the file that runs along it most.
 void match_axes(const std::array<glm::dvec3, 3>& directions, CellArray& array) {
@@ -72,7 +72,7 @@ void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellAr
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 step(model_from_index[i]);
         const double length = glm::length(step);
-        if (!(length > 0 && length <= kMaxLength))
+        if (!(length > 0 && length <= kMaxExtent))
             file.refuse("its axes have no direction or no spacing");
         directions[size_t(i)] = step / length;
     }
@@ -91,7 +91,7 @@ void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellAr
     // The middle of all cells stays where it is, so that turned arrays are set straight about it.
     array.first_corner = middle - array.voxel_edge * glm::dvec3(array.size()) / 2.0;
     const glm::dvec3& corner = array.first_corner;
-    if (!(std::max({std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)}) <= kMaxLength))
+    if (!(std::max({std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)}) <= kMaxExtent))
         file.refuse("its origin is farther away than scenes reach");
     check_voxel_edge(array.voxel_edge, array.first_corner, file);
     if (angle > 0.1)
@@ -106,6 +106,7 @@ void check_array(const CellArray& array, const InputFile& data) {
     if (array.skip > kMaxSkip)
         data.refuse(fmt::format("its values begin after {} bytes, {} at most are possible",
                                 array.skip, kMaxSkip));
+    if (!array.slices.empty()) return;  // each is checked as it is read
     const uint64_t stored = data.size() > array.start ? data.size() - array.start : 0;
     if (array.is_gzip ? array.bytes() / kMaxDeflated > stored : array.bytes() > stored)
         data.refuse(

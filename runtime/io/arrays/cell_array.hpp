@@ -25,7 +25,9 @@ bool is_float(CellType type);
 /// neighbours are closest in the file; axes of the model are x, y and z with Y up.
 struct CellArray {
     std::filesystem::path data;  ///< the file that has the values
-    uint64_t start = 0;          ///< byte of the first value, or of the compressed data
+    /// PNG slices along the file's last axis, of which `data` is the first; empty for other files.
+    std::vector<std::filesystem::path> slices;
+    uint64_t start = 0;  ///< byte of the first value, or of the compressed data
     bool is_gzip = false;
     uint64_t skip = 0;        ///< bytes after `start`, and after decompression, before the values
     bool is_swapped = false;  ///< the bytes of a value are in the order of other machines

@@ -37,20 +37,6 @@ glm::vec<Size, double> vector_of(const GltfValue& value, const char* key,
     return vector;
 }
 
-glm::dmat4 parent_from_node(const GltfValue& node) {
-    const std::vector<double> matrix = node.numbers("matrix", 16);
-    if (!matrix.empty()) {
-        glm::dmat4 map = glm::make_mat4(matrix.data());
-        for (int column = 0; column < 4; ++column)
-            if (map[column].w != (column == 3 ? 1.0 : 0.0))
-                node.fail("its matrix isn't that of an affine map");
-        return map;
-    }
-    return map_of(vector_of<3>(node, "translation", glm::dvec3(0)),
-                  vector_of<4>(node, "rotation", glm::dvec4(0, 0, 0, 1)),
-                  vector_of<3>(node, "scale", glm::dvec3(1)));
-}
-
 /// The maps of EXT_mesh_gpu_instancing; one that changes nothing without it.
 std::vector<glm::dmat4> instances_of(const GltfFile& file, const GltfValue& node) {
     if (!node.has_extension("EXT_mesh_gpu_instancing")) return {glm::dmat4(1)};
@@ -88,7 +74,8 @@ class Walk {
         : file_(file),
           root_(file.root()),
           lights_(gltf_lights(file).size()),
-          seen_(root_.size("nodes")) {}
+          seen_(root_.size("nodes")),
+          parents_(seen_.size(), -1) {}
 
     std::vector<GltfNode> nodes() {
         for (const int number : roots()) open_.push_back({number, glm::dmat4(1)});
@@ -99,6 +86,11 @@ class Walk {
             visit(number, parent);
         }
         return std::move(found_);
+    }
+
+    std::vector<int> parents() {
+        nodes();
+        return std::move(parents_);
     }
 
   private:
@@ -130,11 +122,14 @@ class Walk {
     void visit(int number, const glm::dmat4& world_from_parent) {
         const GltfValue node = root_.item("nodes", size_t(number));
         if (seen_[size_t(number)]++) node.fail("is a child of two nodes, or of one below itself");
-        const glm::dmat4 world_from_node = world_from_parent * parent_from_node(node);
+        const glm::dmat4 world_from_node = world_from_parent * gltf_parent_from_node(node);
         std::vector<int> children = numbers(node, "children");
-        for (auto child = children.rbegin(); child != children.rend(); ++child)
+        for (auto child = children.rbegin(); child != children.rend(); ++child) {
             open_.push_back({*child, world_from_node});
+            parents_[size_t(*child)] = number;
+        }
         GltfNode found;
+        found.number = number;
         found.mesh = node.index("mesh", root_.size("meshes"));
         found.camera = node.index("camera", root_.size("cameras"));
         found.light = node.extension("KHR_lights_punctual").index("light", lights_);
@@ -142,6 +137,7 @@ class Walk {
         found.name = node.text("name");
         for (const glm::dmat4& map : instances_of(file_, node)) {
             found.world_from_node = world_from_node * map;
+            found.node_from_instance = map;
             add(found);
             found.camera = found.light = -1;
         }
@@ -163,6 +159,7 @@ class Walk {
     GltfValue root_;
     size_t lights_;
     std::vector<char> seen_;
+    std::vector<int> parents_;
     std::vector<Open> open_;
     std::vector<GltfNode> found_;
 };
@@ -175,6 +172,33 @@ std::vector<GltfValue> gltf_lights(const GltfFile& file) {
 
 std::vector<GltfNode> gltf_nodes(const GltfFile& file) {
     return Walk(file).nodes();
+}
+
+std::vector<int> gltf_parents(const GltfFile& file) {
+    return Walk(file).parents();
+}
+
+glm::dvec3 gltf_translation(const GltfValue& node) {
+    return vector_of<3>(node, "translation", glm::dvec3(0));
+}
+
+glm::dvec4 gltf_rotation(const GltfValue& node) {
+    return vector_of<4>(node, "rotation", glm::dvec4(0, 0, 0, 1));
+}
+
+glm::dvec3 gltf_scale(const GltfValue& node) {
+    return vector_of<3>(node, "scale", glm::dvec3(1));
+}
+
+glm::dmat4 gltf_parent_from_node(const GltfValue& node) {
+    const std::vector<double> matrix = node.numbers("matrix", 16);
+    if (matrix.empty())
+        return map_of(gltf_translation(node), gltf_rotation(node), gltf_scale(node));
+    glm::dmat4 map = glm::make_mat4(matrix.data());
+    for (int column = 0; column < 4; ++column)
+        if (map[column].w != (column == 3 ? 1.0 : 0.0))
+            node.fail("its matrix isn't that of an affine map");
+    return map;
 }
 
 }  // namespace voxelume

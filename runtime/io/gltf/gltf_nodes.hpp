@@ -14,6 +14,8 @@ namespace voxelume {
 struct GltfNode {
     std::string name;  ///< the node's, or else that of what it shows; may be empty
     glm::dmat4 world_from_node{1};
+    int number = 0;                    ///< of the node in the file
+    glm::dmat4 node_from_instance{1};  ///< of EXT_mesh_gpu_instancing; part of world_from_node
     int mesh = -1, camera = -1, light = -1;  ///< numbers in the file; -1: none
 };
 
@@ -24,6 +26,17 @@ inline constexpr size_t kMaxGltfNodes = 50'000;
 /// nodes. Nodes that show nothing are left out. Throws Error::input for a node that is its own
 /// ancestor or has two parents, Error::limit for more than kMaxGltfNodes.
 std::vector<GltfNode> gltf_nodes(const GltfFile& file);
+
+/// The number of each node's parent; -1 for roots of the scene and nodes outside it. Throws as
+/// gltf_nodes() does.
+std::vector<int> gltf_parents(const GltfFile& file);
+
+/// Where a node without tracks stands.
+glm::dvec3 gltf_translation(const GltfValue& node);
+glm::dvec4 gltf_rotation(const GltfValue& node);  ///< a quaternion x, y, z, w
+glm::dvec3 gltf_scale(const GltfValue& node);
+/// By these three or by its matrix.
+glm::dmat4 gltf_parent_from_node(const GltfValue& node);
 
 /// The lights of KHR_lights_punctual.
 std::vector<GltfValue> gltf_lights(const GltfFile& file);

@@ -21,15 +21,6 @@ bool has_two_sorts(const BrickGrid& grid) {
     return !grid.occupancy.empty() && !grid.distance.empty();
 }
 
-Defines features(const BrickGrid& grid) {
-    return {{"VXL_OCCUPANCY", !grid.occupancy.empty()},
-            {"VXL_SMOOTH", !grid.distance.empty()},
-            {"VXL_ATTRIBUTES", !grid.attributes.empty()},
-            {"VXL_WRITE_ATTRIBUTES", !grid.attributes.empty() || has_two_sorts(grid)},
-            {"VXL_COLORS", !grid.colors.empty()},
-            {"VXL_PRIMITIVES", !grid.primitive_first.empty()}};
-}
-
 Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
     const std::vector<uint32_t> coordinates = grid.coordinates.read();
     Numbering numbers = number_bricks(grid.frame, {coordinates, marks.leaf_mask, marks.counts, 2});
@@ -118,12 +109,21 @@ Pyramid write_pyramid(const Device& device, const Program& program, const BrickG
 
 }  // namespace
 
+Defines index_defines(const BrickGrid& grid) {
+    return {{"VXL_OCCUPANCY", !grid.occupancy.empty()},
+            {"VXL_SMOOTH", !grid.distance.empty()},
+            {"VXL_ATTRIBUTES", !grid.attributes.empty()},
+            {"VXL_WRITE_ATTRIBUTES", !grid.attributes.empty() || has_two_sorts(grid)},
+            {"VXL_COLORS", !grid.colors.empty()},
+            {"VXL_PRIMITIVES", !grid.primitive_first.empty()}};
+}
+
 VoxelMarks mark_grid(const Device& device, const BrickGrid& grid) {
-    return mark_voxels(device, Program(device, "index.cl", features(grid)), grid);
+    return mark_voxels(device, Program(device, "index.cl", index_defines(grid)), grid);
 }
 
 Pyramid build_index(const Device& device, const BrickGrid& grid) {
-    const Program program(device, "index.cl", features(grid));
+    const Program program(device, "index.cl", index_defines(grid));
     return write_pyramid(device, program, grid, mark_voxels(device, program, grid));
 }
 
@@ -147,7 +147,7 @@ Pyramid Indexer::index(const PlacedWorld& world, const std::vector<uint32_t>* ch
 
 Pyramid Indexer::index(const BrickGrid& grid, const std::vector<uint32_t>* changed) {
     if (kept_ && changed && changed->empty()) return kept_->pyramid;
-    const Program program(device_, "index.cl", features(grid));
+    const Program program(device_, "index.cl", index_defines(grid));
     std::unique_ptr<Kept> before = std::move(kept_);
     if (before) before->pyramid = {};
     const bool continues = before && changed && !before->marks.slots.empty();

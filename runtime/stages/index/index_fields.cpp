@@ -161,6 +161,9 @@ void FieldIndexer::mark(const PlacedWorld& world) {
             marks_.insert(before.extract(found));
             continue;
         }
+        const ProgramFile files[] = {{"index.cl", index_defines(field.grid)},
+                                     {"index_fields.cl", features_of(world, &field)}};
+        Program::build_together(device_, files);
         marks_.emplace(field.version, mark_grid(device_, field.grid));
     }
 }

@@ -26,6 +26,9 @@ struct MarkArrays {
 };
 MarkArrays allocate_marks(const Device& device, size_t bricks);
 
+/// The constants of index.cl for a grid.
+Defines index_defines(const BrickGrid& grid);
+
 /// The marks of all bricks, by the kernels of index.cl that `program` was built from.
 VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid);
 

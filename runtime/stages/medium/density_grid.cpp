@@ -7,63 +7,17 @@
 #include <map>
 
 #include "runtime/base/error.hpp"
-#include "runtime/grid/world_frame.hpp"
-#include "runtime/stages/medium/density_source.hpp"
+#include "runtime/stages/medium/density_lattice.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr size_t kBrickCells = 4096;
 /// The maximum number of slots: a cell's index, slot * 4096 + cell, is a 32-bit number.
 constexpr double kMaxSlots = 1 << 20;
-/// log2 of the cell's extent along an axis along which nothing changes: the whole axis is one cell.
-constexpr int kWholeAxis = 16;
+/// Where cells have colours, three times that index is such a number, too.
+constexpr double kMaxColoredSlots = 1 << 18;
 /// The number of bricks that are sampled before they are written to the device together.
 constexpr size_t kBricksAtOnce = 64;
-
-/// The densities of a world's voxels, sampled brick by brick in main memory.
-class DensityLattice {
-  public:
-    explicit DensityLattice(const World& world)
-        : field_(density_field(world.medium)), frame_(world_frame(world)) {
-        if (field_->is_layered()) {
-            shift_ = {kWholeAxis, 0, kWholeAxis};
-            frame_.voxel_edge *= glm::dvec3(frame_.size.x, 1, frame_.size.z);
-            frame_.size = {1, frame_.size.y, 1};
-        }
-        bricks_ = (frame_.size + kBrickSize - 1) / kBrickSize;
-    }
-
-    const glm::ivec3& bricks() const { return bricks_; }
-    const glm::ivec3& shift() const { return shift_; }
-    size_t brick_count() const { return size_t(bricks_.x) * bricks_.y * bricks_.z; }
-    double field_bytes() const { return field_->bytes(); }
-    bool is_zero() const {
-        if (field_->is_zero()) return true;
-        for (size_t number = 0; number < brick_count(); ++number)
-            if (constant_in(number) != 0.0f) return false;
-        return true;
-    }
-
-    std::optional<float> constant_in(size_t number) const {
-        const glm::dvec3 first = first_center(number);
-        return field_->constant_in({first, first + frame_.voxel_edge * double(kBrickSize - 1)});
-    }
-    void sample(size_t number, std::span<float, kBrickCells> densities) const {
-        field_->sample(first_center(number), frame_.voxel_edge, densities);
-    }
-
-  private:
-    glm::dvec3 first_center(size_t number) const {
-        const glm::ivec3 brick(number % bricks_.x, number / bricks_.x % bricks_.y,
-                               number / bricks_.x / bricks_.y);
-        return frame_.origin + frame_.voxel_edge * (glm::dvec3(brick * kBrickSize) + 0.5);
-    }
-
-    std::unique_ptr<DensityField> field_;
-    GridFrame frame_;
-    glm::ivec3 bricks_{0}, shift_{0};
-};
 
 /// Numbers the distinct constant densities.
 class ConstantTable {
@@ -130,18 +84,23 @@ void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int 
 class BrickWriter {
   public:
     BrickWriter(const DensityLattice& lattice, ConstantTable& constants, size_t first_slot,
-                Buffer<float>& values)
-        : lattice_(lattice), constants_(constants), next_slot_(first_slot), values_(values) {}
+                DensityGrid& grid)
+        : lattice_(lattice), constants_(constants), next_slot_(first_slot), grid_(grid) {}
 
     /// The word of a brick: its slot or its constant density.
     uint32_t add(size_t number) {
         if (const auto density = lattice_.constant_in(number)) return constants_.word(*density);
         waiting_.resize(waiting_.size() + kBrickCells);
+        if (lattice_.has_colors()) colors_.resize(3 * waiting_.size());
         const std::span<float, kBrickCells> cells(waiting_.end() - kBrickCells, kBrickCells);
-        lattice_.sample(number, cells);
-        if (std::ranges::all_of(cells, [&](float value) { return value == cells.front(); })) {
+        lattice_.sample(number, cells,
+                        std::span(colors_).last(lattice_.has_colors() ? 3 * kBrickCells : 0));
+        // Where there are colours, too, only what can't be seen is alike.
+        if (std::ranges::all_of(cells, [&](float value) { return value == cells.front(); }) &&
+            (cells.front() == 0 || !lattice_.has_colors())) {
             const float density = cells.front();
             waiting_.resize(waiting_.size() - kBrickCells);
+            if (lattice_.has_colors()) colors_.resize(3 * waiting_.size());
             return constants_.word(density);
         }
         const auto slot = uint32_t(next_slot_ + waiting_.size() / kBrickCells - 1);
@@ -150,7 +109,9 @@ class BrickWriter {
     }
 
     void write() {
-        values_.write(waiting_, next_slot_ * kBrickCells);
+        grid_.values.write(waiting_, next_slot_ * kBrickCells);
+        if (lattice_.has_colors()) grid_.colors.write(colors_, 3 * next_slot_ * kBrickCells);
+        colors_.clear();
         next_slot_ += waiting_.size() / kBrickCells;
         waiting_.clear();
     }
@@ -159,8 +120,8 @@ class BrickWriter {
     const DensityLattice& lattice_;
     ConstantTable& constants_;
     size_t next_slot_;
-    Buffer<float>& values_;
-    std::vector<float> waiting_;
+    DensityGrid& grid_;
+    std::vector<float> waiting_, colors_;  ///< of bricks that are written together
 };
 
 }  // namespace
@@ -178,38 +139,42 @@ DensityPlan plan_density(const World& world) {
     const DensityLattice lattice(world);
     if (lattice.is_zero()) return {.is_zero = true};
     const SlotCount slots = count_slots(lattice);
-    if (double(slots.total()) > kMaxSlots)
+    if (double(slots.total()) > (lattice.has_colors() ? kMaxColoredSlots : kMaxSlots))
         throw Error(ErrorKind::limit,
-                    "{}.medium: the density differs in more than 2^20 bricks of 16x16x16 voxels: "
+                    "{}.medium: the density differs in more than 2^{} bricks of 16x16x16 voxels: "
                     "use larger voxels",
-                    world.where);
+                    world.where, lattice.has_colors() ? 18 : 20);
     const Device counting = Device::counting({});
-    const DensityGrid grid = allocate_density(counting, slots.total(), lattice.brick_count());
+    const DensityGrid grid =
+        allocate_density(counting, {slots.total(), lattice.brick_count(), lattice.has_colors()});
     const DeviceCounters& counters = counting.counters();
-    return {lattice.bricks(),
-            false,
-            slots.total(),
-            lattice.brick_count(),
-            double(slots.bricks),
-            double(counters.largest_bytes),
-            double(counters.bytes_in_use),
-            double(lattice.brick_count() * sizeof(uint32_t)) + lattice.field_bytes() +
-                double(kBricksAtOnce * kBrickCells) * sizeof(float)};
+    return {
+        lattice.bricks(),
+        false,
+        {slots.total(), lattice.brick_count(), lattice.has_colors()},
+        double(slots.bricks),
+        double(counters.largest_bytes),
+        double(counters.bytes_in_use),
+        double(lattice.brick_count() * sizeof(uint32_t)) + lattice.field_bytes() +
+            double(kBricksAtOnce * kBrickCells) * (lattice.has_colors() ? 4 : 1) * sizeof(float)};
 }
 
-DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks) {
+DensityGrid allocate_density(const Device& device, const DensitySize& size) {
     DensityGrid grid;
-    grid.values = Buffer<float>(device, "medium densities", slots * kBrickCells);
-    grid.bricks = Buffer<uint32_t>(device, "medium bricks", bricks);
+    grid.values = Buffer<float>(device, "medium densities", size.slots * kBrickCells);
+    if (size.has_colors)
+        grid.colors = Buffer<float>(device, "medium colors", 3 * size.slots * kBrickCells);
+    grid.bricks = Buffer<uint32_t>(device, "medium bricks", size.bricks);
     return grid;
 }
 
 DensityGrid form_density_grid(const Device& device, const World& world) {
     const DensityLattice lattice(world);
     const SlotCount slots = count_slots(lattice);
-    DensityGrid grid = allocate_density(device, slots.total(), lattice.brick_count());
+    DensityGrid grid =
+        allocate_density(device, {slots.total(), lattice.brick_count(), lattice.has_colors()});
     ConstantTable constants;
-    BrickWriter writer(lattice, constants, slots.constants, grid.values);
+    BrickWriter writer(lattice, constants, slots.constants, grid);
     std::vector<uint32_t> words(lattice.brick_count());
     for (size_t number = 0; number < words.size(); ++number) words[number] = writer.add(number);
     writer.write();

@@ -16,20 +16,28 @@ struct DensityGrid {
     DensityShape shape{};
     Buffer<uint32_t> bricks;  ///< shared/medium.h has the words
     Buffer<float> values;     ///< 4096 per slot; constant densities share the first slots
+    Buffer<float> colors;     ///< three for each value, where the medium has a transfer function
 };
 
 /// VXL_DENSITY_PARAMETERS of kernels.
 void bind(KernelArguments& to, const DensityGrid& grid);
 
+/// What a density grid's buffers hold.
+struct DensitySize {
+    size_t slots = 0;   ///< of values
+    size_t bricks = 0;  ///< of the lattice
+    bool has_colors = false;
+};
+
 /// The size of a density grid, found without allocating it.
 struct DensityPlan {
-    glm::ivec3 bricks{0};          ///< of the lattice
-    bool is_zero = false;          ///< known to be 0 everywhere: nothing is formed
-    size_t slots = 0, places = 0;  ///< of values, and of bricks
-    double stored_bricks = 0;      ///< at most, besides constants
-    double buffer_bytes = 0;       ///< of the larger buffer
-    double bytes = 0;              ///< on the device
-    double host_bytes = 0;         ///< in main memory while it is formed
+    glm::ivec3 bricks{0};  ///< of the lattice
+    bool is_zero = false;  ///< known to be 0 everywhere: nothing is formed
+    DensitySize size = {};
+    double stored_bricks = 0;  ///< at most, besides constants
+    double buffer_bytes = 0;   ///< of the larger buffer
+    double bytes = 0;          ///< on the device
+    double host_bytes = 0;     ///< in main memory while it is formed
 };
 
 /// The plan of the medium's density grid; empty for a medium without density or absorption. Reads
@@ -40,13 +48,14 @@ struct DensityPlan {
 DensityPlan plan_density(const World& world);
 
 /// The grid's buffers.
-DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks);
+DensityGrid allocate_density(const Device& device, const DensitySize& size);
 
 /// Whether the medium is known to have density 0 at all voxels, without a look at all of them; a
 /// file of all zeros is. Throws Error::input as plan_density.
 bool has_no_medium(const World& world);
 
-/// Makes the density's lattice: a voxel has the density at its centre. Throws as plan_density does.
+/// Makes the density's lattice: a voxel has the density at its centre, or by a transfer function
+/// the mean over all of it. Throws as plan_density does.
 DensityGrid form_density_grid(const Device& device, const World& world);
 
 }  // namespace voxelume

@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/base/error.hpp"
+#include "runtime/io/arrays/array_density.hpp"
 #include "runtime/io/vdb/vdb_density.hpp"
+#include "runtime/io/voxel_file_table.hpp"
 
 namespace voxelume {
 namespace {
@@ -83,6 +85,9 @@ std::unique_ptr<DensityField> density_field(const Medium& medium) {
         return std::make_unique<BallField>(*ball);
     const auto& grid = std::get<GridDensity>(medium.density);
     try {
+        const VoxelFileFormat* const format = voxel_format_named(grid.file);
+        if (format && format->array)
+            return read_array_density(format->array(grid.file), grid.world_from_grid);
         return read_vdb_density(grid);
     } catch (const Error& error) {
         throw Error(error.kind(), "{}: {}", grid.where, error.what());

@@ -15,8 +15,8 @@ MediumStage::MediumStage(const Device& device, const Features& features, const W
       shadows_(program_.kernel("absorb_shadows")) {}
 
 void MediumStage::sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    camera_.launch_packets(count, shape_of(pyramid), environment_, density_, materials_, batch,
-                           count);
+    camera_.launch_packets(count, shape_of(pyramid), environment_, density_, density_.colors,
+                           materials_, batch, count);
 }
 
 void MediumStage::shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum,

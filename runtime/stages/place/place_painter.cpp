@@ -27,15 +27,17 @@ PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface 
 
 Program program_for(const Device& device, const PlacedObject& object, Surface surface,
                     const PlacementMap& map, const WorldParts& parts) {
-    return {device,
-            "place.cl",
-            {{"VXL_SMOOTH", stores_distances(surface)},
-             {"VXL_ATTRIBUTES", parts.has_attributes()},
-             {"VXL_COLORS", parts.colors},
-             {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
-             {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
-             {"VXL_REACH", map.has_reach},
-             {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
+    const ProgramFile files[] = {{"place.cl",
+                                  {{"VXL_SMOOTH", stores_distances(surface)},
+                                   {"VXL_ATTRIBUTES", parts.has_attributes()},
+                                   {"VXL_COLORS", parts.colors},
+                                   {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
+                                   {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
+                                   {"VXL_REACH", map.has_reach},
+                                   {"VXL_KEEPS_INSIDE", object.keeps_inside}}},
+                                 {"place_bricks.cl", brick_defines(parts)}};
+    Program::build_together(device, files);
+    return {device, files[0].file, files[0].defines};
 }
 
 /// Half a voxel's diagonal, in distance units of the grid, rounded up.

@@ -20,15 +20,6 @@ constexpr const char* kDistances = "world distances";
 constexpr const char* kAttributes = "world attributes";
 constexpr const char* kColors = "world colors";
 
-Program program_for(const Device& device, const WorldParts& parts) {
-    return {device,
-            "place_bricks.cl",
-            {{"VXL_SMOOTH", parts.smooth},
-             {"VXL_OCCUPANCY", parts.occupancy},
-             {"VXL_ATTRIBUTES", parts.has_attributes()},
-             {"VXL_COLORS", parts.colors}}};
-}
-
 /// Puts a larger buffer in the place of an `old` one, whose values it begins with.
 template <class T>
 void enlarge(Buffer<T>& old, Buffer<T> larger) {
@@ -38,14 +29,21 @@ void enlarge(Buffer<T>& old, Buffer<T> larger) {
 
 }  // namespace
 
+Defines brick_defines(const WorldParts& parts) {
+    return {{"VXL_SMOOTH", parts.smooth},
+            {"VXL_OCCUPANCY", parts.occupancy},
+            {"VXL_ATTRIBUTES", parts.has_attributes()},
+            {"VXL_COLORS", parts.colors}};
+}
+
 WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world)
     : device_(device),
       smooth_(parts.smooth),
       occupancy_(parts.occupancy),
       has_attributes_(parts.has_attributes()),
       colors_(parts.colors),
-      world_(world),
-      program_(program_for(device, parts)) {
+      defines_(brick_defines(parts)),
+      world_(world) {
     const glm::ivec3 table = world.frame.bricks();
     slots_.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
 }
@@ -67,7 +65,12 @@ void WorldBricks::store_like(const WorldParts& parts) {
     store(world_.attributes, has_attributes_, parts.has_attributes(), kAttributes, voxels,
           world_.attribute);
     store(world_.colors, colors_, parts.colors, kColors, voxels, kWhite);
-    program_ = program_for(device_, parts);
+    defines_ = brick_defines(parts);
+}
+
+/// Built when it is first needed: a world may store no brick.
+Kernel WorldBricks::kernel(const char* name) const {
+    return Program(device_, "place_bricks.cl", defines_).kernel(name);
 }
 
 std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& brick_numbers,
@@ -114,7 +117,8 @@ void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
     }
     coordinates_.resize(left);
     const auto parts = uint32_t(moves.size() / 2 * 64);
-    program_.kernel("move_bricks")
+    if (parts == 0) return;
+    kernel("move_bricks")
         .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "moved bricks", moves),
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
@@ -124,7 +128,8 @@ void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
     slots.reserve(brick_numbers.size());
     for (const uint32_t place : brick_numbers) slots.push_back(slots_[place]);
     const auto parts = uint32_t(slots.size() * 64);
-    program_.kernel("clear_bricks")
+    if (parts == 0) return;
+    kernel("clear_bricks")
         .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "cleared bricks", slots),
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }

@@ -11,6 +11,9 @@ namespace voxelume {
 
 struct WorldParts;
 
+/// The constants of place_bricks.cl for a world of these parts.
+Defines brick_defines(const WorldParts& parts);
+
 /// Keeps a grid's slots without gaps while bricks come and go. The grid must outlive it.
 class WorldBricks {
   public:
@@ -35,13 +38,14 @@ class WorldBricks {
     uint32_t slot(uint32_t place) const { return slots_[place]; }
 
   private:
+    Kernel kernel(const char* name) const;
     void fill_gaps(const std::vector<uint32_t>& gaps);
     void reserve(uint32_t bricks);
 
     Device device_;
     bool smooth_, occupancy_, has_attributes_, colors_;
+    Defines defines_;
     BrickGrid& world_;
-    Program program_;
     std::vector<uint32_t> slots_;        ///< BrickGrid::slots
     std::vector<uint32_t> coordinates_;  ///< BrickGrid::coordinates
     uint32_t reserved_ = 0;              ///< number of bricks that the buffers have room for

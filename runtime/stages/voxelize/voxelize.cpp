@@ -184,6 +184,10 @@ Buffer<uint16_t> Voxelizer::inside(VoxelizeJob& job, bool centers, const glm::iv
 }
 
 void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
+    const ProgramFile files[] = {{"voxelize_bin.cl", {}},
+                                 {"voxelize_winding.cl", {{"VXL_CENTERS", 0}}},
+                                 {"voxelize_distance.cl", slice_defines(device_)}};
+    Program::build_together(device_, files);
     // Only nodes count, and a brick's last node is at 15.
     const glm::ivec3 reach = band_reach(job.grid.frame, band);
     store_bins(job, bin(job, job.triangles, reach, kLatticePerBrick - kLatticePerVoxel));
@@ -192,15 +196,20 @@ void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
 }
 
 void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set, int margin) {
+    Defines defines = slice_defines(device_);
+    defines.emplace_back("VXL_THIN", set == VoxelSet::thin);
+    defines.emplace_back("VXL_MARGIN", margin);
+    const ProgramFile inside_or_cover =
+        set == VoxelSet::solid ? ProgramFile{"voxelize_winding.cl", {{"VXL_CENTERS", 1}}}
+                               : ProgramFile{"voxelize_cover.cl", defines};
+    const ProgramFile files[] = {{"voxelize_bin.cl", {}}, inside_or_cover};
+    Program::build_together(device_, files);
     store_bins(job, bin(job, job.triangles, glm::ivec3(margin), kLatticePerBrick));
     if (set == VoxelSet::solid) {
         const Buffer<uint16_t> rows = inside(job, true, glm::ivec3(0));
         fill_solid(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 1}}), rows);
         return;
     }
-    Defines defines = slice_defines(device_);
-    defines.emplace_back("VXL_THIN", set == VoxelSet::thin);
-    defines.emplace_back("VXL_MARGIN", margin);
     cover_bricks(job, program("voxelize_cover.cl", defines));
     mark_outside(job, program("voxelize_bin.cl", {}));
 }

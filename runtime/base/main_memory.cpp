@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/base/main_memory.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
+
+std::atomic<uint64_t> chosen_limit = kNoLimit;
+
+/// The number in a file of one line; without one, as in "max", there is no limit.
+uint64_t limit_in(const fs::path& file) {
+    std::ifstream stream(file);
+    uint64_t bytes = 0;
+    return stream >> bytes ? bytes : kNoLimit;
+}
+
+/// The least limit of a group and of those that it is in. Containers often see their own group as
+/// the root, and its path as it is outside: folders that aren't there limit nothing.
+uint64_t limit_of_group(const fs::path& root, const fs::path& group, const char* file) {
+    uint64_t least = limit_in(root / file);
+    fs::path folder = root;
+    for (const fs::path& part : group.relative_path())
+        least = std::min(least, limit_in((folder /= part) / file));
+    return least;
+}
+
+uint64_t process_limit(int resource) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kNoLimit;
+    return limit.rlim_cur;
+}
+
+/// What the machine and the system allow; doesn't change while a program runs.
+uint64_t allowed_memory() {
+    const uint64_t machine = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
+    return std::min({machine, control_group_memory("/proc/self/cgroup", "/sys/fs/cgroup"),
+                     process_limit(RLIMIT_DATA), process_limit(RLIMIT_AS)});
+}
+
+}  // namespace
+
+uint64_t main_memory() {
+    static const uint64_t allowed = allowed_memory();
+    return std::min(allowed, chosen_limit.load());
+}
+
+void limit_main_memory(uint64_t bytes) {
+    chosen_limit = bytes == 0 ? kNoLimit : bytes;
+}
+
+uint64_t chosen_memory_limit() {
+    return chosen_limit;
+}
+
+uint64_t control_group_memory(const fs::path& groups, const fs::path& mount) {
+    std::ifstream stream(groups);
+    uint64_t least = kNoLimit;
+    // "4:memory:/job" of version 1, "0::/job" of version 2.
+    for (std::string line; std::getline(stream, line);) {
+        const size_t first = line.find(':'), second = line.find(':', first + 1);
+        if (second == std::string::npos) continue;
+        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        const fs::path group = line.substr(second + 1);
+        if (controllers == ",,")
+            least = std::min(least, limit_of_group(mount, group, "memory.max"));
+        else if (controllers.find(",memory,") != std::string::npos)
+            least =
+                std::min(least, limit_of_group(mount / "memory", group, "memory.limit_in_bytes"));
+    }
+    return least;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much main memory the process may take.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace voxelume {
+
+/// Bytes: those of the machine, or fewer where the process's control group (a container, a job of
+/// Slurm), its limits (`ulimit -d` and `-v`) or limit_main_memory() allow fewer.
+uint64_t main_memory();
+
+/// Has main_memory() tell at most this; 0: as much as there is. Any thread may call it.
+void limit_main_memory(uint64_t bytes);
+
+/// The limit of limit_main_memory(); the largest number without one.
+uint64_t chosen_memory_limit();
+
+/// The least of the limits that control groups of both versions set for a process. The largest
+/// number without any.
+///
+/// @param groups  the process's groups, as /proc/self/cgroup lists them
+/// @param mount   the folder of all groups: /sys/fs/cgroup
+uint64_t control_group_memory(const std::filesystem::path& groups,
+                              const std::filesystem::path& mount);
+
+}  // namespace voxelume

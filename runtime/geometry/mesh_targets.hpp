@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes that several targets pull at, each by a weight.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "runtime/geometry/mesh.hpp"
+#include "runtime/scene/bounds.hpp"
+
+namespace voxelume {
+
+/// How far each vertex of a mesh is moved at a weight of 1, and its normal; each list is empty
+/// where nothing is.
+struct MorphTarget {
+    std::vector<glm::vec3> positions, normals;
+};
+
+/// Moves the vertices of `from`, and normals that belong to vertices, by the sum of the targets'
+/// offsets times their weights and `scale`. Sums are rounded once. Missing weights are 0.
+Mesh moved_by_targets(const Mesh& from, std::span<const MorphTarget> targets,
+                      std::span<const double> weights, double scale);
+
+/// A box around all that a mesh in `box` may reach by the weights.
+Bounds box_of_targets(const Bounds& box, std::span<const MorphTarget> targets,
+                      std::span<const double> weights);
+
+}  // namespace voxelume

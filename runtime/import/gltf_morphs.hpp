@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The weights by which a glTF file's meshes are pulled towards their targets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/io/gltf/gltf_animation.hpp"
+#include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/scene/bounds.hpp"
+
+namespace voxelume {
+
+/// The weights of a node's mesh, and what moves them.
+struct GltfMorph {
+    int owner = -1;               ///< number of the node whose weights they are; -1: the mesh's own
+    std::vector<double> weights;  ///< empty: the mesh has no targets, or none pulls
+    const Keyframes* keys = nullptr;  ///< of a clip; times are seconds
+};
+
+/// The morph of a node that shows a mesh. Throws Error::input where the file has more or fewer
+/// weights than targets.
+GltfMorph gltf_morph(const GltfFile& file, const GltfClip& clip, const GltfNode& node);
+
+/// `, "morph": {...}` of a model; empty where nothing pulls.
+std::string morph_member(const GltfMorph& morph);
+
+/// A box around a mesh in `box` and all that the keys' weights make of it.
+Bounds reach_of(const GltfMorph& morph, const GltfFile& file, int mesh, const Bounds& box);
+
+}  // namespace voxelume

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/arrays/array_density.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/io/arrays/array_stream.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint64_t kMaxDensityCells = uint64_t{1} << 28;
+constexpr int kBlockEdge = 8;  // cells along the edge of a block whose range is known
+
+/// The least and the largest of some values; none where `min` is above `max`.
+struct Extremes {
+    float min = INFINITY, max = -INFINITY;
+
+    void add(float value) {
+        min = std::min(min, value);
+        max = std::max(max, value);
+    }
+};
+
+class ArrayDensity : public DensityField {
+  public:
+    ArrayDensity(const CellArray& array, const glm::dmat4& world_from_array) : size_(array.size()) {
+        const InputFile file(array.data);
+        if (array.is_color()) file.refuse("it holds colours, which are no density");
+        if (array.cells() > kMaxDensityCells)
+            file.refuse(fmt::format("it has {} cells; a density has 2^28 at most", array.cells()));
+        check_array(array, file);
+        // Coordinates in which the middle of the first cell is the origin, and the next one's 1.
+        glm::dmat4 array_from_cell(1);
+        for (int axis = 0; axis < 3; ++axis) array_from_cell[axis][axis] = array.voxel_edge[axis];
+        array_from_cell[3] = glm::dvec4(array.first_corner + array.voxel_edge / 2.0, 1);
+        cell_from_world_ = glm::inverse(world_from_array * array_from_cell);
+        load(array, file);
+        find_extremes();
+    }
+
+    double bytes() const override { return double(values_.size() * sizeof(float)); }
+
+    std::optional<float> constant_in(const Bounds& box) const override {
+        const ValueRange range = range_in(box);
+        const float max = float(std::max(range.max, 0.0)), min = float(std::max(range.min, 0.0));
+        if (range.min > range.max || max == 0) return 0.0f;
+        return min == max && !range.reaches_out ? std::optional(max) : std::nullopt;
+    }
+
+    ValueRange range_in(const Bounds& box) const override {
+        glm::dvec3 low(INFINITY), high(-INFINITY);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 p(cell_from_world_ * glm::dvec4(corner(box, i), 1));
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        const glm::dvec3 end = glm::dvec3(size_) - 0.5;
+        ValueRange range{INFINITY, -INFINITY, false};
+        for (int axis = 0; axis < 3; ++axis) {
+            range.reaches_out |= low[axis] < -0.5 || high[axis] > end[axis];
+            if (high[axis] < -0.5 || low[axis] > end[axis]) return range;
+        }
+        const glm::ivec3 first = block_of(glm::floor(low)), last = block_of(glm::ceil(high));
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y)
+                for (int x = first.x; x <= last.x; ++x) {
+                    const Extremes& block =
+                        extremes_[(size_t(z) * size_t(blocks_.y) + size_t(y)) * size_t(blocks_.x) +
+                                  size_t(x)];
+                    range.min = std::min(range.min, double(block.min));
+                    range.max = std::max(range.max, double(block.max));
+                }
+        return range;
+    }
+
+    void sample(const glm::dvec3& first, const glm::dvec3& step,
+                std::span<float, 4096> densities) const override {
+        sample_values(first, step, glm::ivec3(16), densities);
+        for (float& density : densities) density = std::max(density, 0.0f);
+    }
+
+    void sample_values(const glm::dvec3& first, const glm::dvec3& step, const glm::ivec3& count,
+                       std::span<float> values) const override {
+        const glm::dvec3 origin(cell_from_world_ * glm::dvec4(first, 1));
+        const glm::dmat3 turn(cell_from_world_);
+        size_t place = 0;
+        for (int k = 0; k < count.z; ++k)
+            for (int j = 0; j < count.y; ++j)
+                for (int i = 0; i < count.x; ++i)
+                    values[place++] = at(origin + turn * (step * glm::dvec3(i, j, k)));
+    }
+
+  private:
+    /// The value at a point in cells.
+    float at(const glm::dvec3& p) const {
+        glm::ivec3 cell;
+        glm::dvec3 share;
+        for (int axis = 0; axis < 3; ++axis) {
+            // Points on the border that rounding moves out of the array are still in it.
+            if (!(p[axis] >= -0.5 - 1e-9 && p[axis] <= size_[axis] - 0.5 + 1e-9))
+                return kOutsideScan;
+            const double within = std::clamp(p[axis], 0.0, double(size_[axis] - 1));
+            cell[axis] = std::min(int(within), std::max(size_[axis] - 2, 0));
+            share[axis] = within - cell[axis];
+        }
+        double sum = 0;
+        for (int c = 0; c < 8; ++c) {
+            const glm::ivec3 high(c & 1, c >> 1 & 1, c >> 2);
+            double weight = 1;
+            for (int axis = 0; axis < 3; ++axis)
+                weight *= high[axis] != 0 ? share[axis] : 1 - share[axis];
+            if (weight == 0) continue;
+            const float value = values_[index(cell + high)];
+            if (value == kOutsideScan) return kOutsideScan;
+            sum += weight * double(value);
+        }
+        return float(sum);
+    }
+
+    size_t index(const glm::ivec3& cell) const {
+        return (size_t(cell.z) * size_t(size_.y) + size_t(cell.y)) * size_t(size_.x) +
+               size_t(cell.x);
+    }
+
+    glm::ivec3 block_of(const glm::dvec3& cell) const {
+        return glm::ivec3(glm::clamp(cell, glm::dvec3(0), glm::dvec3(size_ - 1))) / kBlockEdge;
+    }
+
+    /// Takes the values in the order of the model's axes.
+    void load(const CellArray& array, const InputFile& file) {
+        values_.resize(array.cells());
+        ArraySlabs slabs(array, file, 1);
+        glm::ivec3 number(0);
+        for (; slabs.next() > 0; ++number.z)
+            with_type(array.type, slabs.values(), [&](const auto* from) {
+                for (number.y = 0; number.y < array.counts.y; ++number.y)
+                    for (number.x = 0; number.x < array.counts.x; ++number.x) {
+                        const float value = float(array.slope * double(*from++) + array.intercept);
+                        values_[index(cell_of(array, number))] =
+                            std::isfinite(value) ? value : kOutsideScan;
+                    }
+            });
+    }
+
+    static glm::ivec3 cell_of(const CellArray& array, const glm::ivec3& number) {
+        glm::ivec3 cell;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int from = array.axis[axis];
+            cell[axis] =
+                array.sign[axis] > 0 ? number[from] : array.counts[from] - 1 - number[from];
+        }
+        return cell;
+    }
+
+    void find_extremes() {
+        blocks_ = (size_ + kBlockEdge - 1) / kBlockEdge;
+        extremes_.resize(size_t(blocks_.x) * size_t(blocks_.y) * size_t(blocks_.z));
+        size_t place = 0;
+        for (int z = 0; z < size_.z; ++z)
+            for (int y = 0; y < size_.y; ++y) {
+                const size_t row =
+                    (size_t(z / kBlockEdge) * size_t(blocks_.y) + size_t(y / kBlockEdge)) *
+                    size_t(blocks_.x);
+                for (int x = 0; x < size_.x; ++x) {
+                    const float value = values_[place++];
+                    if (value != kOutsideScan) extremes_[row + size_t(x / kBlockEdge)].add(value);
+                }
+            }
+    }
+
+    glm::ivec3 size_, blocks_{0};
+    glm::dmat4 cell_from_world_{1};
+    std::vector<float> values_;
+    std::vector<Extremes> extremes_;  ///< of blocks, x fastest
+};
+
+}  // namespace
+
+std::unique_ptr<DensityField> read_array_density(const CellArray& array,
+                                                 const glm::dmat4& world_from_array) {
+    return std::make_unique<ArrayDensity>(array, world_from_array);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the nodes of a glTF file stand at a time of a clip.
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "runtime/io/gltf/gltf_animation.hpp"
+#include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/scene/scene_affine.hpp"
+
+namespace voxelume {
+
+/// A clip, which outlives it, that moves a file's nodes.
+class GltfMotion {
+  public:
+    GltfMotion(const GltfFile& file, const GltfClip& clip);
+
+    /// The tracks of the node's translation, rotation and scale; null where there is none.
+    const std::array<const GltfTrack*, 3>& tracks_of(int node) const {
+        return tracks_[size_t(node)];
+    }
+    bool has_tracks(int node) const { return tracks_of(node) != std::array<const GltfTrack*, 3>{}; }
+    /// The numbers of a node's ancestors and its own, from the root on.
+    std::vector<int> line_of(int node) const;
+    /// Whether the node or an ancestor has tracks.
+    bool moves(int node) const;
+
+    /// The place that the file gives a node with tracks in its parent, and that of any node.
+    const Factors& factors_of(int node) const { return factors_[size_t(node)]; }
+    const glm::dmat4& parent_from_node(int node) const { return places_[size_t(node)]; }
+
+    glm::dmat4 world_from_node(const GltfNode& node, double seconds) const;
+
+  private:
+    Factors factors_at(int node, double seconds) const;
+
+    // By node.
+    std::vector<int> parents_;
+    std::vector<std::array<const GltfTrack*, 3>> tracks_;
+    std::vector<Factors> factors_;
+    std::vector<glm::dmat4> places_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/gltf/gltf_targets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/io/gltf/gltf_accessor.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Appends the offsets of one attribute of a target, behind 0 for the vertices before them.
+void add_offsets(const GltfFile& file, const GltfValue& target, const char* key, size_t base,
+                 size_t vertices, std::vector<glm::vec3>& offsets) {
+    if (!target.has(key)) return;
+    const GltfValues values = gltf_values(file, target, key, {3});
+    if (values.count != vertices)
+        target.fail(fmt::format("{} vertices, and {} of {}", vertices, values.count, key));
+    offsets.resize(base, glm::vec3(0));
+    for (size_t i = 0; i < vertices; ++i) {
+        const glm::vec3 offset(values.values[3 * i], values.values[3 * i + 1],
+                               values.values[3 * i + 2]);
+        if (!std::isfinite(offset.x + offset.y + offset.z))
+            target.fail(fmt::format("a number of {} isn't finite", key));
+        offsets.push_back(offset);
+    }
+}
+
+}  // namespace
+
+size_t count_gltf_targets(const GltfValue& mesh) {
+    size_t count = 0;
+    for (const GltfValue& primitive : mesh.items("primitives"))
+        count = std::max(count, primitive.size("targets"));
+    return count;
+}
+
+std::vector<MorphTarget> gltf_targets(const GltfFile& file, int part) {
+    const GltfValue mesh = file.root().item("meshes", size_t(part - 1));
+    std::vector<MorphTarget> targets(count_gltf_targets(mesh));
+    size_t base = 0;
+    for (const GltfValue& primitive : mesh.items("primitives")) {
+        const GltfValue attributes = primitive.at("attributes");
+        if (primitive.count("mode", 4) < 4 || !attributes.has("POSITION")) continue;
+        const size_t vertices = gltf_values(file, attributes, "POSITION", {3}).count;
+        for (size_t i = 0; i < primitive.size("targets"); ++i) {
+            const GltfValue target = primitive.item("targets", i);
+            add_offsets(file, target, "POSITION", base, vertices, targets[i].positions);
+            add_offsets(file, target, "NORMAL", base, vertices, targets[i].normals);
+        }
+        base += vertices;
+    }
+    for (MorphTarget& target : targets)
+        for (std::vector<glm::vec3>* const offsets : {&target.positions, &target.normals})
+            if (!offsets->empty()) offsets->resize(base, glm::vec3(0));
+    return targets;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Morph targets of a mesh of a glTF file.
+#pragma once
+
+#include <vector>
+
+#include "runtime/geometry/mesh_targets.hpp"
+#include "runtime/io/gltf/gltf_file.hpp"
+
+namespace voxelume {
+
+/// The targets of a mesh, numbered from 1 on, whose vertices are those of gltf_mesh(file, part).
+/// Throws Error::input for accessors that don't fit the mesh.
+std::vector<MorphTarget> gltf_targets(const GltfFile& file, int part);
+
+/// How many targets the mesh has: as many as its primitive with the most.
+size_t count_gltf_targets(const GltfValue& mesh);
+
+}  // namespace voxelume

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/opencl/device_settings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <limits>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/main_memory.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+/// The lanes that the caller asks for, else those of VOXELUME_LANES, else the device's own.
+int lanes_for(const DeviceInfo& info, int asked) {
+    const std::string text = asked != 0 ? std::to_string(asked) : environment("VOXELUME_LANES");
+    if (text.empty()) return info.lanes;
+    for (const int lanes : {1, 4, 8, 16})
+        if (text == std::to_string(lanes)) return lanes;
+    throw Error(ErrorKind::usage, "{} lanes per work-item: there are kernels for 1, 4, 8 and 16",
+                text);
+}
+
+/// The number, at least 1, in an environment variable; 0 if it isn't set.
+int number_in_environment(const char* name) {
+    const std::string text = environment(name);
+    if (text.empty()) return 0;
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || number < 1)
+        throw Error(ErrorKind::usage, "{}={}: must be a whole number from 1 to {}, in digits", name,
+                    text, std::numeric_limits<int>::max());
+    return number;
+}
+
+}  // namespace
+
+std::string selector_or_default(std::string_view selector) {
+    const std::string by_default = environment("VOXELUME_DEVICE");
+    if (!selector.empty()) return std::string(selector);
+    return by_default.empty() ? "auto" : by_default;
+}
+
+void limit_memory(DeviceInfo& info) {
+    info.memory =
+        std::min(info.memory, info.kind == DeviceKind::cpu ? main_memory() : chosen_memory_limit());
+    const auto limit = [](const char* name, uint64_t& bytes) {
+        const auto megabytes = uint64_t(number_in_environment(name));
+        if (megabytes != 0) bytes = std::min(bytes, megabytes << 20);
+    };
+    limit("VOXELUME_MEMORY_MB", info.memory);
+    limit("VOXELUME_BUFFER_MB", info.max_allocation);
+    info.max_allocation = std::min(info.max_allocation, info.memory);
+}
+
+DeviceInfo settled(DeviceInfo info, int lanes) {
+    info.lanes = lanes_for(info, lanes);
+    limit_memory(info);
+    info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
+    info.build_options = environment("VOXELUME_BUILD_OPTIONS");
+    return info;
+}
+
+int units_to_use() {
+    return number_in_environment("VOXELUME_UNITS");
+}
+
+}  // namespace voxelume

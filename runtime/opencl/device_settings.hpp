@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the environment says of a device.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+/// `selector`, or VOXELUME_DEVICE if it is empty, or else "auto".
+std::string selector_or_default(std::string_view selector);
+
+/// Limits a device's memory as VOXELUME_MEMORY_MB, VOXELUME_BUFFER_MB and the process's limits say.
+/// That of a CPU is main memory.
+void limit_memory(DeviceInfo& info);
+
+/// A device as it is opened: with `lanes`, or VOXELUME_LANES if these are 0, or else its own; with
+/// limits of its memory, VOXELUME_WORK_GROUP and VOXELUME_BUILD_OPTIONS. Throws Error::usage for
+/// values that can't be.
+DeviceInfo settled(DeviceInfo info, int lanes);
+
+/// VOXELUME_UNITS; 0 if it isn't set.
+int units_to_use();
+
+}  // namespace voxelume
