@@ -21,7 +21,8 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     const lane_uint row = tile / tiles_x;
     const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u) + of->first_column;
     const lane_uint y = row * 4u + ((target >> 2) & 3u) + of->first_row;
-    const PathSamples s = {x | (y << 16), of->first_sample + group % of->samples, state & VXL_STATE_MET};
+    const PathSamples s = {x | (y << 16), of->first_sample + group % of->samples,
+                           state & VXL_STATE_MET};
     return s;
 }
 
