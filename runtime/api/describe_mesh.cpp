@@ -42,8 +42,7 @@ Report clips_in(const GltfFile& file) {
         const GltfClip clip = gltf_clip(file, number);
         std::set<int> nodes;
         for (const GltfTrack& track : clip.tracks) nodes.insert(track.node);
-        clips.push_back(
-            {{"name", clip.name}, {"seconds", clip.seconds}, {"nodes", nodes.size()}});
+        clips.push_back({{"name", clip.name}, {"seconds", clip.seconds}, {"nodes", nodes.size()}});
     }
     return clips;
 }
