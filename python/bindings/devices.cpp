@@ -47,6 +47,9 @@ void bind_devices(py::module_& module) {
         .def("__repr__", [](const OpenDevice& open) {
             return "<voxelume.Device " + open.device.info().name + ">";
         });
+    module.def("limit_memory", &voxelume::limit_memory, py::arg("bytes"),
+               "Has what follows take at most so much main memory, and at most as much of a "
+               "device's own: what needs more raises Error. 0: as much as there is.");
     module.def("list_devices", &voxelume::list_devices, py::call_guard<py::gil_scoped_release>(),
                "Every device of every OpenCL platform, usable or not.");
     module.def(

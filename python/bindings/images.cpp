@@ -74,9 +74,24 @@ voxelume::Channels groups_of(const Image& image) {
     return channels;
 }
 
-void write(const Image& image, const std::filesystem::path& file, double exposure, bool float_color,
+voxelume::ViewTransform transform_named(const std::string& name) {
+    using voxelume::ViewTransform;
+    constexpr std::array kNames = {
+        std::pair{"srgb", ViewTransform::srgb}, std::pair{"none", ViewTransform::none},
+        std::pair{"filmic", ViewTransform::filmic}, std::pair{"agx", ViewTransform::agx}};
+    for (const auto& [known, transform] : kNames)
+        if (name == known) return transform;
+    throw voxelume::Error(
+        voxelume::ErrorKind::usage,
+        "no view transform is named \"" + name + "\": there are srgb, none, filmic and agx");
+}
+
+void write(const Image& image, const std::filesystem::path& file, double exposure,
+           const std::string& view_transform, int png_bits, bool float_color,
            const std::optional<std::vector<std::string>>& channels) {
     image.write(file, {.exposure = exposure,
+                       .view_transform = transform_named(view_transform),
+                       .png_bits = png_bits,
                        .float_color = float_color,
                        .channels = channels ? channels_named(*channels) : groups_of(image)});
 }
@@ -105,12 +120,16 @@ void bind_images(py::module_& module) {
                 return std::ranges::count(channels_of(image), channel) > 0;
             },
             py::arg("channel"))
-        .def("write", &write, py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0,
-             py::arg("float_color") = false, py::arg("channels") = std::nullopt,
-             py::call_guard<py::gil_scoped_release>(),
-             "Writes an OpenEXR or PNG file, by the ending of its name, whole or not at all.\n\n"
-             "An OpenEXR file has all channels of the image, or those of `channels`, named as "
-             "for `render`.")
+        .def(
+            "write", &write, py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0,
+            py::arg("view_transform") = "srgb", py::arg("png_bits") = 8,
+            py::arg("float_color") = false, py::arg("channels") = std::nullopt,
+            py::call_guard<py::gil_scoped_release>(),
+            "Writes an OpenEXR or PNG file, by the ending of its name, whole or not at all.\n\n"
+            "A PNG file shows light multiplied by 2^`exposure` by the `view_transform` srgb, none, "
+            "filmic or agx, in 8 or 16 bits a channel. "
+            "An OpenEXR file has all channels of the image, or those of `channels`, named as "
+            "for `render`.")
         .def("__repr__", [](const Image& image) {
             return "<voxelume.Image of " + std::to_string(image.width()) + " x " +
                    std::to_string(image.height()) + " pixels>";

@@ -67,6 +67,17 @@ def test_volumes_are_arrays(device, room):
     assert np.count_nonzero(cells[..., 3]) == np.count_nonzero(volume.opacities)
 
 
+def test_memory_is_limited(device, room):
+    voxelume.limit_memory(1_000_000)
+    try:
+        with pytest.raises(voxelume.Error) as refused:
+            voxelume.render(room, devices=device)
+        assert refused.value.kind == "limit"
+    finally:
+        voxelume.limit_memory(0)
+    assert voxelume.render(room, devices=device).width > 0
+
+
 def test_files_hold_what_memory_does(device, room, tmp_path):
     image = voxelume.render(room, devices=device)
     image.write(tmp_path / "a.exr", float_color=True)
@@ -86,6 +97,11 @@ def test_files_hold_what_memory_does(device, room, tmp_path):
     assert b"cryptomatte" not in (tmp_path / "color.exr").read_bytes()
     with pytest.raises(voxelume.Error):
         parts.write(tmp_path / "b.exr", channels=["colour"])
+    image.write(tmp_path / "a.png", view_transform="agx", png_bits=16)
+    assert (tmp_path / "a.png").read_bytes()[24] == 16
+    for wrong in {"view_transform": "aces"}, {"png_bits": 12}:
+        with pytest.raises(voxelume.Error):
+            image.write(tmp_path / "b.png", **wrong)
     volume = voxelume.render_volume(room, devices=device)
     volume.write(tmp_path / "a.vdb")
     read = voxelume.Volume.read(tmp_path / "a.vdb")
