@@ -129,6 +129,8 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "render part I of N alone, of the frames or of one image; `voxelume merge` puts "
                    "the parts together")
         ->type_name("I/N");
+    app.add_option("--fallback", command.fallback,
+                   "device, as for --device, that takes over a run whose device fails");
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "
                    "changed: those that are damaged, or made from something else")

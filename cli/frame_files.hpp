@@ -36,6 +36,7 @@ struct RenderCommand {
     std::string progress = "auto";
     std::string overwrite;  ///< empty: always
     bool resume = false;
+    std::string fallback;  ///< devices that take over where the scene's fail; empty: none
 };
 
 /// Declares the options on `app`; returns that of --frames.

@@ -40,8 +40,46 @@ void print_tally(const Tally& tally, double seconds) {
                tally.done + tally.failed.size(), seconds, harmless_line(names));
 }
 
+/// The devices of a run, and those that step in where one of them fails.
+class Devices {
+  public:
+    Devices(const std::string& chosen, const std::string& fallback)
+        : chosen_(chosen), fallback_(fallback), has_fallback_(!fallback.empty()) {}
+
+    void render(const RenderCommand& command, const std::string& label) {
+        if (has_failed_) return render_job(command, fallback_, label);
+        try {
+            render_job(command, chosen_, label);
+        } catch (const Error& error) {
+            if (!has_fallback_ || !may_be_the_device(error.kind())) throw;
+            complain(error.what(), error.kind());
+            fmt::print(stderr, "voxelume: the device of --fallback takes over\n");
+            // What is too large for a device says nothing of the next scene.
+            has_failed_ = error.kind() != ErrorKind::limit;
+            render_job(without_finished(command), fallback_, label);
+        }
+    }
+
+  private:
+    static bool may_be_the_device(ErrorKind kind) {
+        return kind == ErrorKind::device || kind == ErrorKind::build || kind == ErrorKind::render ||
+               kind == ErrorKind::limit;
+    }
+
+    /// Frames that were finished have the bits that any device gives them.
+    static RenderCommand without_finished(RenderCommand command) {
+        if (command.overwrite == "always") command.overwrite.clear();
+        if (command.overwrite.empty()) command.resume = true;
+        return command;
+    }
+
+    LazyDevices chosen_, fallback_;
+    bool has_fallback_;
+    bool has_failed_ = false;
+};
+
 /// Renders one job after the other. A job that fails doesn't stop those after it.
-int run_all(const std::vector<RenderJob>& jobs, LazyDevices& devices) {
+int run_all(const std::vector<RenderJob>& jobs, Devices& devices) {
     const auto start = std::chrono::steady_clock::now();
     const bool is_quiet = jobs.front().command.quiet;
     Tally tally;
@@ -49,7 +87,7 @@ int run_all(const std::vector<RenderJob>& jobs, LazyDevices& devices) {
         const std::string label = fmt::format("{} of {}", i + 1, jobs.size());
         if (!is_quiet) fmt::print(stderr, "{}: {}\n", label, harmless_line(jobs[i].name));
         try {
-            render_job(jobs[i].command, devices, label);
+            devices.render(jobs[i].command, label);
             ++tally.done;
         } catch (const Error& error) {
             if (error.kind() == ErrorKind::cancelled || error.kind() == ErrorKind::device) throw;
@@ -67,9 +105,9 @@ int run(const RenderCommand& command) {
     const std::vector<RenderJob> jobs = render_jobs(command);
     for (const RenderJob& job : jobs) check_options(job.command);
     set_limits(command.scene, "render");
-    LazyDevices devices(command.scene.device);
+    Devices devices(command.scene.device, command.fallback);
     if (jobs.size() > 1) return run_all(jobs, devices);
-    render_job(jobs.front().command, devices, "rendering");
+    devices.render(jobs.front().command, "rendering");
     return 0;
 }
 

@@ -48,15 +48,15 @@ struct TransferPoint {
 /// A float grid of an OpenVDB file, or an array of values, which have transforms of their own to
 /// metres.
 struct GridDensity {
-    std::filesystem::path file;
-    std::string grid;               ///< name in the file
+    std::filesystem::path file{};
+    std::string grid{};             ///< name in the file
     glm::dmat4 world_from_grid{1};  ///< from the grid's metres; affine and safely invertible
     /// By which values become densities and colours; their values increase. Empty: values are
     /// densities.
-    std::vector<TransferPoint> transfer;
+    std::vector<TransferPoint> transfer{};
     /// With a transfer: where light travels that brings out its surfaces, a unit vector; 0: none.
     glm::dvec3 lit{0};
-    SourcePlace where;
+    SourcePlace where{};
 
     friend bool operator==(const GridDensity&, const GridDensity&) = default;
 };

@@ -126,6 +126,40 @@ TEST_F(CliFaultsTest, OnTwoDevicesAreTold) {
     expect_all_handled("--device all/2 -o out/a.exr", 4);
 }
 
+TEST_F(CliFaultsTest, AFallbackTakesOverWithTheSameBits) {
+    write_scene([](Json& scene) {
+        scene["animation"] = {{"tracks",
+                               {{{"target", "objects.thing.position"},
+                                 {"keys",
+                                  {{{"frame", 1}, {"value", {1, 1, 0.5}}},
+                                   {{"frame", 3}, {"value", {2, 1, 0.5}}}}}}}}};
+    });
+    const std::string command = "render scene.json -q --frames 1-3 --no-overlap -o out/a.##.exr";
+    remove_files();
+    ASSERT_EQ(run(command).exit_code, 0);
+    const std::map<std::string, std::string> expected = files();
+    ASSERT_EQ(expected.size(), 3u);
+    for (const char* fault : {"clCreateContext:1:-6", "clBuildProgram:1:-11",
+                              "clEnqueueNDRangeKernel:5:-36", "clEnqueueNDRangeKernel:60:-5"}) {
+        remove_files();
+        const ProgramResult result =
+            run_line(fmt::format("env LD_PRELOAD='{}' VXL_FAULT={} timeout 60 voxelume {} "
+                                 "--fallback cpu",
+                                 VXL_FAULTS, fault, command));
+        EXPECT_EQ(result.exit_code, 0) << fault << result.err;
+        EXPECT_THAT(result.err, testing::HasSubstr("the device of --fallback takes over")) << fault;
+        EXPECT_TRUE(files() == expected) << fault;
+    }
+    remove_files();
+    EXPECT_EQ(run(command + " --device no-such-device --fallback cpu").exit_code, 0);
+    EXPECT_TRUE(files() == expected);
+    EXPECT_EQ(run(command + " --device no-such-device --fallback no-such-either").exit_code, 6);
+    // What is wrong with a scene is wrong on every device.
+    const ProgramResult wrong = run("render none.json -o out/b.exr --fallback cpu");
+    EXPECT_EQ(wrong.exit_code, 4);
+    EXPECT_THAT(wrong.err, testing::Not(testing::HasSubstr("takes over")));
+}
+
 TEST_F(CliFaultsTest, CallsThatNeverReturnEndTheRunInTime) {
     const std::string command = "voxelume render scene.json -q -o a.exr --device-timeout 2";
     ASSERT_EQ(run("render scene.json -q -o a.exr").exit_code, 0);  // compiles

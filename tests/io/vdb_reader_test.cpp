@@ -87,7 +87,7 @@ TEST_F(VdbReaderTest, ADensityHasTheBitsOfOneThatIsReadHere) {
           MapBase::Ptr(new ScaleTranslateMap(Vec3d(0.3, 0.7, 1.1), Vec3d(0.1, 0.2, 0.3))),
           MapBase::Ptr(new UnitaryMap(turned)), MapBase::Ptr(new AffineMap(bent))}) {
         write_fog(map);
-        const GridDensity density{path(), "density", glm::dmat4(1), {}};
+        const GridDensity density{.file = path(), .grid = "density"};
         const auto [isolated, here] = read_both([&] { return read_vdb_density(density); });
         EXPECT_EQ(samples(*isolated), samples(*here)) << map->type();
         EXPECT_EQ(isolated->bytes(), here->bytes()) << map->type();
@@ -148,7 +148,7 @@ TEST_F(VdbReaderTest, DamageAnywhereEndsTheHelperAtMost) {
         put_bytes(path(), changed);
         for (int question = 0; question < 3; ++question) try {
                 if (question == 0) read_vdb_summary(path());
-                if (question == 1) read_vdb_density({path(), "density", glm::dmat4(1), {}});
+                if (question == 1) read_vdb_density({.file = path(), .grid = "density"});
                 if (question == 2) read_vdb_voxels(path(), Surface::cubes);
             } catch (const Error& error) {
                 EXPECT_EQ(error.kind(), ErrorKind::input) << i << ": " << error.what();

@@ -78,7 +78,7 @@ class DensityGridTest : public FileTest {
 
     std::filesystem::path path() const { return folder / "smoke.vdb"; }
     GridDensity grid_density(const std::string& name = "density") const {
-        return {path(), name, glm::dmat4(1), "fog.json:3:4: world.medium.density.file"};
+        return {.file = path(), .grid = name, .where = "fog.json:3:4: world.medium.density.file"};
     }
     World smoky_world() const {
         World world = medium_world({70, 50, 30});
