@@ -185,6 +185,11 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
     const double host =
         plan.host_bytes + (device.kind == DeviceKind::cpu ? peak + kDriverBytes : kDriverBytes);
     const auto there = double(main_memory());
+    if (kDriverBytes > there)
+        throw Error(ErrorKind::limit,
+                    "the program and its OpenCL driver take {} of main memory, of which this "
+                    "process may take {}: allow it more",
+                    bytes_text(kDriverBytes), bytes_text(there));
     if (host > there)
         refuse_world(scene.world,
                      fmt::format("{} of main memory, of which this process may take {}",

@@ -49,9 +49,13 @@ TEST_F(CliMemoryTest, AMemoryLimitRefusesWhatNeedsMoreBeforeItIsTaken) {
         const ProgramResult refused = run(command);
         EXPECT_EQ(refused.exit_code, 8) << command << refused.err;
         EXPECT_THAT(refused.err + refused.out,
-                    HasSubstr("of main memory, of which this process may take 200.0 MB"))
+                    HasSubstr("take 300 MB of main memory, of which this process may take 200 MB"))
             << command;
     }
+    const ProgramResult fine =
+        run("render scene.json -q -o b.png --memory-limit 500MB --set world.resolution=4000");
+    EXPECT_EQ(fine.exit_code, 8) << fine.err;
+    EXPECT_THAT(fine.err, HasSubstr(": use voxels larger than "));
     EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
     for (const char* size : {"12", "GB", "-1GB", "1e300GB", "nanGB", "1 GB", "0MB", "1XB"}) {
         const ProgramResult wrong = run(fmt::format("check scene.json --memory-limit '{}'", size));
