@@ -140,7 +140,7 @@ TEST_F(CliFaultsTest, AFallbackTakesOverWithTheSameBits) {
     const std::map<std::string, std::string> expected = files();
     ASSERT_EQ(expected.size(), 3u);
     for (const char* fault : {"clCreateContext:1:-6", "clEnqueueNDRangeKernel:5:-36",
-                              "clEnqueueNDRangeKernel:30:-36", "clFinish:3:-36"}) {
+                              "clEnqueueNDRangeKernel:15:-36", "clFinish:3:-36"}) {
         remove_files();
         const ProgramResult result =
             run_line(fmt::format("env LD_PRELOAD='{}' VXL_FAULT={} timeout 60 voxelume {} "
