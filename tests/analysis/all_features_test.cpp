@@ -33,6 +33,7 @@ std::string scene_text(const std::string& light) {
 "materials": {"glass": {"diffuse": 0.2, "refraction": 0.8, "reflection": 0.2, "fresnel": true,
                         "ior": 1.1, "absorption": [0.1, 0.3, 0.2]},
               "clay": {"color": [0.8, 0.6, 0.4], "checker": {"color": [0.1, 0.2, 0.3], "size": 0.4}},
+              "brass": {"base_color": [0.9, 0.7, 0.3], "metallic": 0.8, "roughness": 0.3},
               "glow": {"emission": [3, 2, 1]}, "veil": {"opacity": 0.5}},
 "models": {"ball": {"shape": "sphere", "radius": 0.4, "surface": "exact"},
            "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
@@ -47,6 +48,7 @@ std::string scene_text(const std::string& light) {
             {"model": "ice", "material": "glass", "position": [-0.8, -0.5, 0.3]},
             {"model": "floor", "material": "clay", "position": [0, -0.9, 0]},
             {"model": "ice", "material": "glow", "position": [0.9, 0.6, 0.4]},
+            {"model": "ice", "material": "brass", "position": [0.9, -0.5, 0.9]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
             {"model": "lens", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
@@ -86,7 +88,8 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device))
         EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE" ||
-                    ((name == "VXL_GLOBAL" || name == "VXL_EMITTERS") && !is_global))
+                    ((name == "VXL_GLOBAL" || name == "VXL_EMITTERS" || name == "VXL_PHYSICAL") &&
+                     !is_global))
             << name;
 
     DeviceCounters& counters = device.counters();
