@@ -82,7 +82,7 @@ void limit_memory(const SceneOptions& options, const char* command) {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
     const auto* unit = std::ranges::find(kUnits, std::string_view(end), &Unit::name);
-    if (unit != kUnits.end() && number > 0 && number <= 1e6)
+    if (unit != kUnits.end() && number * unit->bytes >= 1 && number <= 1e6)
         return v1::limit_memory(uint64_t(number * unit->bytes));
     fail_usage("{}: --memory-limit {}: give a size like 500MB or 2.5GB", command, quote(text));
 }

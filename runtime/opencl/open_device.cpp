@@ -18,14 +18,18 @@ std::string refusal_of(const std::string& fault) {
     return fault + " (VOXELUME_SELF_TEST=again has it tested again)";
 }
 
-/// The candidates with the results of earlier self-tests.
-std::vector<Candidate> find_tested_candidates() {
+/// The candidates with the results of earlier self-tests: those that are kept, or, where devices
+/// are tested again, those of this process.
+std::vector<Candidate> find_tested_candidates(int lanes = 0) {
     std::vector<Candidate> candidates = find_candidates();
-    if (self_test_mode() != SelfTestMode::once) return candidates;
+    const SelfTestMode mode = self_test_mode();
+    if (mode == SelfTestMode::off) return candidates;
     for (Candidate& candidate : candidates) {
         DeviceInfo& info = candidate.info;
         if (!info.unusable.empty()) continue;
-        const std::optional<std::string> fault = kept_fault(info);
+        const DeviceInfo as_opened = settled(info, lanes);
+        const std::optional<std::string> fault =
+            mode == SelfTestMode::again ? fresh_fault(as_opened) : kept_fault(as_opened);
         if (!fault) continue;
         info.self_test = fault->empty() ? SelfTest::passed : SelfTest::failed;
         if (!fault->empty()) info.unusable = refusal_of(*fault);
@@ -85,7 +89,7 @@ std::optional<Device> Device::open_tested(const Candidate& chosen, int lanes, co
 
 Device Device::open(std::string_view selector, int lanes, const Device* beside) {
     const std::string wanted = selector_or_default(selector);
-    std::vector<Candidate> candidates = find_tested_candidates();
+    std::vector<Candidate> candidates = find_tested_candidates(lanes);
     for (std::string fault;;) {
         const Candidate& chosen = choose(candidates, wanted);
         if (std::optional<Device> device = open_tested(chosen, lanes, beside, fault))
@@ -98,7 +102,7 @@ std::vector<Device> Device::open_all(std::string_view selector, int lanes) {
     const std::string wanted = selector_or_default(selector);
     const int parts = parts_of_all(wanted);
     if (parts == 0) return {open(wanted, lanes)};
-    std::vector<Candidate> candidates = find_tested_candidates();
+    std::vector<Candidate> candidates = find_tested_candidates(lanes);
     std::vector<Device> devices;
     for (std::string fault;; devices.clear()) {
         const std::vector<Candidate> chosen = choose_all(candidates, parts);

@@ -31,6 +31,9 @@ SelfTestMode self_test_mode();
 /// tested with this driver, for this number of lanes and these compiler's options.
 std::optional<std::string> kept_fault(const DeviceInfo& info);
 
+/// The result of a self-test that this process made or read.
+std::optional<std::string> fresh_fault(const DeviceInfo& info);
+
 /// Keeps a result below `cache_folder()`, and for this process.
 void keep_fault(const DeviceInfo& info, const std::string& fault);
 

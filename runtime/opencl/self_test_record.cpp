@@ -74,11 +74,18 @@ SelfTestMode self_test_mode() {
     throw Error(ErrorKind::usage, "VOXELUME_SELF_TEST={}: must be again or off", text);
 }
 
-std::optional<std::string> kept_fault(const DeviceInfo& info) {
+std::optional<std::string> fresh_fault(const DeviceInfo& info) {
     const std::string key = result_key(info);
     const std::lock_guard lock(results().mutex);
     const auto found = results().faults.find(key);
-    if (found != results().faults.end()) return found->second;
+    if (found == results().faults.end()) return std::nullopt;
+    return found->second;
+}
+
+std::optional<std::string> kept_fault(const DeviceInfo& info) {
+    if (const std::optional<std::string> fault = fresh_fault(info)) return fault;
+    const std::string key = result_key(info);
+    const std::lock_guard lock(results().mutex);
     std::optional<std::string> fault = fault_store().read(key);
     if (fault) results().faults[key] = *fault;
     return fault;

@@ -79,6 +79,26 @@ TEST_F(CliDriverTest, IsListedWithWhatItGetsWrong) {
     EXPECT_EQ(row["state"], kWrongReciprocal);
 }
 
+TEST_F(CliDriverTest, IsTestedForEachNumberOfLanes) {
+    EXPECT_EQ(with_wrong_bits("devices").exit_code, 0);
+    EXPECT_EQ(with("", kRender).exit_code, 6);
+    EXPECT_EQ(with("VOXELUME_LANES=1", kRender).exit_code, 0);
+    const Json device = Json::parse(with("VOXELUME_LANES=1", "devices --json").out).at(0);
+    EXPECT_EQ(device["self_test"], "passed");
+    EXPECT_EQ(first_device()["self_test"], "failed");
+}
+
+TEST_F(CliDriverTest, IsListedAsItWasTestedAgain) {
+    const auto again = [](const Json& devices) { return devices.at(0)["self_test"]; };
+    EXPECT_EQ(again(Json::parse(with("VOXELUME_SELF_TEST=again", "devices --json").out)), "passed");
+    EXPECT_EQ(again(Json::parse(with_wrong_bits("devices --json").out)), "passed") << "kept";
+    const ProgramResult wrong = with(fmt::format("VOXELUME_SELF_TEST=again LD_PRELOAD='{}' "
+                                                 "VXL_FAULT=clEnqueueReadBuffer:1:wrong",
+                                                 VXL_FAULTS),
+                                     "devices --json");
+    EXPECT_EQ(again(Json::parse(wrong.out)), "failed");
+}
+
 TEST_F(CliDriverTest, IsTestedOnceForAllRuns) {
     EXPECT_GT(count("clBuildProgram", "devices"), 0);
     EXPECT_EQ(count("clBuildProgram", "devices"), 0);

@@ -57,7 +57,8 @@ TEST_F(CliMemoryTest, AMemoryLimitRefusesWhatNeedsMoreBeforeItIsTaken) {
     EXPECT_EQ(fine.exit_code, 8) << fine.err;
     EXPECT_THAT(fine.err, HasSubstr(": use voxels larger than "));
     EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
-    for (const char* size : {"12", "GB", "-1GB", "1e300GB", "nanGB", "1 GB", "0MB", "1XB"}) {
+    for (const char* size :
+         {"12", "GB", "-1GB", "1e300GB", "nanGB", "1 GB", "0MB", "0.0000001MB", "1XB"}) {
         const ProgramResult wrong = run(fmt::format("check scene.json --memory-limit '{}'", size));
         EXPECT_EQ(wrong.exit_code, 2) << size;
         EXPECT_THAT(wrong.err, HasSubstr("give a size like 500MB or 2.5GB")) << size;
