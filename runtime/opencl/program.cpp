@@ -23,8 +23,8 @@ std::string build_options(const Device& device, const KernelSource& source, Defi
     std::ranges::sort(defines);  // in any order, they make the same program
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
-    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM's optimizer adds.
-    if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
+    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM adds as it inlines.
+    if (device.info().platform == "Oclgrind") options += " -cl-opt-disable -DOCLGRIND";
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
 }

@@ -21,7 +21,7 @@
 
 // Functions that most kernels' deepest calls pass. PoCL 3.1 copies a kernel's functions anew along
 // each chain of calls, of which these would make millions. Its optimizer resolves them by itself.
-#if defined(__clang__) && !defined(__OPTIMIZE__)
+#if defined(__clang__) && !defined(__OPTIMIZE__) && !defined(OCLGRIND)
 #define INLINED inline __attribute__((always_inline))
 #else
 #define INLINED inline
