@@ -20,8 +20,11 @@ constexpr int kBlockEdge = 8;  // cells along the edge of a block whose range is
 /// The least and the largest of some values; none where `min` is above `max`.
 struct Extremes {
     float min = INFINITY, max = -INFINITY;
+    bool has_gaps = false;  ///< some are missing
 
     void add(float value) {
+        has_gaps |= value == kOutsideScan;
+        if (value == kOutsideScan) return;
         min = std::min(min, value);
         max = std::max(max, value);
     }
@@ -75,6 +78,7 @@ class ArrayDensity : public DensityField {
                                   size_t(x)];
                     range.min = std::min(range.min, double(block.min));
                     range.max = std::max(range.max, double(block.max));
+                    range.reaches_out |= block.has_gaps;
                 }
         return range;
     }
@@ -167,10 +171,8 @@ class ArrayDensity : public DensityField {
                 const size_t row =
                     (size_t(z / kBlockEdge) * size_t(blocks_.y) + size_t(y / kBlockEdge)) *
                     size_t(blocks_.x);
-                for (int x = 0; x < size_.x; ++x) {
-                    const float value = values_[place++];
-                    if (value != kOutsideScan) extremes_[row + size_t(x / kBlockEdge)].add(value);
-                }
+                for (int x = 0; x < size_.x; ++x)
+                    extremes_[row + size_t(x / kBlockEdge)].add(values_[place++]);
             }
     }
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media of scans: values that are missing, that are negative, and that have no room.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "runtime/base/main_memory.hpp"
+#include "runtime/grid/density_field.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/scene/world.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/medium/density_source.hpp"
+#include "tests/light/medium_fixture.hpp"
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+
+namespace {
+
+class ScanDensityTest : public FileTest {
+  protected:
+    void TearDown() override {
+        limit_main_memory(0);
+        FileTest::TearDown();
+    }
+
+    /// Writes a NRRD file of 32^3 values in cells of 1 m, whose first begins at the origin.
+    void write_scan(const std::function<float(const glm::ivec3&)>& value_at) const {
+        std::ofstream out(folder / "scan.nrrd", std::ios::binary);
+        out << "NRRD0004\ntype: float\ndimension: 3\nsizes: 32 32 32\n"
+               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace dimension: 3\n"
+               "space origin: (0.5,0.5,0.5)\nendian: little\nencoding: raw\n\n";
+        for (int i = 0; i < 32 * 32 * 32; ++i) {
+            const float value = value_at({i & 31, i >> 5 & 31, i >> 10});
+            out.write(reinterpret_cast<const char*>(&value), sizeof value);
+        }
+    }
+
+    World world_of(const char* file, const std::vector<TransferPoint>& transfer = {}) const {
+        World world;
+        world.voxel_size = glm::dvec3(1);
+        world.bounds = {glm::dvec3(0), glm::dvec3(32)};
+        world.voxels = glm::ivec3(32);
+        world.medium.absorption = glm::vec3(1);
+        world.medium.density = GridDensity{.file = folder / file,
+                                           .grid = "density",
+                                           .transfer = transfer,
+                                           .where = "s.json:3:4: world.medium.density.file"};
+        return world;
+    }
+};
+
+/// The density at a voxel of a world that is 2 bricks wide.
+float density_in(const DensityGrid& grid, const glm::ivec3& voxel) {
+    const glm::ivec3 brick = voxel / 16, inside = voxel % 16;
+    const uint32_t word = grid.bricks.read().at(size_t((brick.z * 2 + brick.y) * 2 + brick.x));
+    const std::vector<float> values = grid.values.read();
+    if ((word & VXL_DENSITY_CONSTANT) != 0) return values.at(word & VXL_DENSITY_SLOT);
+    return values.at(size_t(word) * 4096 + size_t(inside.x + 16 * inside.y + 256 * inside.z));
+}
+
+}  // namespace
+
+TEST_F(ScanDensityTest, NothingIsWhereValuesAreMissing) {
+    // All others are alike, which makes no brick with both kinds of cells a constant.
+    write_scan([](const glm::ivec3& cell) { return cell.x < 8 ? 1.0F : NAN; });
+    const DensityGrid grid = form_density_grid(test_device(), world_of("scan.nrrd"));
+    for (const int yz : {0, 5, 17, 31})
+        for (const int x : {0, 6, 7, 8, 9, 15, 16, 31})
+            EXPECT_EQ(density_in(grid, {x, yz, yz}), x < 8 ? 1.0F : 0.0F) << x << "," << yz;
+    EXPECT_EQ(plan_density(world_of("scan.nrrd")).stored_bricks, 4);
+    write_scan([](const glm::ivec3&) { return NAN; });
+    EXPECT_TRUE(plan_density(world_of("scan.nrrd")).is_zero);
+}
+
+}  // namespace voxelume
