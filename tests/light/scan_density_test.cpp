@@ -76,4 +76,17 @@ TEST_F(ScanDensityTest, NothingIsWhereValuesAreMissing) {
     EXPECT_TRUE(plan_density(world_of("scan.nrrd")).is_zero);
 }
 
+TEST_F(ScanDensityTest, WithoutRoomIsRefusedBeforeItIsRead) {
+    write_scan([](const glm::ivec3&) { return 1.0F; });
+    limit_main_memory(4 * 32 * 32 * 32);
+    EXPECT_FALSE(plan_density(world_of("scan.nrrd")).is_zero);
+    limit_main_memory(4 * 32 * 32 * 32 - 1);
+    const Error error = error_of([&] { plan_density(world_of("scan.nrrd")); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), HasSubstr("s.json:3:4: world.medium.density.file: "));
+    EXPECT_THAT(error.what(), HasSubstr("scan.nrrd: its 32768 values take 0.1311 MB of main "
+                                        "memory, of which this process may take 0.1311 MB: "
+                                        "allow it more, or use a smaller file"));
+}
+
 }  // namespace voxelume

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/base/main_memory.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 
 namespace voxelume {
@@ -30,6 +31,16 @@ struct Extremes {
     }
 };
 
+/// Throws Error::limit where the values don't fit, before they are read.
+void check_room(const CellArray& array, const InputFile& file) {
+    const double bytes = double(array.cells()) * sizeof(float), there = double(main_memory());
+    if (bytes <= there) return;
+    throw Error(SourcePlace(file.path().string()), ErrorKind::limit,
+                fmt::format("{}: its {} values take {:.4g} MB of main memory, of which this "
+                            "process may take {:.4g} MB: allow it more, or use a smaller file",
+                            file.path().string(), array.cells(), bytes / 1e6, there / 1e6));
+}
+
 class ArrayDensity : public DensityField {
   public:
     ArrayDensity(const CellArray& array, const glm::dmat4& world_from_array) : size_(array.size()) {
@@ -38,6 +49,7 @@ class ArrayDensity : public DensityField {
         if (array.cells() > kMaxDensityCells)
             file.refuse(fmt::format("it has {} cells; a density has 2^28 at most", array.cells()));
         check_array(array, file);
+        check_room(array, file);
         // Coordinates in which the middle of the first cell is the origin, and the next one's 1.
         glm::dmat4 array_from_cell(1);
         for (int axis = 0; axis < 3; ++axis) array_from_cell[axis][axis] = array.voxel_edge[axis];
