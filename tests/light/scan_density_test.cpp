@@ -89,4 +89,31 @@ TEST_F(ScanDensityTest, WithoutRoomIsRefusedBeforeItIsRead) {
                                         "allow it more, or use a smaller file"));
 }
 
+TEST_F(ScanDensityTest, NegativeValuesOfOpenVdbReachTheTransfer) {
+    std::vector<glm::ivec3> cells;
+    std::vector<float> values;
+    for (int i = 0; i < 16 * 16 * 16; ++i) {
+        cells.emplace_back(i & 15, i >> 4 & 15, i >> 8);
+        values.push_back(float(cells.back().x) - 8);
+    }
+    VdbVolume volume;
+    volume.cells = cells;
+    volume.values = values;
+    volume.background = -40;
+    write_vdb(folder / "scan.vdb", volume);
+    // Between the points lies -5.5, the mean of voxel 2 from -6 to -5, and 0.5.
+    const World world = world_of(
+        "scan.vdb",
+        {{-30, 8, {1, 1, 1}}, {-20, 0, {1, 1, 1}}, {-10, 0, {1, 1, 1}}, {0, 1, {1, 1, 1}}});
+    const DensityGrid grid = form_density_grid(test_device(), world);
+    EXPECT_NEAR(density_in(grid, {2, 5, 5}), 0.45, 1e-6);
+    EXPECT_NEAR(density_in(grid, {0, 5, 5}), 0.25, 1e-6);
+    EXPECT_NEAR(density_in(grid, {12, 5, 5}), 1, 1e-6);
+    EXPECT_NEAR(density_in(grid, {20, 20, 20}), 8, 1e-6) << "the background";
+    World plain = world_of("scan.vdb");
+    const DensityGrid clamped = form_density_grid(test_device(), plain);
+    EXPECT_EQ(density_in(clamped, {2, 5, 5}), 0);
+    EXPECT_NEAR(density_in(clamped, {12, 5, 5}), 4.5, 1e-6);
+}
+
 }  // namespace voxelume
