@@ -168,6 +168,47 @@ TEST(TransferCurve, IsExactlyAveragedOverLinearValues) {
               glm::dvec4(0));
 }
 
+TEST(TransferCurve, MayRiseBetweenTheClosestPoints) {
+    const std::array<float, 8> far = {200, 200, 200, 200, 200, 200, 200, 200};
+    for (const double gap : {1e-1, 1e-6, 1e-9, 1e-12, 1e-13}) {
+        const TransferCurve step(
+            std::vector<TransferPoint>{{100, 0.5F, {1, 1, 1}}, {100 + gap, 2, {1, 1, 1}}});
+        EXPECT_EQ(step.at(200), glm::dvec4(2)) << gap;
+        EXPECT_EQ(step.mean(far), glm::dvec4(2)) << gap;
+        // A box of whose values, from 96 to 104 along X, half lie below the step.
+        const glm::dvec4 mean = step.mean({96, 104, 96, 104, 96, 104, 96, 104});
+        EXPECT_NEAR(mean.w, 0.5 + 1.5 * (4 - gap / 2) / 8, 1e-7) << gap;
+        // A corner of the box, a sixth of it, lies below the step.
+        EXPECT_NEAR(step.mean({97, 100, 100, 103, 100, 103, 103, 106}).w,
+                    2 - 1.5 / 6 - 1.5 * gap / 12, gap * gap + 1e-6)
+            << gap;
+    }
+    for (const double gap : {1e-300, 1e-310}) {
+        const TransferCurve step(
+            std::vector<TransferPoint>{{0, 0.5F, {1, 1, 1}}, {gap, 2, {1, 1, 1}}});
+        EXPECT_EQ(step.mean(far), glm::dvec4(2)) << gap;
+        EXPECT_NEAR(step.mean({-1, 3, -1, 3, -1, 3, -1, 3}).w, 0.5 + 1.5 * 0.75, 1e-7) << gap;
+    }
+}
+
+TEST(TransferCurve, IsExactlyNothingBetweenPointsOfNothing) {
+    const TransferCurve curve(std::vector<TransferPoint>{{-200, 0, {1, 1, 1}},
+                                                         {40, 0.5F, {1, 0.9F, 0.3F}},
+                                                         {100, 0, {1, 1, 1}},
+                                                         {300, 0, {1, 1, 1}},
+                                                         {900, 4, {1, 1, 1}},
+                                                         {1000.1, 0, {1, 1, 1}}});
+    for (float value = 100; value <= 300; value += 0.37F) {
+        EXPECT_EQ(curve.at(value), glm::dvec4(0)) << value;
+        EXPECT_EQ(curve.mean({100, value, 300, value, 200, 200, value, value}), glm::dvec4(0));
+        EXPECT_TRUE(curve.is_zero_in(100, value));
+        EXPECT_FALSE(curve.is_zero_in(99.9, value));
+    }
+    EXPECT_EQ(curve.at(1e9), glm::dvec4(0));
+    EXPECT_TRUE(curve.is_zero_in(1001, INFINITY));
+    EXPECT_FALSE(curve.is_zero_in(-INFINITY, INFINITY));
+}
+
 TEST_F(TransferTest, LightOfARampIsNearlyThatOfThinLayers) {
     const Image image = picture(ramp_scene("[-4, 0.6875, 0.6875]"));
     // Inside of a voxel, light is mixed with the mean colour: here a voxel has depths of up to 1.

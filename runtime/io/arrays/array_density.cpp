@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/base/main_memory.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 
 namespace voxelume {
@@ -20,12 +21,25 @@ constexpr int kBlockEdge = 8;  // cells along the edge of a block whose range is
 /// The least and the largest of some values; none where `min` is above `max`.
 struct Extremes {
     float min = INFINITY, max = -INFINITY;
+    bool has_gaps = false;  ///< some are missing
 
     void add(float value) {
+        has_gaps |= value == kOutsideScan;
+        if (value == kOutsideScan) return;
         min = std::min(min, value);
         max = std::max(max, value);
     }
 };
+
+/// Throws Error::limit where the values don't fit, before they are read.
+void check_room(const CellArray& array, const InputFile& file) {
+    const double bytes = double(array.cells()) * sizeof(float), there = double(main_memory());
+    if (bytes <= there) return;
+    throw Error(SourcePlace(file.path().string()), ErrorKind::limit,
+                fmt::format("{}: its {} values take {:.4g} MB of main memory, of which this "
+                            "process may take {:.4g} MB: allow it more, or use a smaller file",
+                            file.path().string(), array.cells(), bytes / 1e6, there / 1e6));
+}
 
 class ArrayDensity : public DensityField {
   public:
@@ -35,6 +49,7 @@ class ArrayDensity : public DensityField {
         if (array.cells() > kMaxDensityCells)
             file.refuse(fmt::format("it has {} cells; a density has 2^28 at most", array.cells()));
         check_array(array, file);
+        check_room(array, file);
         // Coordinates in which the middle of the first cell is the origin, and the next one's 1.
         glm::dmat4 array_from_cell(1);
         for (int axis = 0; axis < 3; ++axis) array_from_cell[axis][axis] = array.voxel_edge[axis];
@@ -75,6 +90,7 @@ class ArrayDensity : public DensityField {
                                   size_t(x)];
                     range.min = std::min(range.min, double(block.min));
                     range.max = std::max(range.max, double(block.max));
+                    range.reaches_out |= block.has_gaps;
                 }
         return range;
     }
@@ -167,10 +183,8 @@ class ArrayDensity : public DensityField {
                 const size_t row =
                     (size_t(z / kBlockEdge) * size_t(blocks_.y) + size_t(y / kBlockEdge)) *
                     size_t(blocks_.x);
-                for (int x = 0; x < size_.x; ++x) {
-                    const float value = values_[place++];
-                    if (value != kOutsideScan) extremes_[row + size_t(x / kBlockEdge)].add(value);
-                }
+                for (int x = 0; x < size_.x; ++x)
+                    extremes_[row + size_t(x / kBlockEdge)].add(values_[place++]);
             }
     }
 

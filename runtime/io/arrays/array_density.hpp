@@ -14,7 +14,8 @@ namespace voxelume {
 /// `world_from_array`. Between the middles of cells values are trilinear, in the outer halves of
 /// the outer cells they are those of the middles, and beyond there are none. Values that aren't
 /// finite are none either. Throws Error::input for a file that is truncated or damaged, for
-/// colours, and for more than 2^28 cells.
+/// colours, and for more than 2^28 cells, and Error::limit for more values than main_memory() has
+/// room for.
 std::unique_ptr<DensityField> read_array_density(const CellArray& array,
                                                  const glm::dmat4& world_from_array);
 

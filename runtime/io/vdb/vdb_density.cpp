@@ -28,9 +28,48 @@ class VdbField : public DensityField {
           active_(grid_->evalActiveVoxelBoundingBox()) {}
 
     std::optional<float> constant_in(const Bounds& box) const override {
+        const std::optional<float> value = value_in(box);
+        return value ? std::optional(density_of(*value)) : std::nullopt;
+    }
+
+    ValueRange range_in(const Bounds& box) const override {
+        if (const auto value = value_in(box)) return {double(*value), double(*value)};
+        return DensityField::range_in(box);
+    }
+
+    void sample(const glm::dvec3& first, const glm::dvec3& step,
+                std::span<float, 4096> densities) const override {
+        sample_values(first, step, glm::ivec3(16), densities);
+        for (float& density : densities) density = density_of(density);
+    }
+
+    void sample_values(const glm::dvec3& first, const glm::dvec3& step, const glm::ivec3& count,
+                       std::span<float> values) const override {
+        const auto accessor = grid_->getConstAccessor();
+        size_t place = 0;
+        for (int z = 0; z < count.z; ++z)
+            for (int y = 0; y < count.y; ++y)
+                for (int x = 0; x < count.x; ++x) {
+                    const glm::dvec3 p = first + step * glm::dvec3(x, y, z);
+                    openvdb::tools::BoxSampler::sample(accessor, near_active(index_of(p)),
+                                                       values[place++]);
+                }
+    }
+
+    bool is_zero() const override {
+        for (auto value = grid_->cbeginValueAll(); value; ++value)
+            if (density_of(*value) > 0) return false;
+        return density_of(grid_->background()) == 0;
+    }
+
+    double bytes() const override { return double(grid_->memUsage()); }
+
+  private:
+    /// The value in a whole box, if it is known to be one.
+    std::optional<float> value_in(const Bounds& box) const {
         CoordBBox cells = cells_around(box);
         const float outside = grid_->background();
-        if (!cells.hasOverlap(active_)) return density_of(outside);
+        if (!cells.hasOverlap(active_)) return outside;
         const bool reaches_out = !active_.isInside(cells);
         cells.intersect(active_);
         const auto accessor = grid_->getConstAccessor();
@@ -43,29 +82,9 @@ class VdbField : public DensityField {
                     if (accessor.probeConstLeaf(leaf) || accessor.getValue(leaf) != one)
                         return std::nullopt;
                 }
-        return density_of(one);
+        return one;
     }
 
-    void sample(const glm::dvec3& first, const glm::dvec3& step,
-                std::span<float, 4096> densities) const override {
-        const auto accessor = grid_->getConstAccessor();
-        for (size_t i = 0; i < 4096; ++i) {
-            const glm::dvec3 p = first + step * glm::dvec3(i & 15, i >> 4 & 15, i >> 8);
-            float value = 0;
-            openvdb::tools::BoxSampler::sample(accessor, near_active(index_of(p)), value);
-            densities[i] = density_of(value);
-        }
-    }
-
-    bool is_zero() const override {
-        for (auto value = grid_->cbeginValueAll(); value; ++value)
-            if (density_of(*value) > 0) return false;
-        return density_of(grid_->background()) == 0;
-    }
-
-    double bytes() const override { return double(grid_->memUsage()); }
-
-  private:
     openvdb::Vec3d index_of(const glm::dvec3& world) const {
         const glm::dvec3 p(grid_from_world_ * glm::dvec4(world, 1));
         return grid_->worldToIndex(openvdb::Vec3d(p.x, p.y, p.z));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "runtime/grid/density_field.hpp"
 
@@ -14,15 +15,15 @@ glm::dvec4 light_of(const TransferPoint& point) {
     return {glm::dvec3(point.color) * point.absorption, point.absorption};
 }
 
-/// The mean of max(u, 0) over a box in whose middle u is `middle`, and along whose edges it grows
-/// by `rises`: a sum over the corners of truncated powers (de Boor 1976).
-double mean_ramp(double middle, std::span<const double> rises) {
+/// The mean of max(u, 0)^power, 0 or 1, over a box in whose middle u is `middle`, and along whose
+/// edges it grows by `rises`: a sum over the corners of truncated powers (de Boor 1976).
+double mean_ramp(double middle, std::span<const double> rises, size_t power) {
     double reach = 0, divisor = 1;
     for (size_t i = 0; i < rises.size(); ++i) {
         reach += rises[i] / 2;
-        divisor *= rises[i] * double(i + 2);
+        divisor *= rises[i] * double(i + 1 + power);
     }
-    if (middle >= reach) return middle;
+    if (middle >= reach) return power == 0 ? 1 : middle;
     if (middle <= -reach) return 0;
     double sum = 0;
     for (size_t corner = 0; corner < size_t{1} << rises.size(); ++corner) {
@@ -32,9 +33,18 @@ double mean_ramp(double middle, std::span<const double> rises) {
             u += is_high ? rises[i] / 2 : -rises[i] / 2;
             if (!is_high) sign = -sign;
         }
-        if (u > 0) sum += sign * std::pow(u, double(rises.size() + 1));
+        if (u > 0) sum += sign * std::pow(u, double(rises.size() + power));
     }
     return sum / divisor;
+}
+
+/// The mean, over the box of mean_ramp(), of what rises from 0 at one value to 1 at another. It
+/// needs no slope, which has no bound where the two are close.
+double mean_step(double from, double to, double middle, std::span<const double> rises,
+                 double reach) {
+    // A difference of means would be lost in rounding here.
+    if (to - from < 1e-5 * reach) return mean_ramp(middle - (from + (to - from) / 2), rises, 0);
+    return (mean_ramp(middle - from, rises, 1) - mean_ramp(middle - to, rises, 1)) / (to - from);
 }
 
 /// By how much the values rise along the edges of a box, without those that matter little beside
@@ -55,31 +65,27 @@ size_t find_rises(const std::array<float, 8>& corners, std::array<double, 3>& ri
 }  // namespace
 
 TransferCurve::TransferCurve(std::span<const TransferPoint> points) {
-    glm::dvec4 slope(0);
-    for (size_t i = 0; i < points.size(); ++i) {
-        const TransferPoint& point = points[i];
-        glm::dvec4 next(0);
-        if (i + 1 < points.size())
-            next =
-                (light_of(points[i + 1]) - light_of(point)) / (points[i + 1].value - point.value);
+    for (const TransferPoint& point : points) {
         values_.push_back(point.value);
-        absorptions_.push_back(point.absorption);
-        bends_.push_back(next - slope);
-        slope = next;
+        lights_.push_back(light_of(point));
     }
-    before_ = light_of(points.front());
 }
 
-glm::dvec4 TransferCurve::combined(std::span<const double> ramps) const {
-    glm::dvec4 sum = before_;
-    for (size_t i = 0; i < ramps.size(); ++i) sum += bends_[i] * ramps[i];
-    return glm::max(sum, glm::dvec4(0));
+size_t TransferCurve::points_up_to(double value) const {
+    return size_t(std::ranges::upper_bound(values_, value) - values_.begin());
+}
+
+bool TransferCurve::bends_in(double min, double max) const {
+    const size_t next = points_up_to(min);
+    return next < values_.size() && values_[next] < max;
 }
 
 glm::dvec4 TransferCurve::at(double value) const {
-    std::vector<double> ramps;
-    for (const double point : values_) ramps.push_back(std::max(value - point, 0.0));
-    return combined(ramps);
+    const size_t next = points_up_to(value);
+    if (next == 0) return lights_.front();
+    if (next == values_.size()) return lights_.back();
+    const double share = (value - values_[next - 1]) / (values_[next] - values_[next - 1]);
+    return lights_[next - 1] * (1 - share) + lights_[next] * share;
 }
 
 glm::dvec4 TransferCurve::mean(const std::array<float, 8>& corners) const {
@@ -95,17 +101,23 @@ glm::dvec4 TransferCurve::mean(const std::array<float, 8>& corners) const {
     if (inside < corners.size()) return at(middle) * (double(inside) / 8);
     std::array<double, 3> rises{};
     const size_t count = find_rises(corners, rises);
-    std::vector<double> ramps;
-    ramps.reserve(values_.size());
-    for (const double point : values_)
-        ramps.push_back(mean_ramp(middle - point, std::span(rises).first(count)));
-    return combined(ramps);
+    const auto kept = std::span<const double>(rises).first(count);
+    const double reach = std::accumulate(kept.begin(), kept.end(), 0.0) / 2;
+    const auto [min, max] = std::ranges::minmax(corners);
+    if (!bends_in(min, max) || !bends_in(middle - reach, middle + reach)) return at(middle);
+    const size_t next = points_up_to(middle - reach);
+    glm::dvec4 mean = lights_[next == 0 ? 0 : next - 1];
+    for (size_t i = std::max<size_t>(next, 1);
+         i < values_.size() && values_[i - 1] < middle + reach; ++i)
+        mean += (lights_[i] - lights_[i - 1]) *
+                std::clamp(mean_step(values_[i - 1], values_[i], middle, kept, reach), 0.0, 1.0);
+    return glm::max(mean, glm::dvec4(0));
 }
 
 bool TransferCurve::is_zero_in(double min, double max) const {
     if (at(min).w != 0 || at(max).w != 0) return false;
     for (size_t i = 0; i < values_.size(); ++i)
-        if (values_[i] > min && values_[i] < max && absorptions_[i] != 0) return false;
+        if (values_[i] > min && values_[i] < max && lights_[i].w != 0) return false;
     return true;
 }
 

@@ -15,10 +15,11 @@ namespace voxelume {
 /// constant beyond the first and the last.
 class TransferCurve {
   public:
-    /// The points' values increase.
+    /// The points' values increase, however little.
     explicit TransferCurve(std::span<const TransferPoint> points);
 
-    /// Absorption times colour, and in `w` the absorption, at a value.
+    /// Absorption times colour, and in `w` the absorption, at a value: exactly 0 between points of
+    /// which both are 0, and exactly the first and the last point's beyond them.
     glm::dvec4 at(double value) const;
 
     /// Their mean over a box at whose corners are these values, x fastest. The values between are
@@ -30,12 +31,12 @@ class TransferCurve {
     bool is_zero_in(double min, double max) const;
 
   private:
-    glm::dvec4 combined(std::span<const double> ramps) const;
+    size_t points_up_to(double value) const;
+    /// Whether a point lies between two values.
+    bool bends_in(double min, double max) const;
 
     std::vector<double> values_;
-    std::vector<glm::dvec4> bends_;  ///< changes of the slope at the values
-    glm::dvec4 before_{0};           ///< left of the first point
-    std::vector<double> absorptions_;
+    std::vector<glm::dvec4> lights_;  ///< at the values
 };
 
 }  // namespace voxelume
