@@ -25,7 +25,7 @@ GltfMorph gltf_morph(const GltfFile& file, const GltfClip& clip, const GltfNode&
                                    track.keys.width, targets));
         morph.keys = &track.keys;
     }
-    if (is_own || morph.keys) morph.owner = node.number;
+    morph.owner = is_own || morph.keys ? node.number : GltfMorph::kMesh;
     if (morph.keys) morph.weights.resize(targets);
     if (!morph.keys &&
         std::ranges::count(morph.weights, 0.0) == std::ptrdiff_t(morph.weights.size()))

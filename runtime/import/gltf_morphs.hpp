@@ -13,7 +13,8 @@ namespace voxelume {
 
 /// The weights of a node's mesh, and what moves them.
 struct GltfMorph {
-    int owner = -1;               ///< number of the node whose weights they are; -1: the mesh's own
+    static constexpr int kMesh = -1, kNobody = -2;
+    int owner = kNobody;          ///< number of the node whose weights they are, or one of these
     std::vector<double> weights;  ///< empty: the mesh has no targets, or none pulls
     const Keyframes* keys = nullptr;  ///< of a clip; times are seconds
 };

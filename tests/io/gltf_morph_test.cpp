@@ -94,6 +94,19 @@ TEST_F(GltfMorphTest, WeightsOfAMeshOrANodePullItsVertices) {
     EXPECT_THAT(morph_text(pulled_triangle({0, 0})), Not(HasSubstr("morph")));
 }
 
+TEST_F(GltfMorphTest, ANodesWeightsOfZeroHoldAgainstItsMeshsWeights) {
+    GltfWriter writer = pulled_triangle({0.5F, 0.25F});
+    writer.json["nodes"].push_back({{"mesh", 0}, {"weights", {0, 0}}});
+    writer.json["nodes"].push_back({{"mesh", 0}, {"weights", {0, 0}}});
+    writer.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene scene = morph_scene(morph_text(writer));
+    EXPECT_EQ(distance_from(scene, 0.5, 0.25), 0);
+    const int unpulled = scene.objects[1].model;
+    EXPECT_NE(scene.objects[0].model, unpulled);
+    EXPECT_EQ(scene.objects[2].model, unpulled);  // nodes whose weights are all 0 share a model
+    EXPECT_EQ(assets_.box_of_file(scene.models[size_t(unpulled)], true).max.z, 3);
+}
+
 TEST_F(GltfMorphTest, ClipsMoveWeightsAtAnyTime) {
     const Scene scene = morph_scene(morph_text(waving_triangle({0, 1, 3}, {0, 0, 1, 0.5F, 0, -1})));
     EXPECT_EQ(scene.animation.frames, 73);
