@@ -16,6 +16,9 @@ using Clock = std::chrono::steady_clock;
 /// The number of samples by which two halves are first compared.
 constexpr int kFirstSamples = 16;
 
+/// Colours, and no other channel.
+constexpr ImageChannels kColorAlone = {true, false, false, false, false};
+
 /// Adds a tile to those that ranges hold, in order.
 void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
     if (!ranges.empty() && ranges.back().first + ranges.back().count == tile)
@@ -57,6 +60,7 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
     part.render.samples = std::min(kFirstSamples, scene.render.samples);
     Image image = image_of_tiles(part, world, report, tiles);
     std::vector<TileRange> left = tiles.taken;
+    part.render.channels = kColorAlone;  // others are undefined in tiles that aren't rendered again
     std::vector<float> errors(tiles.share.tiles(), -1.0f);
     for (int done = part.render.samples; !left.empty() && 2 * done <= scene.render.samples;
          done *= 2) {

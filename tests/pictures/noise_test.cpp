@@ -96,6 +96,21 @@ TEST(Noise, AddsSamplesToThoseOfAShorterRun) {
                 << channel << i;
 }
 
+TEST(Noise, LeavesMattesAndNumbersAsTheFirstSamplesHaveThem) {
+    const auto rendered = [](double error, int samples) {
+        Scene scene = noisy_scene(error, samples);
+        scene.render.channels.object_matte = scene.render.channels.material_matte = true;
+        RenderReport report;
+        return render(test_device(), scene, report);
+    };
+    // Buffers of the second image lie where those of the first one did, full of its light.
+    const Image first = rendered(0, 16), more = rendered(0.02, 1024);
+    for (const auto& [name, plane] : first.planes)
+        EXPECT_EQ(more.planes.at(name) == plane, name.size() > 1 || name == "Z") << name;
+    EXPECT_TRUE(more.id_planes == first.id_planes);
+    EXPECT_TRUE(more.attributes == first.attributes);
+}
+
 TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
     const Rendered whole = rendered_to(0.05, 256, 1);
     for (const int lanes : {4, 16}) {
