@@ -52,13 +52,13 @@ std::vector<TileRange> add_samples(const std::vector<TileRange>& tiles, const Im
 Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                               const Tiles& tiles) {
     const NoiseTarget target = scene.render.noise;
-    if (!target.is_given() || !scene.render.channels.color)
-        return image_of_tiles(scene, world, report, tiles);
+    if (!target.is_given()) return image_of_tiles(scene, world, report, tiles);
     const auto start = Clock::now();
     Scene part = scene;
     part.render.noise = {};
     part.render.samples = std::min(kFirstSamples, scene.render.samples);
     Image image = image_of_tiles(part, world, report, tiles);
+    if (!scene.render.channels.color) return image;
     std::vector<TileRange> left = tiles.taken;
     part.render.channels = kColorAlone;  // others are undefined in tiles that aren't rendered again
     std::vector<float> errors(tiles.share.tiles(), -1.0f);

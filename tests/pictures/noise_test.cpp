@@ -111,6 +111,15 @@ TEST(Noise, LeavesMattesAndNumbersAsTheFirstSamplesHaveThem) {
     EXPECT_TRUE(more.attributes == first.attributes);
 }
 
+TEST(Noise, AddsNoSamplesWhereNoLightIsAskedFor) {
+    Scene scene = noisy_scene(0.02, 4096);
+    scene.render.channels.color = false;
+    RenderReport report;
+    render(test_device(), scene, report);
+    EXPECT_EQ(report.sight_rays, 16u * 1024);
+    EXPECT_EQ(report.noise.tiles, 0u);
+}
+
 TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
     const Rendered whole = rendered_to(0.05, 256, 1);
     for (const int lanes : {4, 16}) {
