@@ -137,5 +137,28 @@ TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
                       whole.image.planes.at("G")[size_t((y + 16) * 32 + x + 8)]);
 }
 
+TEST(Noise, IsMeasuredInPartsOfWholeTilesAlone) {
+    Scene scene = noisy_scene(0.05, 256);
+    resize(scene, {30, 31});
+    const auto expect_refusal = [&scene](glm::ivec2 first, glm::ivec2 size) {
+        Scene part = scene;
+        try {
+            crop(part, first, size);
+            FAIL() << first.x << ' ' << first.y << ' ' << size.x << ' ' << size.y;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::usage);
+            EXPECT_NE(std::string(error.what()).find("multiples of 4"), std::string::npos);
+        }
+    };
+    expect_refusal({9, 10}, {12, 8});
+    expect_refusal({8, 8}, {12, 9});
+    expect_refusal({8, 8}, {13, 8});
+    crop(scene, {8, 8}, {12, 8});
+    Scene to_the_edge = scene;
+    crop(to_the_edge, {8, 8}, {22, 23});
+    scene.render.noise = {};
+    crop(scene, {9, 10}, {12, 9});
+}
+
 }  // namespace
 }  // namespace voxelume
