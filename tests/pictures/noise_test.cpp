@@ -120,6 +120,26 @@ TEST(Noise, AddsNoSamplesWhereNoLightIsAskedFor) {
     EXPECT_EQ(report.noise.tiles, 0u);
 }
 
+TEST(Noise, GivesPassesTheSamplesOfAllLight) {
+    const Rendered alone = rendered_to(0.05, 256);
+    Scene scene = noisy_scene(0.05, 256);
+    scene.render.channels.direct = scene.render.channels.light_groups = true;
+    for (const bool has_color : {true, false}) {
+        scene.render.channels.color = has_color;
+        RenderReport report;
+        const Image image = render(test_device(), scene, report);
+        EXPECT_EQ(report.sight_rays, 3 * alone.report.sight_rays);
+        EXPECT_EQ(report.noise.tiles, 64u);
+        EXPECT_EQ(report.noise.squares, alone.report.noise.squares);
+        EXPECT_EQ(image.planes.contains("R"), has_color);
+        EXPECT_EQ(image.planes.contains("A"), has_color);
+        // No light is of a group.
+        for (const char* color : {"R", "G", "B"})
+            EXPECT_TRUE(image.planes.at(fmt::format("light_rest.{}", color)) ==
+                        alone.image.planes.at(color));
+    }
+}
+
 TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
     const Rendered whole = rendered_to(0.05, 256, 1);
     for (const int lanes : {4, 16}) {
