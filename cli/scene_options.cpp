@@ -26,7 +26,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->check(in_range(1, 4096, Number::whole));
     app.add_option("--noise", options.noise,
                    "standard error of light at which 4 x 4 pixels have samples enough, of their "
-                   "mean, like 0.02; --samples is the maximum, by default 4096")
+                   "mean, like 0.02; they double from 16 to at most --samples, by default 4096")
         ->check(in_range(1e-4, 1));
     app.add_option("--time", options.time,
                    "seconds that an image's samples may take, which are doubled as long as time "

@@ -248,6 +248,7 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
         voxelume::Image whole = join_images(std::move(images));
         api::Attributes attributes = std::exchange(whole.attributes, {});
         attributes.erase(api::kStamp);
+        attributes.erase("noise");  // of the first part alone
         attributes[api::kFrameHash] = hash;
         const Image image = api::handle_of(
             std::make_shared<const voxelume::Image>(std::move(whole)), std::move(attributes));

@@ -153,6 +153,7 @@ Scene Scene::with_noise(double error, double seconds, int max_samples) const {
         voxelume::Scene scene = api::inside(*this);
         scene.render.samples = max_samples;
         scene.render.noise = {error, seconds};
+        check_tiles(scene.render);
         return api::handle_of(std::move(scene), implementation().hash, implementation().read);
     });
 }

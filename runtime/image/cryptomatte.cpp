@@ -75,7 +75,8 @@ void add_cryptomatte(const std::string& layer, const std::vector<std::string>& n
     for (uint32_t rank = 0; rank < coverage.ranks; ++rank) {
         std::vector<float> id(pixels), share(pixels);
         for (size_t i = 0; i < pixels; ++i) {
-            id[i] = ids[coverage.numbers[rank * pixels + i]];
+            const uint32_t number = coverage.numbers[rank * pixels + i];
+            id[i] = number < ids.size() ? ids[number] : 0.0f;
             share[i] = coverage.shares[rank * pixels + i];
         }
         const std::string start = fmt::format("{}{:02}.", layer, rank / 2);

@@ -28,7 +28,7 @@ struct RankedCoverage {
 };
 
 /// Adds the channels LAYER00.R ... of an image, two ranks in each four, and the attributes with the
-/// manifest. `names` are those of the numbers 1, 2, ...
+/// manifest. `names` are those of the numbers 1, 2, ...; larger numbers are nothing.
 void add_cryptomatte(const std::string& layer, const std::vector<std::string>& names,
                      const RankedCoverage& coverage, Image& image);
 

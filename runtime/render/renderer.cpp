@@ -135,23 +135,35 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
                               const Tiles& tiles) {
     const glm::ivec2& size = scene.render.size;
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
-        Image image = sampled_image(scene, world, report, tiles);
-        add_passes(scene, world, tiles, report, image);
+        Scene shown = scene;
+        // Passes have as many samples as all light needs.
+        const bool adds_color = scene.render.noise.is_given() && !scene.render.channels.color &&
+                                !light_passes(scene).empty();
+        if (adds_color) shown.render.channels.color = true;
+        const std::vector<LightPass> passes = light_passes(shown);
+        shown.render.noise.seconds /= double(1 + passes.size());
+        std::vector<int> samples;
+        Image image = sampled_image(shown, world, report, tiles, samples);
+        add_passes(passes, world, tiles, samples, report, image);
+        if (!passes.empty()) finish_passes(shown, image);
+        if (adds_color)
+            for (const char* channel : {"R", "G", "B", "A"}) image.planes.erase(channel);
         return image;
     });
 }
 
-/// Adds the channels that show parts of the light, of the tiles that were rendered.
-void Renderer::add_passes(const Scene& scene, const BuiltWorld& world, const Tiles& tiles,
-                          RenderReport& report, Image& image) const {
-    const std::vector<LightPass> passes = light_passes(scene);
+/// Adds the channels that show parts of the light, of the tiles that were rendered, with as many
+/// samples.
+void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
+                          const Tiles& tiles, std::vector<int>& samples, RenderReport& report,
+                          Image& image) const {
     for (const LightPass& pass : passes) {
         RenderReport of_pass;
         TileShare share(tiles.share, tiles.taken);
         std::vector<TileRange> taken;
         Renderer renderer(device_, false);
         renderer.is_white_ = pass.is_white;
-        Image light = renderer.sampled_image(pass.scene, world, of_pass, {share, taken});
+        Image light = renderer.sampled_image(pass.scene, world, of_pass, {share, taken}, samples);
         of_pass.noise = {};
         for (const char* color : {"R", "G", "B"})
             image.planes[fmt::format("{}.{}", pass.name, color)] =
@@ -159,7 +171,6 @@ void Renderer::add_passes(const Scene& scene, const BuiltWorld& world, const Til
         add_counts(of_pass, report);
         report.image_seconds += of_pass.image_seconds;
     }
-    if (!passes.empty()) finish_passes(scene, image);
 }
 
 /// Tells whoever shares or watches the tiles that these are done.

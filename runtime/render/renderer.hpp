@@ -18,6 +18,7 @@
 namespace voxelume {
 
 class Illumination;
+struct LightPass;
 
 /// The work and time of a frame, for the summary line, --stats-json and the tests.
 struct RenderReport {
@@ -102,11 +103,12 @@ class Renderer {
     void note_done(const TileRange& range, const Tiles& tiles) const;
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
     Image sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
-                        const Tiles& tiles);
+                        const Tiles& tiles, std::vector<int>& samples);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
-    void add_passes(const Scene& scene, const BuiltWorld& world, const Tiles& tiles,
-                    RenderReport& report, Image& image) const;
+    void add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
+                    const Tiles& tiles, std::vector<int>& samples, RenderReport& report,
+                    Image& image) const;
 
     Device device_;
     bool follows_;

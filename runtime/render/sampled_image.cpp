@@ -16,6 +16,9 @@ using Clock = std::chrono::steady_clock;
 /// The number of samples by which two halves are first compared.
 constexpr int kFirstSamples = 16;
 
+/// Colours, and no other channel.
+constexpr ImageChannels kColorAlone = {true, false, false, false, false};
+
 /// Adds a tile to those that ranges hold, in order.
 void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
     if (!ranges.empty() && ranges.back().first + ranges.back().count == tile)
@@ -30,37 +33,41 @@ bool has_time(const NoiseTarget& target, Clock::time_point start) {
     return target.seconds == 0 || 2 * spent.count() <= target.seconds;
 }
 
-/// The tiles of the image that need more samples, after those of `more` were added. `errors` has
-/// the noise of each tile.
-std::vector<TileRange> add_samples(const std::vector<TileRange>& tiles, const Image& more,
-                                   double target, std::vector<float>& errors, Image& image) {
-    std::vector<TileRange> left;
+/// Those of the tiles that something is true of.
+template <class IsTrue>
+std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&& is_true) {
+    std::vector<TileRange> result;
     for (const TileRange& range : tiles)
-        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) {
-            const double error = average_tile(tile, more, image);
-            errors[tile] = float(error);
-            if (error > target) add_tile(tile, left);
-        }
-    return left;
+        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile)
+            if (is_true(tile)) add_tile(tile, result);
+    return result;
 }
 
 }  // namespace
 
+/// An image with the samples of each tile that are given, or, if none are, with those that it
+/// needs, which it gives.
 Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
-                              const Tiles& tiles) {
+                              const Tiles& tiles, std::vector<int>& samples) {
     const NoiseTarget target = scene.render.noise;
-    if (!target.is_given() || !scene.render.channels.color)
-        return image_of_tiles(scene, world, report, tiles);
+    if (!target.is_given()) return image_of_tiles(scene, world, report, tiles);
     const auto start = Clock::now();
     Scene part = scene;
     part.render.noise = {};
     part.render.samples = std::min(kFirstSamples, scene.render.samples);
     Image image = image_of_tiles(part, world, report, tiles);
-    std::vector<TileRange> left = tiles.taken;
+    if (!scene.render.channels.color) return image;
+    const bool is_measured = samples.empty();
+    if (is_measured) samples.assign(tiles.share.tiles(), part.render.samples);
+    const auto has_more = [&](uint32_t tile) {
+        return is_measured || samples[tile] > part.render.samples;
+    };
+    std::vector<TileRange> left = tiles_where(tiles.taken, has_more);
+    part.render.channels = kColorAlone;  // others are undefined in tiles that aren't rendered again
     std::vector<float> errors(tiles.share.tiles(), -1.0f);
     for (int done = part.render.samples; !left.empty() && 2 * done <= scene.render.samples;
          done *= 2) {
-        if (!has_time(target, start)) break;
+        if (is_measured && !has_time(target, start)) break;
         part.render.first_sample = part.render.samples = done;
         RenderReport of_more;
         TileShare share(tiles.share, left);
@@ -69,7 +76,13 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
         renderer.is_white_ = is_white_;
         const Image more = renderer.image_of_tiles(part, world, of_more, {share, taken});
         if (tiles.share.is_closed()) break;
-        left = add_samples(left, more, target.error, errors, image);
+        left = tiles_where(left, [&](uint32_t tile) {
+            const double error = average_tile(tile, more, image);
+            errors[tile] = float(error);
+            if (!is_measured) return samples[tile] > 2 * done;
+            samples[tile] = 2 * done;
+            return error > target.error;
+        });
         add_counts(of_more, report);
         report.image_seconds += of_more.image_seconds;
     }

@@ -48,6 +48,20 @@ void resize(Scene& scene, glm::ivec2 size) {
     }
 }
 
+void check_tiles(const RenderSettings& render) {
+    const ImageCrop& crop = render.crop;
+    if (!render.noise.is_given() || crop.is_whole()) return;
+    for (int axis = 0; axis < 2; ++axis) {
+        const int first = crop.first[axis], end = first + render.size[axis];
+        if (first % 4 != 0 || (end % 4 != 0 && end != crop.frame[axis]))
+            throw Error(ErrorKind::usage,
+                        "noise is measured in 4 x 4 pixels of the whole image: a part of it must "
+                        "begin and end at multiples of 4 or at the image's edge, unlike {}x{} "
+                        "pixels from column {} and row {} on",
+                        render.size.x, render.size.y, crop.first.x, crop.first.y);
+    }
+}
+
 void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size) {
     const glm::ivec2 frame = frame_size(scene.render);
     for (int axis = 0; axis < 2; ++axis) {
@@ -60,6 +74,7 @@ void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size) {
     }
     scene.render.crop = {first, frame};
     scene.render.size = size;
+    check_tiles(scene.render);
 }
 
 }  // namespace voxelume

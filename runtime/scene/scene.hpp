@@ -130,6 +130,9 @@ inline glm::ivec2 frame_size(const RenderSettings& render) {
 /// which must lie in it. Displays and observers stay those of the whole picture.
 void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size);
 
+/// Throws Error::usage for a part of a picture that cuts tiles whose noise is to be measured.
+void check_tiles(const RenderSettings& render);
+
 /// Sets where each model can be seen: the world's box carried into the space of every object that
 /// shows it.
 void find_extents(Scene& scene);

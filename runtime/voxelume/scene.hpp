@@ -98,7 +98,8 @@ class Scene {
     /// Returns the scene with a part of its flat image as the image: `size` pixels from column and
     /// row `first` on, counted from 0 at the top left. The bits are those of the whole image there;
     /// OpenEXR files have the part as their data window. Volumetric images stay whole. Throws
-    /// Error::usage for a part that isn't in the image.
+    /// Error::usage for a part that isn't in the image; and, of a scene with a target of noise, for
+    /// one that doesn't begin and end at multiples of 4 pixels or at the image's edge.
     Scene with_crop(Size first, Size size) const;
     /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
@@ -107,8 +108,8 @@ class Scene {
     /// are doubled, from 16 to at most `max_samples`, until their standard error is at most
     /// `error` of their mean light, by half of what two halves of them differ by. With `seconds`
     /// above 0 none are doubled for which an image's time won't suffice, and an `error` of 0 is
-    /// never reached. Throws Error::usage for numbers below 0, for two zeros and for samples that
-    /// aren't from 32 to 4096.
+    /// never reached. Throws Error::usage for numbers below 0, for two zeros, for samples that aren't
+    /// from 32 to 4096, and for a part of an image that `with_crop` refuses with them.
     Scene with_noise(double error, double seconds = 0, int max_samples = 4096) const;
 
     /// Returns the scene in another light.

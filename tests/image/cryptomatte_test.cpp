@@ -58,5 +58,13 @@ TEST(Cryptomatte, RanksAreChannelsAndNamesAManifest) {
                     "\\{\"b\\\\\"ox\":\"[0-9a-f]{8}\",\"ball\\\\\\\\\":\"[0-9a-f]{8}\"\\}"));
 }
 
+TEST(Cryptomatte, NumbersWithoutANameAreNothing) {
+    Image image{2, 1, {}, {}, {}};
+    add_cryptomatte("CryptoObject", {"box"}, {{2, ~0u, 1, 0}, {1, 1, 0, 0}, 2}, image);
+    EXPECT_EQ(image.planes.at("CryptoObject00.R"), (Plane<float>{0, 0}));
+    EXPECT_EQ(image.planes.at("CryptoObject00.B")[0],
+              std::bit_cast<float>(cryptomatte_bits("box")));
+}
+
 }  // namespace
 }  // namespace voxelume

@@ -96,6 +96,50 @@ TEST(Noise, AddsSamplesToThoseOfAShorterRun) {
                 << channel << i;
 }
 
+TEST(Noise, LeavesMattesAndNumbersAsTheFirstSamplesHaveThem) {
+    const auto rendered = [](double error, int samples) {
+        Scene scene = noisy_scene(error, samples);
+        scene.render.channels.object_matte = scene.render.channels.material_matte = true;
+        RenderReport report;
+        return render(test_device(), scene, report);
+    };
+    // Buffers of the second image lie where those of the first one did, full of its light.
+    const Image first = rendered(0, 16), more = rendered(0.02, 1024);
+    for (const auto& [name, plane] : first.planes)
+        EXPECT_EQ(more.planes.at(name) == plane, name.size() > 1 || name == "Z") << name;
+    EXPECT_TRUE(more.id_planes == first.id_planes);
+    EXPECT_TRUE(more.attributes == first.attributes);
+}
+
+TEST(Noise, AddsNoSamplesWhereNoLightIsAskedFor) {
+    Scene scene = noisy_scene(0.02, 4096);
+    scene.render.channels.color = false;
+    RenderReport report;
+    render(test_device(), scene, report);
+    EXPECT_EQ(report.sight_rays, 16u * 1024);
+    EXPECT_EQ(report.noise.tiles, 0u);
+}
+
+TEST(Noise, GivesPassesTheSamplesOfAllLight) {
+    const Rendered alone = rendered_to(0.05, 256);
+    Scene scene = noisy_scene(0.05, 256);
+    scene.render.channels.direct = scene.render.channels.light_groups = true;
+    for (const bool has_color : {true, false}) {
+        scene.render.channels.color = has_color;
+        RenderReport report;
+        const Image image = render(test_device(), scene, report);
+        EXPECT_EQ(report.sight_rays, 3 * alone.report.sight_rays);
+        EXPECT_EQ(report.noise.tiles, 64u);
+        EXPECT_EQ(report.noise.squares, alone.report.noise.squares);
+        EXPECT_EQ(image.planes.contains("R"), has_color);
+        EXPECT_EQ(image.planes.contains("A"), has_color);
+        // No light is of a group.
+        for (const char* color : {"R", "G", "B"})
+            EXPECT_TRUE(image.planes.at(fmt::format("light_rest.{}", color)) ==
+                        alone.image.planes.at(color));
+    }
+}
+
 TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
     const Rendered whole = rendered_to(0.05, 256, 1);
     for (const int lanes : {4, 16}) {
@@ -111,6 +155,29 @@ TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
         for (int x = 0; x < 12; ++x)
             ASSERT_EQ(part.planes.at("G")[size_t(y * 12 + x)],
                       whole.image.planes.at("G")[size_t((y + 16) * 32 + x + 8)]);
+}
+
+TEST(Noise, IsMeasuredInPartsOfWholeTilesAlone) {
+    Scene scene = noisy_scene(0.05, 256);
+    resize(scene, {30, 31});
+    const auto expect_refusal = [&scene](glm::ivec2 first, glm::ivec2 size) {
+        Scene part = scene;
+        try {
+            crop(part, first, size);
+            FAIL() << first.x << ' ' << first.y << ' ' << size.x << ' ' << size.y;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::usage);
+            EXPECT_NE(std::string(error.what()).find("multiples of 4"), std::string::npos);
+        }
+    };
+    expect_refusal({9, 10}, {12, 8});
+    expect_refusal({8, 8}, {12, 9});
+    expect_refusal({8, 8}, {13, 8});
+    crop(scene, {8, 8}, {12, 8});
+    Scene to_the_edge = scene;
+    crop(to_the_edge, {8, 8}, {22, 23});
+    scene.render.noise = {};
+    crop(scene, {9, 10}, {12, 9});
 }
 
 }  // namespace

@@ -20,9 +20,11 @@ std::vector<MatteArrays> allocate_mattes(const Device& device, const glm::ivec2&
                                          const ImageChannels& channels) {
     const size_t values = size_t(size.x) * size_t(size.y) * VXL_MATTE_RANKS;
     std::vector<MatteArrays> arrays;
-    for (size_t i = 0; i < matte_count(channels); ++i)
+    for (size_t i = 0; i < matte_count(channels); ++i) {
         arrays.push_back({{device, "matte numbers", values, kFewerChannels},
                           {device, "matte shares", values, kFewerChannels}});
+        arrays.back().numbers.fill(0);  // other devices may render some of the tiles
+    }
     return arrays;
 }
 
