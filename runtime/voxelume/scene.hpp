@@ -108,8 +108,8 @@ class Scene {
     /// are doubled, from 16 to at most `max_samples`, until their standard error is at most
     /// `error` of their mean light, by half of what two halves of them differ by. With `seconds`
     /// above 0 none are doubled for which an image's time won't suffice, and an `error` of 0 is
-    /// never reached. Throws Error::usage for numbers below 0, for two zeros, for samples that aren't
-    /// from 32 to 4096, and for a part of an image that `with_crop` refuses with them.
+    /// never reached. Throws Error::usage for numbers below 0, for two zeros, for samples that
+    /// aren't from 32 to 4096, and for a part of an image that `with_crop` refuses with them.
     Scene with_noise(double error, double seconds = 0, int max_samples = 4096) const;
 
     /// Returns the scene in another light.
