@@ -16,11 +16,11 @@ constexpr std::array<Channel, 4> kLight = {{{"R", 0.2126}, {"G", 0.7152}, {"B", 
 
 }  // namespace
 
-double average_tile(uint32_t tile, const Image& other, Image& image) {
+TileNoise average_tile(uint32_t tile, const Image& other, Image& image) {
     const int tiles_x = (image.width + 3) / 4;
     const int column = int(tile) % tiles_x * 4, row = int(tile) / tiles_x * 4;
     std::array<double, 16> half{};
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, covered = 0;
     int pixels = 0;
     for (int y = row; y < std::min(row + 4, image.height); ++y)
         for (int x = column; x < std::min(column + 4, image.width); ++x) {
@@ -33,9 +33,10 @@ double average_tile(uint32_t tile, const Image& other, Image& image) {
                 value = 0.5f * (value + more);
                 sum += luminance * double(value);
             }
+            covered += double(image.planes.at("A")[at]);
         }
     for (const double difference : half) squares += difference * difference;
-    return sum > 0 ? std::sqrt(squares * pixels) / sum : 0;
+    return {sum > 0 ? std::sqrt(squares * pixels) / sum : 0, sum == 0 && covered > 0};
 }
 
 }  // namespace voxelume

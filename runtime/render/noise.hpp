@@ -17,9 +17,14 @@ struct NoiseReached {
     double mean() const { return tiles == 0 ? 0 : std::sqrt(squares / double(tiles)); }
 };
 
+/// How noisy a tile is.
+struct TileNoise {
+    double error = 0;      ///< standard error of the light of its pixels, over their mean
+    bool is_dark = false;  ///< surfaces, of which no light came yet; the error is 0
+};
+
 /// Makes the light of a tile's pixels the mean of that of two images with as many samples each, of
-/// which the first keeps it. Returns the standard error of this mean in the tile's pixels, over
-/// their mean: a pixel's is half of what its two values differ by. 0 for black tiles.
-double average_tile(uint32_t tile, const Image& other, Image& image);
+/// which the first keeps it. The error of a pixel is half of what its two values differ by.
+TileNoise average_tile(uint32_t tile, const Image& other, Image& image);
 
 }  // namespace voxelume

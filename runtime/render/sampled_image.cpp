@@ -16,6 +16,9 @@ using Clock = std::chrono::steady_clock;
 /// The number of samples by which two halves are first compared.
 constexpr int kFirstSamples = 16;
 
+/// The number of samples by which a tile of surfaces counts as dark: few paths may find its light.
+constexpr int kDarkSamples = 256;
+
 /// Colours, and no other channel.
 constexpr ImageChannels kColorAlone = {true, false, false, false, false};
 
@@ -77,11 +80,11 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
         const Image more = renderer.image_of_tiles(part, world, of_more, {share, taken});
         if (tiles.share.is_closed()) break;
         left = tiles_where(left, [&](uint32_t tile) {
-            const double error = average_tile(tile, more, image);
+            const auto [error, is_dark] = average_tile(tile, more, image);
             errors[tile] = float(error);
             if (!is_measured) return samples[tile] > 2 * done;
             samples[tile] = 2 * done;
-            return error > target.error;
+            return error > target.error || (is_dark && 2 * done < kDarkSamples);
         });
         add_counts(of_more, report);
         report.image_seconds += of_more.image_seconds;

@@ -120,6 +120,20 @@ TEST(Noise, AddsNoSamplesWhereNoLightIsAskedFor) {
     EXPECT_EQ(report.noise.tiles, 0u);
 }
 
+TEST(Noise, DoesNotTakeSurfacesForDarkByTheirFirstSamples) {
+    for (const bool is_covered : {true, false}) {
+        Scene scene = noisy_scene(0.05, 4096);
+        scene.world.sky.reset();
+        scene.world.background = glm::vec3(0);
+        if (!is_covered) scene.objects.clear();
+        crop(scene, {12, 24}, {8, 8});  // of the floor
+        RenderReport report;
+        render(test_device(), scene, report);
+        EXPECT_EQ(report.sight_rays, (is_covered ? 256u : 32u) * 64);
+        EXPECT_EQ(report.noise.mean(), 0);
+    }
+}
+
 TEST(Noise, GivesPassesTheSamplesOfAllLight) {
     const Rendered alone = rendered_to(0.05, 256);
     Scene scene = noisy_scene(0.05, 256);
