@@ -138,4 +138,29 @@ TEST_F(GltfMorphTest, WeightsThatDontFitAreRefused) {
                 HasSubstr("has 3 weights, and its mesh has 2 targets"));
 }
 
+TEST_F(GltfMorphTest, MoreOffsetsThanTheLimitAreRefusedBeforeTheyAreRead) {
+    GltfWriter writer = pulled_triangle({});
+    Json& primitive = writer.json["meshes"][0]["primitives"][0];
+    // Accessors without a buffer view are 0 and take no bytes in the file.
+    const auto zeros = [&](uint64_t count) {
+        writer.json["accessors"].push_back(
+            {{"componentType", 5126}, {"count", count}, {"type", "VEC3"}});
+        return writer.json["accessors"].size() - 1;
+    };
+    const uint64_t vertices = uint64_t{1} << 20, targets = kMaxTargetOffsets / vertices;
+    const auto file_with = [&](uint64_t count) {
+        primitive["attributes"]["POSITION"] = zeros(vertices);
+        primitive["targets"] = Json::array();
+        const auto offsets = zeros(1);  // fewer than vertices, which is refused when they are read
+        for (uint64_t i = 0; i < count; ++i)
+            primitive["targets"].push_back({{"POSITION", offsets}});
+        return parsed_gltf(writer);
+    };
+    EXPECT_THAT(error_of([&] { gltf_targets(file_with(targets), 1); }).what(),
+                HasSubstr("1048576 vertices, and 1 of POSITION"));
+    EXPECT_THAT(error_of([&] { gltf_targets(file_with(targets + 1), 1); }).what(),
+                HasSubstr("a mesh's targets move 1048576 vertices 65 times, and 67108864 offsets "
+                          "are the most"));
+}
+
 }  // namespace voxelume

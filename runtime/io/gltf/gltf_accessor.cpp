@@ -179,6 +179,10 @@ GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* 
     return found;
 }
 
+uint64_t count_gltf_values(const GltfFile& file, const GltfValue& from, const char* key) {
+    return count_of(accessor_of(file, from, key));
+}
+
 std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, const char* key,
                                    uint64_t limit) {
     const GltfValue accessor = accessor_of(file, from, key);

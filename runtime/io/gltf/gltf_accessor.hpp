@@ -25,6 +25,9 @@ struct GltfValues {
 GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* key,
                        std::initializer_list<int> components);
 
+/// How many elements the accessor has that `key` of `from` names; reads none of them.
+uint64_t count_gltf_values(const GltfFile& file, const GltfValue& from, const char* key);
+
 /// Reads the indices that `key` of `from` names; each is below `limit`.
 std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, const char* key,
                                    uint64_t limit);

@@ -6,10 +6,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/error.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
 
 namespace voxelume {
 namespace {
+
+constexpr const char* kMoved[] = {"POSITION", "NORMAL"};
+
+/// Whether a primitive has triangles; targets of others move nothing.
+bool is_shown(const GltfValue& primitive) {
+    return primitive.count("mode", 4) >= 4 && primitive.at("attributes").has("POSITION");
+}
+
+/// Refuses a mesh whose targets take too much memory. A list of offsets reaches over the vertices
+/// of all primitives, however few of them its target moves.
+void check_size(const GltfFile& file, const GltfValue& mesh) {
+    uint64_t vertices = 0, lists = 0;
+    for (const char* const key : kMoved) {
+        size_t most = 0;
+        for (const GltfValue& primitive : mesh.items("primitives"))
+            for (size_t i = most; i < primitive.size("targets"); ++i)
+                if (primitive.item("targets", i).has(key)) most = i + 1;
+        lists += most;
+    }
+    for (const GltfValue& primitive : mesh.items("primitives"))
+        if (is_shown(primitive))
+            vertices += count_gltf_values(file, primitive.at("attributes"), "POSITION");
+    if (lists == 0 || vertices <= kMaxTargetOffsets / lists) return;
+    throw Error(ErrorKind::limit,
+                "{}: a mesh's targets move {} vertices {} times, and {} offsets are the most",
+                SourcePlace(file.path().string()), vertices, lists, kMaxTargetOffsets);
+}
 
 /// Appends the offsets of one attribute of a target, behind 0 for the vertices before them.
 void add_offsets(const GltfFile& file, const GltfValue& target, const char* key, size_t base,
@@ -39,16 +67,16 @@ size_t count_gltf_targets(const GltfValue& mesh) {
 
 std::vector<MorphTarget> gltf_targets(const GltfFile& file, int part) {
     const GltfValue mesh = file.root().item("meshes", size_t(part - 1));
+    check_size(file, mesh);
     std::vector<MorphTarget> targets(count_gltf_targets(mesh));
     size_t base = 0;
     for (const GltfValue& primitive : mesh.items("primitives")) {
-        const GltfValue attributes = primitive.at("attributes");
-        if (primitive.count("mode", 4) < 4 || !attributes.has("POSITION")) continue;
-        const size_t vertices = gltf_values(file, attributes, "POSITION", {3}).count;
+        if (!is_shown(primitive)) continue;
+        const size_t vertices = count_gltf_values(file, primitive.at("attributes"), "POSITION");
         for (size_t i = 0; i < primitive.size("targets"); ++i) {
             const GltfValue target = primitive.item("targets", i);
-            add_offsets(file, target, "POSITION", base, vertices, targets[i].positions);
-            add_offsets(file, target, "NORMAL", base, vertices, targets[i].normals);
+            add_offsets(file, target, kMoved[0], base, vertices, targets[i].positions);
+            add_offsets(file, target, kMoved[1], base, vertices, targets[i].normals);
         }
         base += vertices;
     }

@@ -9,8 +9,12 @@
 
 namespace voxelume {
 
+/// The most offsets of a mesh's targets, of positions and normals together: 768 MiB.
+inline constexpr uint64_t kMaxTargetOffsets = uint64_t{1} << 26;
+
 /// The targets of a mesh, numbered from 1 on, whose vertices are those of gltf_mesh(file, part).
-/// Throws Error::input for accessors that don't fit the mesh.
+/// Throws Error::input for accessors that don't fit the mesh, and Error::limit, before any is read,
+/// for more than kMaxTargetOffsets.
 std::vector<MorphTarget> gltf_targets(const GltfFile& file, int part);
 
 /// How many targets the mesh has: as many as its primitive with the most.

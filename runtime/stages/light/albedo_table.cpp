@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -117,7 +119,9 @@ double width_of(double roughness) {
     return std::max(square(roughness), 1.0 / 1024);
 }
 
-AlbedoTable albedo_table(double width) {
+namespace {
+
+AlbedoTable new_table(double width) {
     AlbedoTable table;
     for (int entry = 0; entry <= kLast; ++entry) {
         const double u = square(double(entry) / kLast);
@@ -128,6 +132,22 @@ AlbedoTable albedo_table(double width) {
         values[VXL_ALBEDO_BY_ANGLE] = float(turned.by_angle / turned.all);
     }
     set_means(width, table);
+    return table;
+}
+
+}  // namespace
+
+AlbedoTable albedo_table(double width) {
+    constexpr size_t kMaxKept = 4096;  // 2 MB
+    static std::mutex mutex;
+    static std::map<double, AlbedoTable> kept;
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto found = kept.find(width); found != kept.end()) return found->second;
+    }
+    const AlbedoTable table = new_table(width);
+    const std::lock_guard lock(mutex);
+    if (kept.size() < kMaxKept) kept.emplace(width, table);
     return table;
 }
 

@@ -17,7 +17,8 @@ struct AlbedoTable {
 /// GGX's alpha of a roughness. Highlights are at least so wide that floats hold them.
 double width_of(double roughness);
 
-/// The table of highlights of a width, from 1/1024 to 1, within 5e-4. It takes about 40 ms.
+/// The table of highlights of a width, from 1/1024 to 1, within 5e-4. It takes about 40 ms,
+/// but for widths that the process has asked for before. Any thread may call it.
 AlbedoTable albedo_table(double width);
 
 /// The share of light that facets reflect several times and return, per share that they don't
