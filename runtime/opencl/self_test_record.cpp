@@ -83,7 +83,7 @@ std::optional<std::string> fresh_fault(const DeviceInfo& info) {
 }
 
 std::optional<std::string> kept_fault(const DeviceInfo& info) {
-    if (const std::optional<std::string> fault = fresh_fault(info)) return fault;
+    if (std::optional<std::string> fault = fresh_fault(info)) return fault;
     const std::string key = result_key(info);
     const std::lock_guard lock(results().mutex);
     std::optional<std::string> fault = fault_store().read(key);
