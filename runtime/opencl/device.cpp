@@ -32,11 +32,18 @@ cl::Device part_of(const cl::Device& device) {
 
 }  // namespace
 
+/// The programs of a context, by a hash of their sources and options.
+struct ContextPrograms {
+    std::mutex mutex;
+    std::map<std::string, cl::Program> ready;
+};
+
 /// The state that all queues of an open device share.
 struct Device::Opened {
     cl::Device device;
     DeviceInfo info;
     cl::Context context;
+    std::shared_ptr<ContextPrograms> of_context = std::make_shared<ContextPrograms>();
     DeviceCounters counters;
     std::map<std::string, cl::Program> programs;
     std::mutex mutex;
@@ -98,6 +105,7 @@ Device Device::open(const cl::Device& device, DeviceInfo info, const Device* bes
         opened->device = part_of(device);
         const bool shares = beside && beside->handle()() == opened->device();
         opened->context = shares ? beside->context() : cl::Context(opened->device);
+        if (shares) opened->of_context = beside->queue_->opened->of_context;
     } catch (const cl::Error& error) {
         throw_device_error(error, opened->info, "opening it");
     }
@@ -137,8 +145,26 @@ DeviceCounters& Device::counters() const {
 std::unique_lock<std::mutex> Device::lock() const {
     return std::unique_lock(queue_->opened->mutex);
 }
-std::map<std::string, cl::Program>& Device::programs() const {
+const std::map<std::string, cl::Program>& Device::programs() const {
     return queue_->opened->programs;
+}
+
+cl::Program Device::find_program(const std::string& key) const {
+    Opened& opened = *queue_->opened;
+    if (const auto own = opened.programs.find(key); own != opened.programs.end())
+        return own->second;
+    const std::lock_guard locked(opened.of_context->mutex);
+    const auto found = opened.of_context->ready.find(key);
+    if (found == opened.of_context->ready.end()) return {};
+    ++opened.counters.programs_built;
+    ++opened.counters.programs_from_cache;
+    return opened.programs[key] = found->second;
+}
+
+void Device::keep_program(const std::string& key, const cl::Program& program) const {
+    queue_->opened->programs[key] = program;
+    const std::lock_guard locked(queue_->opened->of_context->mutex);
+    queue_->opened->of_context->ready[key] = program;
 }
 
 void Device::finish() const {

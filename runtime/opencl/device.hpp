@@ -89,9 +89,9 @@ class Device {
     /// A device whose driver is new is asked first what is known, see self_test.hpp. If it answers
     /// wrong, it is refused as one that can't render: another that matches is opened in its place.
     ///
-    /// If the device is that of `beside`, both share an OpenCL context: PoCL reads its library of
-    /// functions, 0.7 s, once for each context. Throws Error::device if nothing matches; the
-    /// message names the devices that exist or the package to install.
+    /// If the device is that of `beside`, both share an OpenCL context and the programs made for
+    /// it: PoCL reads its library of functions, 0.7 s, once for each context. Throws Error::device
+    /// if nothing matches; the message names the devices that exist or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0,
                        const Device* beside = nullptr);
 
@@ -121,10 +121,16 @@ class Device {
     DeviceCounters& counters() const;
     /// A lock to hold while counters or programs are changed.
     std::unique_lock<std::mutex> lock() const;
-    /// The programs made ready so far, by a hash of their sources and options. They are kept until
-    /// the device closes, since PoCL takes 20 ms to find a program on the disk: it preprocesses the
-    /// source with its own headers of 1 MB.
-    std::map<std::string, cl::Program>& programs() const;
+    /// The programs that this device has used, by a hash of their sources and options. They are
+    /// kept until the device closes, since PoCL takes 20 ms to find a program on the disk: it
+    /// preprocesses the source with its own headers of 1 MB.
+    const std::map<std::string, cl::Program>& programs() const;
+    /// The program of this hash, if this device or another one of its context has made it ready,
+    /// else an empty one. It counts as made ready by this device, too. To be called with `lock`
+    /// held, as are the next ones.
+    cl::Program find_program(const std::string& key) const;
+    /// Keeps a program that was just built, for all devices of the context.
+    void keep_program(const std::string& key, const cl::Program& program) const;
 
     /// Waits until all enqueued work is done. Throws Error::render if the device failed.
     void finish() const;
@@ -137,7 +143,7 @@ class Device {
     /// program wasn't ready from an earlier run. PoCL compiles it then; other drivers have, when
     /// the program was built. An empty one ends that.
     void listen_to_compiler(CompileListener listener) const;
-    /// Notes a program that no earlier run compiled. To be called with `lock` held.
+    /// Notes a program that no earlier run compiled.
     void note_fresh(const cl::Program& program) const;
     /// Notes a kernel of a program, which may be such a program.
     void note_kernel(const cl::Program& program, const std::string& kernel) const;

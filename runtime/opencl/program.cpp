@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
@@ -119,16 +120,16 @@ Program::Program(const Device& device, const std::string& file, const Defines& d
 
 void Program::build_together(const Device& device, std::span<const char* const> files,
                              const Defines& defines) {
-    std::vector<cl::Program*> places;
+    std::vector<std::string> keys;
     std::vector<const char*> missing;
     std::vector<ProgramText> parts;
     const auto locked = device.lock();
     for (const char* file : files) {
         const KernelSource& source = kernel_source(file);
         const std::string options = build_options(device, source, defines);
-        cl::Program& place = device.programs()[program_key(source, options)];
-        if (place()) continue;
-        places.push_back(&place);
+        std::string key = program_key(source, options);
+        if (device.find_program(key)()) continue;
+        keys.push_back(std::move(key));
         missing.push_back(file);
         parts.push_back({source.text(), options});
     }
@@ -137,7 +138,7 @@ void Program::build_together(const Device& device, std::span<const char* const> 
     const cl::Program program =
         build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
                       {source.text(), build_options(device, source, defines)}, parts);
-    for (cl::Program* place : places) *place = program;
+    for (const std::string& key : keys) device.keep_program(key, program);
 }
 
 void Program::build_together(const Device& device, std::span<const ProgramFile> files) {
@@ -166,10 +167,14 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
                  const Defines& defines)
     : device_(device), label_(label) {
     const std::string options = build_options(device, source, defines);
+    const std::string key = program_key(source, options);
     const auto locked = device.lock();
-    cl::Program& kept = device.programs()[program_key(source, options)];
-    if (!kept()) kept = build_program(device, label, {source.text(), options});
-    program_ = std::make_shared<cl::Program>(kept);
+    cl::Program program = device.find_program(key);
+    if (!program()) {
+        program = build_program(device, label, {source.text(), options});
+        device.keep_program(key, program);
+    }
+    program_ = std::make_shared<cl::Program>(std::move(program));
 }
 
 Kernel Program::kernel(const std::string& name) const {
