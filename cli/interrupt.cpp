@@ -11,7 +11,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "runtime/voxelume.hpp"
 
@@ -19,12 +21,16 @@ namespace voxelume::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kGrace{1500};
+// `timeout` sends its signal to the program and to its group, which are two signals for the
+// program.
+constexpr std::chrono::milliseconds kTogether{300};
 
 // The handler may do no more than write to a pipe; a thread reads from it.
 std::array<int, 2> signal_pipe{-1, -1};
 std::atomic<int> signal_number = 0;
 std::atomic<int> interruptibles = 0;
-std::atomic<bool> is_told = false;
+std::mutex telling;
+bool is_told = false;  // with `telling` held
 
 /// Never destroyed: the thread may use it when the process ends.
 std::stop_source& stop_source() {
@@ -50,15 +56,16 @@ void handle(int number) {
         return;
     }
     action.sa_handler = note_signal;
-    action.sa_flags = int(SA_RESTART | SA_RESETHAND);
+    action.sa_flags = SA_RESTART;
     sigaction(number, &action, nullptr);
 }
 
 /// What the program says when it ends in the middle of something.
 void tell() {
-    if (may_tell_interruption())
+    tell_interruption([] {
         fmt::print(stderr, "\nvoxelume: {}\n",
                    signal_number == SIGTERM ? "terminated" : "interrupted");
+    });
 }
 
 void wait_for_signal() {
@@ -66,11 +73,14 @@ void wait_for_signal() {
     while (read(signal_pipe[0], &number, 1) < 0)
         if (errno != EINTR) return;
     signal_number = number;
-    // The second signal, of either kind, is the system's to handle.
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
     stop_source().request_stop();
-    if (interruptibles > 0) std::this_thread::sleep_for(kGrace);
+    if (interruptibles > 0) {
+        std::this_thread::sleep_for(kTogether);
+        // A later signal, of either kind, is the system's to handle.
+        std::signal(SIGINT, SIG_DFL);
+        std::signal(SIGTERM, SIG_DFL);
+        std::this_thread::sleep_for(kGrace - kTogether);
+    }
     tell();
     remove_unfinished_files();
     _exit(interrupted_code());
@@ -102,8 +112,9 @@ int interrupted_code() {
     return 128 + (signal_number == SIGTERM ? SIGTERM : SIGINT);
 }
 
-bool may_tell_interruption() {
-    return !is_told.exchange(true);
+void tell_interruption(const std::function<void()>& say) {
+    const std::lock_guard locked(telling);
+    if (!std::exchange(is_told, true)) say();
 }
 
 }  // namespace voxelume::cli

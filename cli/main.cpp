@@ -142,7 +142,7 @@ int main(int count, char** arguments) {
         return code == 0 ? fault : code;
     } catch (const voxelume::Error& error) {
         if (error.kind() == ErrorKind::cancelled) {
-            if (cli::may_tell_interruption()) cli::complain(error.what(), error.kind());
+            cli::tell_interruption([&] { cli::complain(error.what(), error.kind()); });
             return cli::interrupted_code();
         }
         return cli::complain(error.what(), error.kind());

@@ -50,6 +50,17 @@ TEST_F(CliInterruptTest, ARunEndsSoonWithALine) {
     }
 }
 
+TEST_F(CliInterruptTest, TwoSignalsTogetherAreOne) {
+    write_long_scene();
+    // The shell is in the program's place at first, so that its number is the program's.
+    const ProgramResult result = run_line(
+        "sh -c '(sleep 3; kill -INT $$; sleep 0.02; kill -INT $$) & exec voxelume render "
+        "scene.json -q -o f.##.exr'");
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_THAT(result.err, testing::MatchesRegex("\\n?voxelume: [^\\n]+\\n"));
+    EXPECT_THAT(leftovers(), testing::IsEmpty());
+}
+
 TEST_F(CliInterruptTest, SoDoesOneThatCompilesKernels) {
     const std::string cold = (folder / "cold").string();
     const ProgramResult result = run_line(
