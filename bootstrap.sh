@@ -22,6 +22,7 @@ Usage: ./bootstrap.sh COMMAND
   package make build/package/voxelume_*.deb and check it; with --install, also install, use and
           purge it in a bare Debian, which takes minutes and root
   docs    write the library's reference to build/docs/html/index.html
+  packages  install what all of these but drivers and farm need
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
 TEXT
@@ -163,6 +164,9 @@ case "$*" in
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;
     farm) install_packages packages.txt .ci/farm_packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
+    packages)
+        install_packages packages.txt .ci/packages.txt .ci/{docs,package,python}_packages.txt
+        ;;
     python) install_packages packages.txt .ci/python_packages.txt ;;
     package | 'package --install') install_packages packages.txt .ci/package_packages.txt ;;
     help | -h | --help)
@@ -189,9 +193,10 @@ case "$1" in
         ;;
     farm)
         build_targets voxelume
-        ctest --test-dir "$build" --output-on-failure -R '^farm\.'
+        ctest --test-dir "$build" --output-on-failure -C farm -R '^farm\.'
         ;;
     docs) docs ;;
+    packages) ;; # they are there
     python) python_package ;;
     package) debian_package "${2:-}" ;;
     lint)

@@ -50,30 +50,33 @@ function(finish_test name)
     set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
-# Tests whose kernels the OpenCL compiler optimizes, as it does for users: images' golden bits, device functions, the
-# program, the library, and what compares rays with exact answers. The optimizer changes no bit (golden_test,
-# matrix_test, determinism_test), and takes half of the time of most tests.
+# Tests whose kernels the OpenCL compiler optimizes, as it does for users: images' golden bits, device functions, what
+# compares rays with exact answers, and what compiling takes. The optimizer changes no bit (golden_test, matrix_test,
+# determinism_test), and takes half of the time of most tests.
 set(optimized_tests golden_test shipped_scenes_test determinism_test all_features_test accuracy_test stress_again_test
-                    matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test api_tests
-                    api_compiling_test cli_tests)
+                    matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test
+                    api_compiling_test cli_cache_test cli_interrupt_test)
+
+set(not_optimized VOXELUME_BUILD_OPTIONS=set:-cl-opt-disable)
 
 # add_run(NAME PROGRAM FILTER): tests of a program as one test of ctest. Where the optimizer is off by default,
 # optimized.NAME has it, with `ctest -C exhaustive` alone.
 function(add_run name program filter)
     add_test(NAME ${name} COMMAND ${program} --gtest_filter=${filter})
     finish_test(${name})
-    if(NOT name IN_LIST optimized_tests AND NOT name IN_LIST files_of_cli_tests)
-        set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION VOXELUME_BUILD_OPTIONS=set:-cl-opt-disable)
+    if(NOT name IN_LIST optimized_tests)
+        set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION ${not_optimized})
         add_test(NAME optimized.${name} CONFIGURATIONS exhaustive COMMAND ${program} --gtest_filter=${filter})
         finish_test(optimized.${name})
     endif()
 endfunction()
 
 # add_variant(NAME FILES STEM... [COMMAND WORD...] [EXCEPT PATTERN] [LABELS LABEL] [ENVIRONMENT NAME=VALUE...]
-#             [EXHAUSTIVE]): the tests of some files once more, one test of ctest for each program that has some, named
-# NAME.PROGRAM. EXHAUSTIVE ones run with `ctest -C exhaustive` alone.
+#             [EXHAUSTIVE | OPTIMIZED]): the tests of some files once more, one test of ctest for each program that has
+# some, named NAME.PROGRAM. EXHAUSTIVE ones run with `ctest -C exhaustive` alone. Without either word the optimizer is
+# off, and optimized.NAME.PROGRAM has it, with `ctest -C exhaustive` alone.
 function(add_variant name)
-    cmake_parse_arguments(PARSE_ARGV 1 variant "EXHAUSTIVE" "EXCEPT;LABELS" "FILES;COMMAND;ENVIRONMENT")
+    cmake_parse_arguments(PARSE_ARGV 1 variant "EXHAUSTIVE;OPTIMIZED" "EXCEPT;LABELS" "FILES;COMMAND;ENVIRONMENT")
     set(programs "")
     foreach(stem IN LISTS variant_FILES)
         list(APPEND programs ${program_of_${stem}})
@@ -89,10 +92,19 @@ function(add_variant name)
         if(variant_EXCEPT)
             string(APPEND patterns ":-${variant_EXCEPT}")
         endif()
-        add_test(NAME ${name}.${program} ${configurations}
-                 COMMAND ${variant_COMMAND} $<TARGET_FILE:${program}> --gtest_filter=${patterns})
-        set_tests_properties(${name}.${program} PROPERTIES LABELS "${variant_LABELS}"
-                             ENVIRONMENT "${variant_ENVIRONMENT}")
-        finish_test(${name}.${program})
+        set(command COMMAND ${variant_COMMAND} $<TARGET_FILE:${program}> --gtest_filter=${patterns})
+        add_test(NAME ${name}.${program} ${configurations} ${command})
+        set(tests ${name}.${program})
+        if(NOT variant_EXHAUSTIVE AND NOT variant_OPTIMIZED)
+            add_test(NAME optimized.${name}.${program} CONFIGURATIONS exhaustive ${command})
+            list(APPEND tests optimized.${name}.${program})
+        endif()
+        foreach(test IN LISTS tests)
+            set_tests_properties(${test} PROPERTIES LABELS "${variant_LABELS}" ENVIRONMENT "${variant_ENVIRONMENT}")
+            finish_test(${test})
+        endforeach()
+        if(NOT variant_EXHAUSTIVE AND NOT variant_OPTIMIZED)
+            set_property(TEST ${name}.${program} APPEND PROPERTY ENVIRONMENT_MODIFICATION ${not_optimized})
+        endif()
     endforeach()
 endfunction()

@@ -23,11 +23,12 @@ foreach(quarter RANGE 3)
 endforeach()
 
 foreach(lanes IN LISTS all_lanes)
-    add_variant(lanes${lanes} FILES trace_test EXCEPT *Lanes* LABELS lanes ENVIRONMENT VXL_TEST_LANES=${lanes})
+    add_variant(lanes${lanes} FILES trace_test OPTIMIZED EXCEPT *Lanes* LABELS lanes
+                ENVIRONMENT VXL_TEST_LANES=${lanes})
 endforeach()
 
 # What images are made of on a host that takes denormal numbers for zero.
-add_variant(flushed FILES golden_test ENVIRONMENT VXL_TEST_FLUSH=1)
+add_variant(flushed FILES golden_test OPTIMIZED ENVIRONMENT VXL_TEST_FLUSH=1)
 
 # With every buffer against pages that may not be touched. The first list's kernels have no other checker of memory
 # by default, the second's have oclgrind.
@@ -46,7 +47,7 @@ if(OCLGRIND)
     set(oclgrind LABELS oclgrind COMMAND ${OCLGRIND} --data-races
                  ENVIRONMENT VXL_TEST_DEVICE=oclgrind VXL_TEST_LANES=1)
     add_variant(oclgrind FILES buffer_test index_test lanes_test layout_test light_test program_test resolve_test
-                               shade_test sight_test ${oclgrind})
+                               shade_test sight_test OPTIMIZED ${oclgrind})
     add_variant(oclgrind.more FILES medium_test render_test render_lacks_test ${oclgrind} EXHAUSTIVE)
     get_property(tests DIRECTORY PROPERTY TESTS)
     list(FILTER tests INCLUDE REGEX "^oclgrind\\.")
