@@ -45,7 +45,7 @@ std::string difference(const ShardManifest& a, const ShardManifest& b) {
         (a.rows && (a.rows->height != b.rows->height || a.rows->outputs != b.rows->outputs)))
         return "their images differ in size";
     const auto options = [](const ImageFileOptions& o) {
-        return std::tuple(o.exposure, o.view_transform, o.png_bits, o.float_color);
+        return std::tuple(o.exposure, o.view_transform, o.png_bits, o.float_color, o.multi_part);
     };
     if (options(a.options) != options(b.options) || a.options.channels != b.options.channels)
         return "their options of images differ";

@@ -144,7 +144,7 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
     EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
-    put_bytes(folder / "x.shard", R"({"voxelume_shard": 2, "part": "x"})");
+    put_bytes(folder / "x.shard", R"({"voxelume_shard": 3, "part": "x"})");
     EXPECT_THAT(refusal("x.shard"), HasSubstr("is damaged"));
 }
 
