@@ -27,7 +27,7 @@ struct Channels {
     bool material = false;        ///< materialId
     bool object_matte = false;    ///< Cryptomatte of the objects: CryptoObject00 to CryptoObject02
     bool material_matte = false;  ///< ... of the materials: CryptoMaterial00 to CryptoMaterial02
-    // Each of these is traced once more, or several times:
+    // Each of these is lit once more, or several times:
     bool albedo = false;        ///< albedo.R ...: the surface's own colour
     bool direct = false;        ///< direct.R ...: light that comes straight to the first surface
     bool indirect = false;      ///< indirect.R ...: all other light
