@@ -20,7 +20,7 @@ struct ExrStorage {
     ColorDepth color = ColorDepth::float16;
     bool is_multi_part = false;  ///< each layer is a part of its own, see exr_layers.hpp
 
-    // A depth alone says how, too.
+    // NOLINTNEXTLINE(google-explicit-constructor): a depth alone says how, too
     constexpr ExrStorage(ColorDepth depth = ColorDepth::float16, bool has_parts = false)
         : color(depth), is_multi_part(has_parts) {}
 };

@@ -62,7 +62,8 @@ void read_part(const InputFile& file, Imf::MultiPartInputFile& input, int number
 
 /// Where its data window is a part of its display window, an image has a place in that.
 void set_place(const Imf::Header& header, Image& image) {
-    const Imath::Box2i window = header.dataWindow(), display = header.displayWindow();
+    const Imath::Box2i& window = header.dataWindow();
+    const Imath::Box2i& display = header.displayWindow();
     if (window == display || window.min.x < display.min.x || window.max.x > display.max.x ||
         window.min.y < display.min.y || window.max.y > display.max.y)
         return;
