@@ -189,7 +189,7 @@ void leave_out_culled(const Scene& scene, Pyramid& world) {
     if (!has(Surface::smooth)) world.fields = {};
     if (has(Surface::exact)) return;
     world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
-    world.triangle_normals = {};
+    world.triangle_normals = world.triangle_textures = world.textures = {};
     world.triangles = {};
 }
 

@@ -127,7 +127,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
         voxels.media = all.media;
         voxels.medium_set_capped = all.medium_set_capped;
     }
-    voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
+    voxels.radiance = voxels.colors = voxels.voxel_opacity = voxels.textures = false;
     return voxels;
 }
 

@@ -21,6 +21,8 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("source triangles", pyramid.triangles);
     visit("source attributes", pyramid.triangle_attributes);
     visit("source normals", pyramid.triangle_normals);
+    visit("source texture places", pyramid.triangle_textures);
+    visit("source textures", pyramid.textures);
     visit("source solids", pyramid.solids);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "runtime/io/image/png.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
@@ -79,7 +80,12 @@ INSTANTIATE_TEST_SUITE_P(Lights, AllFeatures, testing::Values("local", "global")
 
 TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     put_bytes(folder / "m.obj",
-              "v 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+              "mtllib m.mtl\nv 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nvt 0 0\nvt 1 1\nusemtl m\n"
+              "f 1/1 3/2 2/1\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    put_bytes(folder / "m.mtl", "newmtl m\nmap_Kd m.png\n");
+    Image texel{1, 1, {}, {}, {}};
+    for (const char* channel : {"R", "G", "B"}) texel.planes[channel] = Plane<float>{0.5f};
+    write_png(folder / "m.png", texel);
     write_fog(folder / "fog.vdb");
     const Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});
     const bool is_global = scene.render.light == LightMode::global;

@@ -141,6 +141,7 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
     begin_behind(shape, batch, first, way->straight & of_instance, r);
+    r->width = LANES_SELECT(same, width_straight(batch, first, of_instance), r->width);
     if (VXL_TRAVELS) {
         const lane_float before = path_float(batch->paths, VXL_PATH_TRAVELLED, stride, first);
         const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
