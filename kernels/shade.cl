@@ -11,6 +11,7 @@
 #include "lib/surface/field.h"
 #include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
+#include "lib/surface/texture_alpha.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/paths.h"
@@ -203,6 +204,7 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
                   is_joined(h->packed, materials);
     }
     hidden &= h->hit & (transmits(materials, material, *opacity) | exit);
+    if (VXL_TEXTURE_ALPHA) hidden &= have_bodies(materials, h->packed, h->primitive, h->hit);
     *opacity = LANES_SELECT(hidden, (lane_float)0.0f, *opacity);
     return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
 }
@@ -241,24 +243,6 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                     (uint)channel * batch->stride + first);
     }
 }
-
-#if VXL_TEXTURES
-/// Finds and writes the paint of hits at `position`.
-static inline void paint_hits(const WorldView* world, const ShadedHit* h, const Footprint* f,
-                              Vector position, Vector normal, const RayBatch* batch, uint first) {
-    const float4 edge = world->shape.edge;
-    const Vector metres = scaled(h->world_way, edge);
-    const Vector way = unit(metres);
-    lane_float before = (lane_float)0.0f;
-    if (VXL_WIDENS)
-        before = LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
-    const lane_float travelled = h->world_t * exact_sqrt(dot_product(metres, metres));
-    const RaySpan span = span_of(f, edge, position, normal, way, before, travelled);
-    lane_float color[VXL_PAINT_WIDTH];
-    paint_of_hits(world, h, &span, normal, way, color);
-    store_paint(color, span.width, batch->paint, first);
-}
-#endif
 
 /// Writes what is asked for of every hit: its point, normal, packed attributes and `sides`, and in
 /// `radiance` its ambient light and emission, or what is around the world.

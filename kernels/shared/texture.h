@@ -26,10 +26,15 @@
 #define VXL_WORN_WORDS 10
 
 // The textures of exact triangles, one array of words. The first 256 are floats: the linear light
-// of each sRGB code. A texture begins with its width, height and how it goes on beyond its edges,
-// as in its record above; its texels follow, level after level.
+// of each sRGB code. A texture begins with its width, height, how it goes on beyond its edges, as
+// in its record above, and what its alpha means; its texels follow, level after level.
+//   VXL_ALPHA_OPAQUE  nothing: the texture covers all
+//   up to 255         a texture of an alpha below this code, in 1/255, isn't there
+//   VXL_ALPHA_BLEND   alpha is opacity
 #define VXL_TEXTURE_CURVE 256
-#define VXL_TEXTURE_HEAD 3
+#define VXL_TEXTURE_HEAD 4
+#define VXL_ALPHA_OPAQUE 0u
+#define VXL_ALPHA_BLEND 256u
 
 // What rays have seen: of each hit its colour, its opacity, and how wide the ray was there, all
 // floats, hit by hit. The first three multiply the material's colour, the fourth its opacity.

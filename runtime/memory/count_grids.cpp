@@ -90,6 +90,7 @@ void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& 
     grid.textures = Buffer<uint32_t>(device, "source textures",
                                      texture_words(counts.paint.texels, counts.paint.textures));
     grid.texture_key = counts.texture_key;
+    grid.texture_alpha = counts.paint.has_alpha;
 }
 
 }  // namespace

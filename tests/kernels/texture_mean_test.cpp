@@ -39,7 +39,7 @@ kernel void mean_of_areas(uint count, global const float* areas, global const ui
         a.off[i] = a.lean[i] = (lane_float)0.0f;
     }
     const lane_uint place = LANES_LOAD(places, first);
-    lane_float mean[3];
+    lane_float mean[4];
     texture_mean(textures, place, &a, LANE_MASK(place != VXL_NO_TEXTURE), mean);
     const Vector color = {mean[0], mean[1], mean[2]};
     store_vector(color, means, count, first);
@@ -77,8 +77,9 @@ class Textures {
             Picture picture{from.width, from.height, {}};
             for (const auto& [r, g, b] : from.texels) picture.pixels.push_back({r, g, b, 255});
             places_.push_back(uint32_t(words_.size()));
-            words_.insert(words_.end(), {uint32_t(from.width), uint32_t(from.height),
-                                         uint32_t(from.beyond_u) | uint32_t(from.beyond_v) << 4});
+            words_.insert(words_.end(),
+                          {uint32_t(from.width), uint32_t(from.height),
+                           uint32_t(from.beyond_u) | uint32_t(from.beyond_v) << 4, 0u});
             const TextureImage levels = with_levels(picture);
             words_.insert(words_.end(), levels.texels.begin(), levels.texels.end());
         }
@@ -93,7 +94,7 @@ class Textures {
             places[i] = places_[areas[i].picture];
         }
         const Buffer<float> means(device, "means", 3 * kAreas);
-        Program::from_text(device, kMeanSource, {})
+        Program::from_text(device, kMeanSource, {{"VXL_TEXTURE_ALPHA", 0}})
             .kernel("mean_of_areas")
             .launch_packets(
                 kAreas, kAreas, Buffer<float>(device, "areas", std::span<const float>(values)),

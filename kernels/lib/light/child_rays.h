@@ -5,6 +5,7 @@
 
 #include "lib/lanes/fixed_point.h"
 #include "lib/light/scatter_point.h"
+#include "lib/surface/texture_alpha.h"
 #include "lib/traverse/offset_origin.h"
 #include "lib/traverse/ray_queue.h"
 
@@ -23,6 +24,14 @@ static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position
     r->origin.y = clamp(snap_position(position.y, side.y, one), 0.0f, (float)shape.size_y);
     r->origin.z = clamp(snap_position(position.z, side.z, one), 0.0f, (float)shape.size_z);
     r->t_end = (lane_float)INFINITY;
+}
+
+/// Mask: rays that go straight on from these hits are inside of the surfaces' objects.
+static inline lane_int bodies_of(const Surroundings* around, const RayBatch* batch, uint first,
+                                 lane_uint packed, lane_int hit) {
+    if (!VXL_TEXTURE_ALPHA) return (lane_int)-1;
+    const lane_uint primitive = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * batch->stride + first);
+    return have_bodies(around->materials, packed, primitive, hit);
 }
 
 /// How wide rays are at the surfaces that they met, in metres.

@@ -6,6 +6,7 @@
 #include "lib/lanes/fixed_point.h"
 #include "lib/light/surroundings.h"
 #include "lib/surface/surface_color.h"
+#include "lib/surface/texture_alpha.h"
 #include "lib/traverse/instances.h"
 
 /// Finds the body of cubes that the rays are inside of.
@@ -90,11 +91,14 @@ static inline lane_int cross_surface(const Surroundings* around, const SurfaceHi
         *leaving = LANES_SELECT(cube, found->exit, *leaving);
     }
     lane_int full;
-    ray_state->media = cross_medium_or_overflow(ray_state->media, packed, *leaving, passing, &full);
+    lane_int bodies = passing;
+    if (VXL_TEXTURE_ALPHA)
+        bodies &= have_bodies(around->materials, packed, found->primitive, passing);
+    ray_state->media = cross_medium_or_overflow(ray_state->media, packed, *leaving, bodies, &full);
     if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
         atomic_add(around->medium_overflows, (uint)lanes_count(full));
     lane_int hidden =
-        same_medium(before, effective_medium(&ray_state->media, around->ranks)) & passing;
+        same_medium(before, effective_medium(&ray_state->media, around->ranks)) & bodies;
     if (VXL_CUBE_BODIES) {
         hidden |= found->exit & LANE_MASK(refraction == 0.0f);
         hidden = LANES_SELECT(inner, ~same_medium(before, packed), hidden);
@@ -176,7 +180,11 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
                                      hit & LANE_MASK(found->instance != VXL_NO_INSTANCE));
     const lane_uint material = material_offset(packed) & LANES_AS_UINT(hit);
     const Colors colors = colors_of_voxels(world->surface.colors, voxel);
-    const lane_float opacity = surface_opacity(materials, material, colors);
+    lane_float opacity = surface_opacity(materials, material, colors);
+    if (VXL_TEXTURE_ALPHA) {
+        const Vector o = {w->ox, w->oy, w->oz}, d = {w->dx, w->dy, w->dz};
+        opacity *= alpha_of_hits(world, o, d, found->t, found->primitive, found->instance, hit);
+    }
     const lane_float refraction = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION);
     filter->layers -= hit;
     lane_int passing = hit & LANE_MASK(filter->layers < VXL_MAX_LAYERS);

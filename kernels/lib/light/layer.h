@@ -87,8 +87,9 @@ static inline void go_straight(PyramidShape shape, const Layer* l, const Surroun
     on->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     on->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on->target = l->target;
-    on->media = cross_counted(load_medium_set(batch->paths, stride, first, l->valid), l->packed,
-                              l->leaving, goes_on, around->medium_overflows);
+    on->media = cross_counted(
+        load_medium_set(batch->paths, stride, first, l->valid), l->packed, l->leaving,
+        goes_on & bodies_of(around, batch, first, l->packed, l->hit), around->medium_overflows);
     if (VXL_CUBE_BODIES) on->flags |= joined_flag(&on->media, around->materials);
     const lane_int anew = goes_on & are_of_instances(batch, first);
     begin_behind(shape, batch, first, anew, on);

@@ -124,7 +124,8 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     const lane_int same =
         way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~of_instance);
     MediumSet passed = load_medium_set(batch->paths, stride, first, p->valid);
-    passed = cross_counted(passed, p->packed, p->leaving, way->straight, around->medium_overflows);
+    const lane_int bodies = way->straight & bodies_of(around, batch, first, p->packed, p->hit);
+    passed = cross_counted(passed, p->packed, p->leaving, bodies, around->medium_overflows);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         lane_uint member = LANES_SELECT(way->refracted, p->behind.members[i], p->before.members[i]);
         r->media.members[i] = LANES_SELECT(way->straight, passed.members[i], member);

@@ -7,6 +7,7 @@
 #include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_mean.h"
+#include "lib/traverse/ray_batch.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/footprint.h"
 
@@ -160,7 +161,7 @@ static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, con
     for (int i = 0; i < 2; ++i)
         sides[i] =
             in_hit_voxels(h, on_surface(span->side[i], normal, way), world->shape.inverse_edge);
-    lane_float share[3], mean[3];
+    lane_float share[3], mean[4];
     const TextureArea area = area_of(world, h, number, worn, sides, span, share);
     texture_mean(world->surface.textures, texture, &area, wears, mean);
     global const float* curve = (global const float*)world->surface.textures;
@@ -174,6 +175,8 @@ static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, con
                           between);
         color[c] = LANES_SELECT(wears, mean[c] * between, color[c]);
     }
+    if (VXL_TEXTURE_ALPHA)
+        color[VXL_PAINT_OPACITY] = LANES_SELECT(wears, mean[3], color[VXL_PAINT_OPACITY]);
 }
 
 /// Writes the paint of a packet's hits, and how wide the rays are there.
@@ -185,6 +188,22 @@ static inline void store_paint(const lane_float* color, lane_float width,
     for (uint lane = 0; lane < VXL_LANES; ++lane)
         for (uint c = 0; c < VXL_PAINT_FLOATS; ++c)
             paint[(first + lane) * VXL_PAINT_FLOATS + c] = values[c * VXL_LANES + lane];
+}
+
+/// Finds and writes the paint of hits at `position`.
+static inline void paint_hits(const WorldView* world, const ShadedHit* h, const Footprint* f,
+                              Vector position, Vector normal, const RayBatch* batch, uint first) {
+    const float4 edge = world->shape.edge;
+    const Vector metres = scaled(h->world_way, edge);
+    const Vector way = unit(metres);
+    lane_float before = (lane_float)0.0f;
+    if (VXL_WIDENS)
+        before = LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
+    const lane_float travelled = h->world_t * exact_sqrt(dot_product(metres, metres));
+    const RaySpan span = span_of(f, edge, position, normal, way, before, travelled);
+    lane_float color[VXL_PAINT_WIDTH];
+    paint_of_hits(world, h, &span, normal, way, color);
+    store_paint(color, span.width, batch->paint, first);
 }
 
 #endif

@@ -20,6 +20,7 @@ typedef struct {
     lane_uint first;  // its first texel
     lane_int width, height;
     lane_uint wrap_u, wrap_v;
+    lane_uint alpha;  // VXL_ALPHA_*
 } TextureLevel;
 
 /// What samples see of textures: around a place, in texture widths, from -1/2 to 1/2 along each of
@@ -44,6 +45,8 @@ static inline TextureLevel first_level(global const uint* restrict textures, lan
     t.height = LANES_SELECT(wears, t.height, (lane_int)1);
     const lane_uint wrap = LANES_GATHER_UINT(textures, place + 2u) & LANES_AS_UINT(wears);
     t.wrap_u = wrap & 15u, t.wrap_v = wrap >> VXL_TEXTURE_WRAP_V_SHIFT;
+    t.alpha = (lane_uint)VXL_ALPHA_OPAQUE;
+    if (VXL_TEXTURE_ALPHA) t.alpha = LANES_GATHER_UINT(textures, place + 3u) & LANES_AS_UINT(wears);
     t.first = place + (uint)VXL_TEXTURE_HEAD;
     return t;
 }
@@ -84,17 +87,24 @@ static inline lane_int texel_number(lane_int at, lane_int size, lane_uint wrap) 
     return clamp(at, (lane_int)0, size - 1);
 }
 
-/// Adds a texel's colour in linear light, times `weight`.
+/// Adds a texel's colour in linear light, times `weight`; where alpha counts, times alpha too,
+/// which is added behind it.
 static inline void add_texel(const TextureLevel* t, lane_int x, lane_int y, lane_float weight,
                              lane_float* sum) {
     const lane_uint texel =
         LANES_GATHER_UINT(t->textures, t->first + LANES_AS_UINT(y * t->width + x));
     global const float* curve = (global const float*)t->textures;
+    if (VXL_TEXTURE_ALPHA) {
+        const lane_float alpha = LANES_FLOAT(texel >> 24) * (1.0f / 255.0f);
+        weight *= LANES_SELECT(LANE_MASK(t->alpha != VXL_ALPHA_OPAQUE), alpha, (lane_float)1.0f);
+        sum[3] += weight;
+    }
     for (int c = 0; c < 3; ++c)
         sum[c] = fma(LANES_GATHER_FLOAT(curve, (texel >> (uint)(8 * c)) & 255u), weight, sum[c]);
 }
 
-/// Adds the bilinear value at a place, times `weight`.
+/// Adds the bilinear value at a place, times `weight`. Where alpha is below its least, nothing is
+/// there; elsewhere with such a least all is.
 static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v, lane_float weight,
                                lane_float* sum) {
     const lane_float x = fma(place_of_texels(u, t->wrap_u), LANES_FLOAT(t->width), -0.5f);
@@ -106,11 +116,23 @@ static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v
     const lane_int x1 = texel_number(from_x + 1, t->width, t->wrap_u);
     const lane_int y0 = texel_number(from_y, t->height, t->wrap_v);
     const lane_int y1 = texel_number(from_y + 1, t->height, t->wrap_v);
-    const lane_float upper = (1.0f - part_y) * weight, lower = part_y * weight;
-    add_texel(t, x0, y0, (1.0f - part_x) * upper, sum);
-    add_texel(t, x1, y0, part_x * upper, sum);
-    add_texel(t, x0, y1, (1.0f - part_x) * lower, sum);
-    add_texel(t, x1, y1, part_x * lower, sum);
+    const lane_float full = VXL_TEXTURE_ALPHA ? (lane_float)1.0f : weight;
+    const lane_float upper = (1.0f - part_y) * full, lower = part_y * full;
+    const lane_float zero = (lane_float)0.0f;
+    lane_float own[4] = {zero, zero, zero, zero};
+    lane_float* to = VXL_TEXTURE_ALPHA ? own : sum;
+    add_texel(t, x0, y0, (1.0f - part_x) * upper, to);
+    add_texel(t, x1, y0, part_x * upper, to);
+    add_texel(t, x0, y1, (1.0f - part_x) * lower, to);
+    add_texel(t, x1, y1, part_x * lower, to);
+    if (!VXL_TEXTURE_ALPHA) return;
+    const lane_int has_least = LANE_MASK(t->alpha < VXL_ALPHA_BLEND) & LANE_MASK(t->alpha > 0u);
+    const lane_int is_there = LANE_MASK(own[3] * 255.0f >= LANES_FLOAT(t->alpha));
+    const lane_int some = LANE_MASK(own[3] > 0.0f);
+    const lane_float whole = exact_reciprocal(LANES_SELECT(some, own[3], (lane_float)1.0f));
+    const lane_float as_mask = LANES_SELECT(is_there & some, whole, zero);
+    const lane_float scale = weight * LANES_SELECT(has_least, as_mask, (lane_float)1.0f);
+    for (int c = 0; c < 4; ++c) sum[c] = fma(own[c], scale, sum[c]);
 }
 
 /// The whole part of the logarithm to base 2 of a number of 1 or more, 0 for smaller ones.
@@ -119,7 +141,8 @@ static inline lane_int floor_log2(lane_float v) {
     return (LANES_AS_INT(from_one) >> 23) - 127;
 }
 
-/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`.
+/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`, and where
+/// alpha counts to the share of it that they cover; the colour is then that of what is there.
 /// `wears` are the lanes with a texture.
 static inline void texture_mean(global const uint* restrict textures, lane_uint place,
                                 const TextureArea* area, lane_int wears, lane_float* mean) {
@@ -147,7 +170,7 @@ static inline void texture_mean(global const uint* restrict textures, lane_uint 
         step[i] = exact_reciprocal(count[i]);
     }
     const lane_float weight = step[0] * step[1];
-    for (int c = 0; c < 3; ++c) mean[c] = (lane_float)0.0f;
+    for (int c = 0; c < 4; ++c) mean[c] = (lane_float)0.0f;
     lane_float j = (lane_float)0.5f;
     lane_int in_row = wears;
     while (lanes_any(in_row)) {
@@ -167,6 +190,13 @@ static inline void texture_mean(global const uint* restrict textures, lane_uint 
         j += 1.0f;
         in_row &= LANE_MASK(j < count[1]);
     }
+    if (!VXL_TEXTURE_ALPHA) return;
+    const lane_int covers = LANE_MASK(mean[3] > 0.0f);
+    const lane_float whole = exact_reciprocal(LANES_SELECT(covers, mean[3], (lane_float)1.0f));
+    for (int c = 0; c < 3; ++c) mean[c] *= whole;
+    mean[3] = clamp(mean[3], 0.0f, 1.0f);
+    // All of what covers but for rounding is opaque.
+    mean[3] = LANES_SELECT(LANE_MASK(mean[3] > 0.99999f), (lane_float)1.0f, mean[3]);
 }
 
 #endif

@@ -86,6 +86,7 @@ Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const Pyra
     pyramid.triangle_textures = grid.triangle_textures;
     pyramid.textures = grid.textures;
     pyramid.texture_key = grid.texture_key;
+    pyramid.texture_alpha = grid.texture_alpha;
     pyramid.solids = grid.solids;
     return pyramid;
 }

@@ -66,6 +66,7 @@ class Total {
         Pyramid joined;
         joined.frame = frame_;
         joined.transparent = transparent_;
+        joined.texture_alpha = texture_alpha_;
         joined.leaf_count = uint32_t(total_.leaves);
         joined.voxel_count = voxel_count_;
         joined.listed_fields = uint32_t(total_.voxels) - voxel_count_;
@@ -107,13 +108,14 @@ class Total {
         parts_.normals |= !p.triangle_normals.empty();
         parts_.textures.add(p.texture_key, p.textures.size());
         transparent_ |= p.transparent;
+        texture_alpha_ |= p.texture_alpha;
     }
 
     GridFrame frame_;
     Extent total_;
     uint32_t voxel_count_ = 0;
     Parts parts_;
-    bool transparent_ = false;
+    bool transparent_ = false, texture_alpha_ = false;
 };
 
 class Joiner {

@@ -78,7 +78,9 @@ std::vector<uint32_t> write_textures(VoxelizeJob& job, const Mesh& mesh) {
         places.push_back(uint32_t(writer.place()));
         const uint32_t head[VXL_TEXTURE_HEAD] = {
             uint32_t(image.width), uint32_t(image.height),
-            uint32_t(texture.wrap_u) | uint32_t(texture.wrap_v) << VXL_TEXTURE_WRAP_V_SHIFT};
+            uint32_t(texture.wrap_u) | uint32_t(texture.wrap_v) << VXL_TEXTURE_WRAP_V_SHIFT,
+            texture.alpha};
+        job.grid.texture_alpha |= texture.alpha != kAlphaOpaque;
         writer.write(head);
         writer.write(image.texels);
     }
