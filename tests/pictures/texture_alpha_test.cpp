@@ -107,9 +107,10 @@ double difference(const Image& image, const Expected& expected) {
         for (int column = 0; column < image.width; ++column) {
             double sum = 0;
             for (int i = 0; i < 64; ++i) {
+                const int part_x = i % 8, part_y = i / 8;
                 // The observer looks along Z, so X runs to the left.
-                const double x = 1.4 - 2.8 * (column + (i % 8 + 0.5) / 8) / image.width;
-                const double y = 1.2 - 2.4 * (row + (i / 8 + 0.5) / 8) / image.height;
+                const double x = 1.4 - 2.8 * (column + (part_x + 0.5) / 8) / image.width;
+                const double y = 1.2 - 2.4 * (row + (part_y + 0.5) / 8) / image.height;
                 sum += expected(x, y) / 64;
             }
             const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);

@@ -119,8 +119,9 @@ Difference compare(const Image& image, const Scene& scene, const oracle::Picture
             glm::dvec3 sum(0);
             bool is_inside = true;
             for (int i = 0; i < kEach * kEach && is_inside; ++i) {
-                Sight sight = sight_of(scene, column + (i % kEach + 0.5) / kEach,
-                                       row + (i / kEach + 0.5) / kEach);
+                const int part_x = i % kEach, part_y = i / kEach;
+                Sight sight =
+                    sight_of(scene, column + (part_x + 0.5) / kEach, row + (part_y + 0.5) / kEach);
                 if (mirror) {
                     const bool sees_sheet = color_along(picture, inverse, sight).x >= 0;
                     sight.from.z = 2 * *mirror - sight.from.z;
@@ -141,7 +142,8 @@ Difference compare(const Image& image, const Scene& scene, const oracle::Picture
     return difference;
 }
 
-constexpr const char* kPyramid = R"("shape": "pyramid", "angles": [60, 44], "near": 0.01, "far": 50)";
+constexpr const char* kPyramid =
+    R"("shape": "pyramid", "angles": [60, 44], "near": 0.01, "far": 50)";
 
 TEST_F(WornTexture, IsTheMeanOverAPixelUnderAnyMapInTheWorldAndAsInstances) {
     const oracle::Picture picture = picture_of(256, 160);
