@@ -17,7 +17,7 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, global const SkyRecord* restrict
     const RayBatch batch = VXL_BATCH;
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     LitPoints p;
-    if (!load_lit_points(&batch, first, &p)) return;
+    if (!load_lit_points(&world, &batch, first, &p)) return;
     const lane_uint place =
         mixed_bits(mixed_bits(LANES_AS_UINT(p.position.x)) + LANES_AS_UINT(p.position.y));
     const lane_uint seed = decision_seed(place, LANES_AS_UINT(p.position.z));
@@ -35,14 +35,13 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, global const SkyRecord* restrict
     lane_float from_sky[3];
     sky_light(sky, way, from_sky);
     const lane_float scale = LANES_GATHER_FLOAT(materials, p.material + VXL_MATERIAL_DIFFUSE) *
-                             surface_opacity(materials, p.material, colors, p.voxel) *
+                             surface_opacity(materials, p.material, p.colors) *
                              (1.0f / (float)directions);
     const lane_uint color_at =
         color_offset(materials, p.material, p.position.x, p.position.y, p.position.z);
     lane_int some = (lane_int)0;
     for (int c = 0; c < 3; ++c) {
-        r.contribution[c] =
-            surface_color(materials, color_at, colors, p.voxel, c) * from_sky[c] * scale;
+        r.contribution[c] = surface_color(materials, color_at, p.colors, c) * from_sky[c] * scale;
         some |= LANE_MASK(r.contribution[c] > 0.0f);
     }
     send_or_add(&queue, &r, p.lit & some, behind, &batch, first);

@@ -21,19 +21,22 @@ typedef struct {
 /// Surface points that light may reach. Their shadow rays begin at `start`.
 typedef struct {
     lane_int lit;  // mask
-    lane_uint voxel, material;
+    lane_uint material;
+    Colors colors;
     Vector position, normal, shading_normal, start;
 } LitPoints;
 
 /// Loads the points of hits. Returns false if none can be lit.
-static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints* p) {
+static inline bool load_lit_points(const WorldView* world, const RayBatch* batch, uint first,
+                                   LitPoints* p) {
     const uint stride = batch->stride;
     const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * stride + first);
     p->lit = LANE_MASK(number != VXL_NO_VOXEL);
     if (VXL_TRANSMISSION)
         p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
     if (!lanes_any(p->lit)) return false;
-    p->voxel = number & LANES_AS_UINT(p->lit);
+    p->colors =
+        colors_of_hits(world->surface.colors, number & LANES_AS_UINT(p->lit), batch->paint, first);
     p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);
     p->position = load_vector(batch->positions, stride, first);
     p->normal = load_vector(batch->normals, stride, first);

@@ -9,6 +9,7 @@
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/emitter_table.hpp"
 #include "runtime/stages/features.hpp"
+#include "runtime/stages/light/footprint.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
@@ -45,6 +46,7 @@ class ShadeStage {
     Buffer<uint32_t> ranks_;
     Buffer<SkyRecord> sky_;
     EmitterTable emitters_;
+    FootprintArgument footprint_;
     Program program_;
     Kernel surface_;
 };
