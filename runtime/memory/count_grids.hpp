@@ -16,7 +16,8 @@ struct GridCounts {
     VoxelSet set = VoxelSet::supercover;
     bool words = false;                  ///< voxels have some
     MeshPaint paint = {};                ///< what gives voxels colours
-    bool normals = false;                ///< triangles of an exact mesh have them
+    bool normals = false;                ///< the mesh's triangles have them
+    bool cube_normals = false;           ///< cubes have them
     size_t bricks = 0;                   ///< stored
     size_t voxels = 0;                   ///< that the surface passes through
     size_t vertices = 0, triangles = 0;  ///< of a mesh

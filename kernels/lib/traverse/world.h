@@ -13,9 +13,10 @@
     PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks, \
         global const uint *restrict leaves, global const uint *restrict leaf_voxels,             \
         global const uint *restrict attributes, uint constant_attribute,                         \
-        global const uint *restrict colors, global const uint *restrict fields,                  \
-        global const uint *restrict primitive_first, global const uint *restrict primitives,     \
-        global const float *restrict triangles, global const uint *restrict triangle_attributes, \
+        global const uint *restrict colors, global const uint *restrict voxel_normals,           \
+        global const uint *restrict fields, global const uint *restrict primitive_first,         \
+        global const uint *restrict primitives, global const float *restrict triangles,          \
+        global const uint *restrict triangle_attributes,                                         \
         global const uint *restrict triangle_normals, global const SolidShape *restrict solids,  \
         global const InstanceRecord *restrict instance_records,                                  \
         global const InstanceNode *restrict instance_nodes,                                      \
@@ -26,6 +27,7 @@ typedef struct {
     global const uint* restrict attributes;
     uint constant_attribute;  // of every voxel where there are no `attributes`
     global const uint* restrict colors;
+    global const uint* restrict normals;  // of cubes, see shared/normal.h
     global const uint* restrict fields;
     global const uint* restrict primitive_first;
     global const uint* restrict primitives;
@@ -56,6 +58,7 @@ typedef struct {
         shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels), {attributes,          \
                                                                            constant_attribute,  \
                                                                            colors,              \
+                                                                           voxel_normals,       \
                                                                            fields,              \
                                                                            primitive_first,     \
                                                                            primitives,          \
