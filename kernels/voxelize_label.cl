@@ -220,21 +220,23 @@ static inline uint face_normal(const LatticeTriangle* t) {
     const float3 size = fabs(n);
     const float longest = fmax(size.x, fmax(size.y, size.z));
     if (longest == 0.0f) return VXL_NO_NORMAL;
-    const float inverse = scalar_reciprocal(longest);
-    return pack_one_normal(n.x * inverse, n.y * inverse, n.z * inverse);
+    return pack_normal(n * scalar_reciprocal(longest));
 }
 
-/// The mean of a triangle's corners' normals, of unit length in voxels; that of the triangle where
-/// corners have none, or their mean has no direction.
-static inline uint mean_normal(global const uint* codes, float3 weights, const LatticeTriangle* t) {
+/// The mean of a triangle's corners' normals, which are of unit length in metres, as a gradient in
+/// voxels; that of the triangle where corners have none, or their mean has no direction.
+static inline uint mean_normal(global const uint* codes, float3 weights, float3 scale,
+                               const LatticeTriangle* t) {
     if (codes[0] == VXL_NO_NORMAL) return face_normal(t);
     const float weight[3] = {weights.x, weights.y, weights.z};
+    const float3 to_metric = (float3)(scalar_reciprocal(scale.x), scalar_reciprocal(scale.y),
+                                      scalar_reciprocal(scale.z));
     float3 sum = (float3)(0.0f);
     for (int i = 0; i < 3; ++i) {
-        const Vector n = unit(unpack_normal((lane_uint)codes[i]));
-        sum += (float3)(first_lane(n.x), first_lane(n.y), first_lane(n.z)) * weight[i];
+        const float3 n = unpack_one_normal(codes[i]) * to_metric;
+        sum += n * (scalar_reciprocal(scalar_root(dot_product(n, n))) * weight[i]);
     }
-    const uint code = pack_one_normal(sum.x, sum.y, sum.z);
+    const uint code = pack_normal(sum * scale);
     return code == VXL_NO_NORMAL ? face_normal(t) : code;
 }
 
@@ -255,7 +257,7 @@ kernel void give_normals(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMET
     }
     const LatticeTriangle t =
         triangle_from(&mesh, triangle, brick_of(coordinates[number >> 12], bricks), number);
-    normals[number] = VXL_CORNER_NORMALS
-                          ? mean_normal(corner_normals + 3u * triangle, weights_of(&t, scale), &t)
-                          : face_normal(&t);
+    normals[number] = VXL_CORNER_NORMALS ? mean_normal(corner_normals + 3u * triangle,
+                                                       weights_of(&t, scale), scale.xyz, &t)
+                                         : face_normal(&t);
 }

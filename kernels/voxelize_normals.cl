@@ -22,6 +22,10 @@ kernel void normals_of_solid(global const SolidShape* restrict solids,
     const SolidRay ray = {
         LANES_FLOAT(LANES_NUMBERS) + x, (lane_float)y, (lane_float)z, one, one, one};
     const SolidPoint n = solid_normal(solids, 0, &ray, (lane_float)0.0f);
-    const Vector g = {n.x, n.y, n.z};
-    LANES_STORE(pack_normal(unit(g)), normals, ((size_t)slot << 12) + voxel);
+    const lane_float longest = fmax(fabs(n.x), fmax(fabs(n.y), fabs(n.z)));
+    const lane_int some = LANE_MASK(longest > 0.0f);
+    const lane_float inverse =
+        exact_divide((lane_float)1.0f, LANES_SELECT(some, longest, (lane_float)1.0f));
+    LANES_STORE(pack_components(n.x * inverse, n.y * inverse, n.z * inverse), normals,
+                ((size_t)slot << 12) + voxel);
 }

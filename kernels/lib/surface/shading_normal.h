@@ -6,7 +6,15 @@
 #ifndef VXL_SHADING_NORMAL_H
 #define VXL_SHADING_NORMAL_H
 
+#include "lib/lanes/vector.h"
 #include "lib/surface/packed_normal.h"
+
+/// The packed normals as vectors in the voxels of their grid, not of unit length.
+static inline Vector unpack_normal(lane_uint packed) {
+    Vector n;
+    unpack_components(packed, &n.x, &n.y, &n.z);
+    return n;
+}
 
 /// A triangle's corner in the voxels of its grid.
 static inline Vector triangle_corner(global const float* restrict triangles, lane_uint number,

@@ -11,9 +11,8 @@ static inline uint normal_in_world(const PlacedObject* object, long from) {
     if (!VXL_OBJECT_NORMALS || from < 0) return VXL_NO_NORMAL;
     const uint packed = object->normals[from];
     if (packed == VXL_NO_NORMAL) return packed;
-    const Vector own = unpack_normal((lane_uint)packed);
-    const float of_object[3] = {((const float*)&own.x)[0], ((const float*)&own.y)[0],
-                                ((const float*)&own.z)[0]};
+    const float3 own = unpack_one_normal(packed);
+    const float of_object[3] = {own.x, own.y, own.z};
     const float unit = as_float((127 - object->fraction_bits) << 23);  // 2^-fraction_bits
     float g[3];
     for (int column = 0; column < 3; ++column) {
@@ -23,7 +22,7 @@ static inline uint normal_in_world(const PlacedObject* object, long from) {
                       sum);
         g[column] = sum;
     }
-    return pack_one_normal(g[0], g[1], g[2]);
+    return pack_normal((float3)(g[0], g[1], g[2]));
 }
 
 #endif
