@@ -23,8 +23,8 @@
 #define VXL_TEXTURES 0
 #endif
 /// Whether it has normals at its triangles' corners.
-#ifndef VXL_CORNER_NORMALS
-#define VXL_CORNER_NORMALS 0
+#ifndef VXL_VERTEX_NORMALS
+#define VXL_VERTEX_NORMALS 0
 #endif
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define BRICK_CENTER (LATTICE_BRICK / 2)
@@ -257,7 +257,7 @@ kernel void give_normals(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMET
     }
     const LatticeTriangle t =
         triangle_from(&mesh, triangle, brick_of(coordinates[number >> 12], bricks), number);
-    normals[number] = VXL_CORNER_NORMALS ? mean_normal(corner_normals + 3u * triangle,
+    normals[number] = VXL_VERTEX_NORMALS ? mean_normal(corner_normals + 3u * triangle,
                                                        weights_of(&t, scale), scale.xyz, &t)
                                          : face_normal(&t);
 }
