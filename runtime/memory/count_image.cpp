@@ -82,6 +82,11 @@ void count_emitters(const Device& device, const Scene& scene, const Pyramid& wor
 
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth) {
+    if (scene.render.channels.has_passes() && !scene.render.channels.color) {
+        Scene lit = scene;  // as its passes are
+        lit.render.channels.color = true;
+        return count_image(device, lit, world, medium, depth);
+    }
     const Features features = features_of(scene, world);
     const Camera camera = camera_of(scene, world.frame);
     const uint64_t rays =
