@@ -19,6 +19,7 @@ struct VoxelizeCommand {
     int resolution = 0;
     std::string surface = "smooth";
     std::string set = "supercover";
+    std::string normals = "faces";
     std::string device;
     bool quiet = false;
 };
@@ -30,6 +31,9 @@ constexpr std::array kSets = {std::pair{std::string_view("supercover"), VoxelSet
                               std::pair{std::string_view("thin"), VoxelSet::thin},
                               std::pair{std::string_view("solid"), VoxelSet::solid}};
 
+constexpr std::array kNormals = {std::pair{std::string_view("faces"), CubeNormals::faces},
+                                 std::pair{std::string_view("surface"), CubeNormals::surface}};
+
 VoxelizeOptions options_of(const VoxelizeCommand& command) {
     VoxelizeOptions options;
     options.voxel_size = command.voxel_size;
@@ -38,6 +42,11 @@ VoxelizeOptions options_of(const VoxelizeCommand& command) {
     options.set = choose(command.set, kSets, "voxelize: --set");
     if (options.surface != Surface::cubes && command.set != "supercover")
         fail_usage("voxelize: --set {}: only cubes have sets: add --surface cubes", command.set);
+    options.normals = choose(command.normals, kNormals, "voxelize: --normals");
+    if (options.surface != Surface::cubes && options.normals != CubeNormals::faces)
+        fail_usage(
+            "voxelize: --normals {}: only cubes have a choice of normals: add --surface cubes",
+            command.normals);
     return options;
 }
 
@@ -82,6 +91,9 @@ Action add_voxelize(CLI::App& app) {
         "surface: smooth (a distance field; the default), cubes, or exact (lists of triangles)");
     app.add_option("--set", command->set,
                    "voxel set of cubes: supercover (the default), thin or solid");
+    app.add_option("--normals", command->normals,
+                   "normals that light cubes: faces (the default), or surface (those of the mesh, "
+                   "kept in .vxm)");
     app.add_option("--device", command->device,
                    "device: auto, cpu, gpu, a number, or part of a name");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");

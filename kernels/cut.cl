@@ -4,6 +4,7 @@
 // A brick of the result has its slots in the operands as sources. An operand that doesn't store the
 // brick is wholly inside or wholly outside there.
 #include "lib/lanes/work_item.h"
+#include "shared/normal.h"
 #include "shared/voxel.h"
 
 static inline int is_stored(uint slot) {
@@ -46,6 +47,21 @@ kernel void join_covers(uint count, global const uint4* restrict sources,
     const ulong a = mask_at(body, slots.x, leaf), b = mask_at(rest, slots.z, leaf);
     occupancy[number] = (a & (b | mask_at(rest_inside, slots.w, leaf))) |
                         (b & (a | mask_at(body_inside, slots.y, leaf)));
+}
+
+/// One work-item: one brick. Its voxels' normals are those of the body, or where it has none those
+/// of what the cuts leave. `sources` is as in join_covers.
+kernel void join_normals(uint count, global const uint4* restrict sources,
+                         global const uint* restrict body, global const uint* restrict rest,
+                         global uint* restrict normals) {
+    const uint brick = work_item();
+    if (brick >= count) return;
+    const uint4 slots = sources[brick];
+    for (uint i = 0; i < 4096u; ++i) {
+        uint code = is_stored(slots.x) ? body[4096u * (size_t)slots.x + i] : VXL_NO_NORMAL;
+        if (code == VXL_NO_NORMAL && is_stored(slots.z)) code = rest[4096u * (size_t)slots.z + i];
+        normals[4096u * (size_t)brick + i] = code;
+    }
 }
 
 /// One work-item: one brick. Copies its voxels' words from its slot in `from`, or writes `word` if

@@ -5,7 +5,7 @@
 // and counts them, the host numbers them by prefix sums, `write_voxels` fills the pyramid.
 //
 // Build constants: VXL_OCCUPANCY, VXL_SMOOTH, VXL_ATTRIBUTES, VXL_WRITE_ATTRIBUTES, VXL_COLORS,
-// VXL_PRIMITIVES say which of the grid's buffers exist.
+// VXL_VOXEL_NORMALS, VXL_PRIMITIVES say which of the grid's buffers exist.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
 #include "lib/voxelize/brick_grid.h"
@@ -64,6 +64,7 @@ kernel void mark_voxels(const uint count, global const uint* restrict listed,
 typedef struct {
     global uint* restrict attributes;
     global uint* restrict colors;
+    global uint* restrict normals;
     global uint* restrict fields;
     global uint* restrict primitive_first;
     global uint* restrict primitives;
@@ -87,6 +88,7 @@ static inline uint write_voxel(const BrickGrid* grid, uint slot, int place, bool
     const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + place;
     if (VXL_WRITE_ATTRIBUTES) to->attributes[number] = word_with_kind(grid, voxel, smooth, kinds);
     if (VXL_COLORS) to->colors[number] = grid->colors[voxel];
+    if (VXL_VOXEL_NORMALS) to->normals[number] = grid->normals[voxel];
     if (VXL_SMOOTH) {
         const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
         vstore8(smooth ? field_record(nodes, cell) : (uint8)(0), number, to->fields);
@@ -106,14 +108,14 @@ kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PAR
                          global const ulong* restrict masks, global const uint* restrict starts,
                          global uint* restrict leaves, global uint* restrict leaf_voxels,
                          global uint* restrict voxel_attributes, global uint* restrict voxel_colors,
-                         global uint* restrict voxel_fields,
+                         global uint* restrict voxel_normals, global uint* restrict voxel_fields,
                          global uint* restrict voxel_primitive_first,
                          global uint* restrict voxel_primitives) {
     const uint slot = work_item();
     if (slot >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;
-    const WrittenVoxels to = {voxel_attributes, voxel_colors, voxel_fields, voxel_primitive_first,
-                              voxel_primitives};
+    const WrittenVoxels to = {voxel_attributes, voxel_colors,          voxel_normals,
+                              voxel_fields,     voxel_primitive_first, voxel_primitives};
     const uint3 start = vload3(slot, starts);
     uint leaf_number = start.x, number = start.y, primitive = start.z;
     short nodes[VXL_SMOOTH ? VXL_NODE_COUNT : 1];
@@ -129,7 +131,8 @@ kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PAR
                          brick_at(grid.coordinates[slot], grid.bricks), nodes);
             gathered = true;
         }
-        if (!(VXL_WRITE_ATTRIBUTES | VXL_COLORS | VXL_SMOOTH | VXL_PRIMITIVES)) {
+        if (!(VXL_WRITE_ATTRIBUTES | VXL_COLORS | VXL_VOXEL_NORMALS | VXL_SMOOTH |
+              VXL_PRIMITIVES)) {
             number += (uint)popcount(mask);
             continue;
         }

@@ -7,7 +7,8 @@
 //
 // Build constants: VXL_BASE: there are cubes or exact voxels, too. VXL_BASE_ATTRIBUTES,
 // VXL_PRIMITIVES: these have attributes of their own, primitives. VXL_COLORS: the world has
-// colours. VXL_ATTRIBUTES, VXL_OWN_COLORS: the object whose fields are written has them.
+// colours. VXL_VOXEL_NORMALS: its cubes have normals. VXL_ATTRIBUTES, VXL_OWN_COLORS: the object
+// whose fields are written has them.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
 #include "lib/voxelize/brick_grid.h"
@@ -117,7 +118,8 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
                          global const ulong* restrict listing, global const ulong* restrict of_base,
                          global const uint* restrict starts, global uint* restrict leaves,
                          global uint* restrict leaf_voxels, global uint* restrict voxel_attributes,
-                         global uint* restrict voxel_colors, global uint* restrict voxel_fields,
+                         global uint* restrict voxel_colors, global uint* restrict voxel_normals,
+                         global uint* restrict voxel_fields,
                          global uint* restrict voxel_primitive_first,
                          global uint* restrict voxel_primitives) {
     const uint item = work_item();
@@ -155,6 +157,7 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
                 packed |= VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT;
             voxel_attributes[number] = packed;
             if (VXL_COLORS && grid.colors) voxel_colors[number] = grid.colors[voxel];
+            if (VXL_VOXEL_NORMALS) voxel_normals[number] = grid.normals[voxel];
             if (!VXL_PRIMITIVES) continue;
             for (uint i = grid.primitive_first[voxel]; i < grid.primitive_first[voxel + 1]; ++i)
                 voxel_primitives[primitive++] = grid.primitives[i];

@@ -6,13 +6,15 @@
 // is set is decided in integers alone, and a brick's voxels depend on nothing but the objects.
 //
 // Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
-// VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
+// VXL_COLORS, VXL_VOXEL_NORMALS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS,
+// VXL_OBJECT_NORMALS: the object has them.
 // VXL_REACH: the reach is not 0. VXL_KEEPS_INSIDE: bricks inside of the object are stored, too.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/world_bounds.h"
 #include "lib/voxelize/painted_world.h"
 #include "lib/voxelize/placed_attributes.h"
 #include "lib/voxelize/placed_field.h"
+#include "lib/voxelize/placed_normal.h"
 
 // One brick of an object: which of its leaves hold voxels, or distances below `threshold`.
 kernel void mark_near_leaves(const uint count, const int threshold,
@@ -174,13 +176,13 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
     }
 }
 
-// The packed attributes of a voxel that held `before` and is painted `packed`: an exact object
-// leaves cubes where they are, behind its surface. Voxels with colours have one for all that they
-// hold, so there the cubes make way.
-static inline uint over_cubes(uint before, uint packed) {
-    const uint both = VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT, kind = before >> VXL_KIND_SHIFT;
-    const bool stays = kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
-    return stays && packed >> VXL_KIND_SHIFT == VXL_KIND_EXACT ? before | both : packed;
+// Whether a voxel with the packed attributes `before` that is painted `packed` stays a cube: an
+// exact object leaves cubes where they are, behind its surface. Voxels with colours have one for
+// all that they hold, so there the cubes make way.
+static inline bool stays_cube(uint before, uint packed) {
+    const uint kind = before >> VXL_KIND_SHIFT;
+    const bool is_cube = kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
+    return is_cube && packed >> VXL_KIND_SHIFT == VXL_KIND_EXACT;
 }
 
 // One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
@@ -210,13 +212,20 @@ kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PAR
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
+        bool is_over_cube = false;
         if (VXL_ATTRIBUTES) {
-            const uint packed =
+            uint packed =
                 attributes_of(object.attribute_map, object.materials, object.attributes, from);
-            world.attributes[number] =
-                was_set && !VXL_COLORS ? over_cubes(world.attributes[number], packed) : packed;
+            if (was_set && !VXL_COLORS) {
+                is_over_cube = stays_cube(world.attributes[number], packed);
+                if (is_over_cube)
+                    packed = world.attributes[number] | VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT;
+            }
+            world.attributes[number] = packed;
         }
         if (VXL_COLORS) world.colors[number] = color_of(object.colors, from);
+        if (VXL_VOXEL_NORMALS && !is_over_cube)
+            world.normals[number] = normal_in_world(&object, from);
     }
     world.occupancy[leaf] |= set;
 }

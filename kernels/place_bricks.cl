@@ -2,14 +2,17 @@
 // The world's stored bricks as such: made empty before objects are painted into them, and moved
 // where others have gone, so that slots stay without gaps.
 //
-// Build constants: VXL_SMOOTH, VXL_OCCUPANCY, VXL_ATTRIBUTES, VXL_COLORS: what the world has.
+// Build constants: VXL_SMOOTH, VXL_OCCUPANCY, VXL_ATTRIBUTES, VXL_COLORS, VXL_VOXEL_NORMALS: what
+// the world has.
 #include "lib/lanes/work_item.h"
 #include "lib/voxelize/brick_nodes.h"
+#include "shared/normal.h"
 
 // One leaf's worth of a listed brick's values, 64 in their order.
 kernel void clear_bricks(const uint count, global const uint* restrict listed,
                          global short* restrict distance, global ulong* restrict occupancy,
-                         global uint* restrict attributes, global uint* restrict colors) {
+                         global uint* restrict attributes, global uint* restrict colors,
+                         global uint* restrict normals) {
     const uint item = work_item();
     if (item >= count) return;
     const size_t part = ((size_t)listed[item >> 6] << 6) + (item & 63u);
@@ -18,13 +21,15 @@ kernel void clear_bricks(const uint count, global const uint* restrict listed,
         if (VXL_SMOOTH) vstore16((short16)(VXL_SATURATED), part * 4 + i, distance);
         if (VXL_ATTRIBUTES) vstore16((uint16)(0u), part * 4 + i, attributes);
         if (VXL_COLORS) vstore16((uint16)(0xFFFFFFu), part * 4 + i, colors);
+        if (VXL_VOXEL_NORMALS) vstore16((uint16)(VXL_NO_NORMAL), part * 4 + i, normals);
     }
 }
 
 // Copies 64 voxels of a brick that moves; `moves` holds pairs of slots, from and to.
 kernel void move_bricks(const uint count, global const uint* restrict moves,
                         global short* restrict distance, global ulong* restrict occupancy,
-                        global uint* restrict attributes, global uint* restrict colors) {
+                        global uint* restrict attributes, global uint* restrict colors,
+                        global uint* restrict normals) {
     const uint item = work_item();
     if (item >= count) return;
     const uint2 slots = vload2(item >> 6, moves);
@@ -35,5 +40,6 @@ kernel void move_bricks(const uint count, global const uint* restrict moves,
         if (VXL_SMOOTH) vstore16(vload16(from * 4 + i, distance), to * 4 + i, distance);
         if (VXL_ATTRIBUTES) vstore16(vload16(from * 4 + i, attributes), to * 4 + i, attributes);
         if (VXL_COLORS) vstore16(vload16(from * 4 + i, colors), to * 4 + i, colors);
+        if (VXL_VOXEL_NORMALS) vstore16(vload16(from * 4 + i, normals), to * 4 + i, normals);
     }
 }

@@ -5,11 +5,11 @@
 #include "lib/lanes/work_item.h"
 #include "lib/light/emission_share.h"
 #include "lib/light/medium_set.h"
+#include "lib/light/shading_point.h"
 #include "lib/light/sky.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field.h"
-#include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_alpha.h"
 #include "lib/surface/triangle.h"
@@ -129,47 +129,6 @@ static inline SurfacePoint meet_surface(const WorldView* world, const ShadedHit*
     return p;
 }
 
-/// The light's normal of points whose geometric normals are `normal`, turned over where the surface
-/// is met from `behind`, and how far above the triangle rays to lights begin: as if each corner
-/// were a round surface's, at the height of the tangent planes (Hanika 2021, "Hacking the Shadow
-/// Terminator", Ray Tracing Gems II, chapter 4).
-static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h, Vector normal,
-                                         lane_int behind) {
-    const lane_float zero = (lane_float)0.0f;
-    ShadingPoint s = {normal, {zero, zero, zero}};
-    const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
-    const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
-    global const uint* packed = world->surface.triangle_normals;
-    const lane_uint place = number * (uint)VXL_TRIANGLE_NORMALS;
-    const lane_int curved = triangle & LANE_MASK(LANES_GATHER_UINT(packed, place) != VXL_NO_NORMAL);
-    if (!lanes_any(curved)) return s;
-    const Vector o = h->ray.origin, d = h->ray.direction;
-    Vector from[3];
-    lane_float share[3];
-    for (uint i = 0; i < 3; ++i) {
-        const Vector corner = triangle_corner(world->surface.triangles, number, i);
-        from[i] = add_scaled(difference(o, corner), d, h->ray.t);
-    }
-    corner_shares(from, share);
-    Vector sum = {zero, zero, zero}, lift = sum;
-    for (uint i = 0; i < 3; ++i) {
-        Vector g = unpack_normal(LANES_GATHER_UINT(packed, place + i));
-        g = select_vector(behind, opposite(g), g);
-        Vector metric = g;
-        if (VXL_INSTANCES) metric = world_gradient(&h->ray, metric, h->of_instance);
-        metric = scaled(metric, world->shape.inverse_edge);
-        const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
-        const lane_float below = fmax(-dot_product(g, from[i]) * inverse, 0.0f);
-        const Vector n = unit(metric);
-        sum = add_scaled(sum, n, share[i]);
-        lift = add_scaled(lift, n, share[i] * below);
-    }
-    sum = unit(sum);
-    s.normal = select_vector(curved & LANE_MASK(dot_product(sum, sum) > 0.0f), sum, s.normal);
-    s.lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s.lift);
-    return s;
-}
-
 /// Where the points are in the world, in voxels.
 static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
     const Vector in_cell = {h->cell.x + p->place.x, h->cell.y + p->place.y, h->cell.z + p->place.z};
@@ -262,7 +221,7 @@ kernel void shade_surface(
     if (VXL_POSITIONS) store_vector(position, positions, stride, first);
     if (VXL_NORMALS) store_vector(p.normal, normals, stride, first);
     if (VXL_NORMALS && VXL_SHADING_NORMALS) {
-        const ShadingPoint s = shading_point(&world, &h, p.normal, behind);
+        const ShadingPoint s = shading_point(&world, &h, p.place, p.normal, behind);
         store_vector(s.normal, shading, stride, first);
         store_vector(s.lift, shading + VXL_SHADING_LIFT * stride, stride, first);
     }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// triangles of each brick -> the packed attributes and colour of its voxels.
+// triangles of each brick -> the packed attributes, colour and normal of its voxels.
 //
-// Both come from the triangle closest to the voxel's centre, and from the one with the lowest
+// All come from the triangle closest to the voxel's centre, and from the one with the lowest
 // number among equally close ones, so they don't depend on the order of work. These kernels run
-// only for meshes that have several groups or colours.
+// only for meshes that have several groups or colours, or whose normals cubes are to have.
+#include "lib/surface/packed_normal.h"
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/point_triangle.h"
@@ -20,6 +21,10 @@
 #endif
 #ifndef VXL_TEXTURES
 #define VXL_TEXTURES 0
+#endif
+/// Whether it has normals at its triangles' corners.
+#ifndef VXL_VERTEX_NORMALS
+#define VXL_VERTEX_NORMALS 0
 #endif
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define BRICK_CENTER (LATTICE_BRICK / 2)
@@ -154,6 +159,23 @@ static inline float2 mean_uv(uint3 numbers, global const float* uvs, float3 weig
            vload2(numbers.z, uvs) * weights.z;
 }
 
+/// A triangle seen from the centre of a brick's voxel `number`.
+static inline LatticeTriangle triangle_from(const LatticeMesh* mesh, uint triangle, int3 brick,
+                                            uint number) {
+    const int3 within =
+        (int3)((int)(number & 15u), (int)(number >> 4 & 15u), (int)(number >> 8 & 15u));
+    return load_triangle(mesh, triangle,
+                         brick * LATTICE_BRICK + within * LATTICE_VOXEL + LATTICE_VOXEL / 2);
+}
+
+/// closest_weights of a triangle on the lattice.
+static inline float3 weights_of(const LatticeTriangle* t, float4 scale) {
+    const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
+    return closest_weights(convert_float3(t->corner[0]) * to_metric,
+                           convert_float3(t->corner[1]) * to_metric,
+                           convert_float3(t->corner[2]) * to_metric);
+}
+
 /// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the
 /// centre: that between the corners' colours, times that of the texture there, in linear light.
 /// `thresholds` and `linear_levels` are the sRGB curve from and to linear values.
@@ -173,15 +195,9 @@ kernel void color_voxels(
         colors[number] = 0xFFFFFFu;
         return;
     }
-    const int3 brick = brick_of(coordinates[number >> 12], bricks);
-    const int3 within =
-        (int3)((int)(number & 15u), (int)(number >> 4 & 15u), (int)(number >> 8 & 15u));
-    const LatticeTriangle t = load_triangle(
-        &mesh, triangle, brick * LATTICE_BRICK + within * LATTICE_VOXEL + LATTICE_VOXEL / 2);
-    const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
-    const float3 weights = closest_weights(convert_float3(t.corner[0]) * to_metric,
-                                           convert_float3(t.corner[1]) * to_metric,
-                                           convert_float3(t.corner[2]) * to_metric);
+    const LatticeTriangle t =
+        triangle_from(&mesh, triangle, brick_of(coordinates[number >> 12], bricks), number);
+    const float3 weights = weights_of(&t, scale);
     float3 color = (float3)(1.0f);
     if (VXL_VERTEX_COLORS)
         color = mean_color(vload3(triangle, color_indices), vertex_colors, weights);
@@ -193,4 +209,55 @@ kernel void color_voxels(
     }
     colors[number] = encode(color.x, thresholds) | encode(color.y, thresholds) << 8 |
                      encode(color.z, thresholds) << 16;
+}
+
+/// The normal of a triangle, as a gradient in voxels.
+static inline uint face_normal(const LatticeTriangle* t) {
+    const float unit_length = 1.0f / LATTICE_VOXEL;
+    const float3 a = convert_float3(t->corner[1] - t->corner[0]) * unit_length,
+                 b = convert_float3(t->corner[2] - t->corner[0]) * unit_length;
+    const float3 n = cross_product(a, b);
+    const float3 size = fabs(n);
+    const float longest = fmax(size.x, fmax(size.y, size.z));
+    if (longest == 0.0f) return VXL_NO_NORMAL;
+    return pack_normal(n * scalar_reciprocal(longest));
+}
+
+/// The mean of a triangle's corners' normals, which are of unit length in metres, as a gradient in
+/// voxels; that of the triangle where corners have none, or their mean has no direction.
+static inline uint mean_normal(global const uint* codes, float3 weights, float3 scale,
+                               const LatticeTriangle* t) {
+    if (codes[0] == VXL_NO_NORMAL) return face_normal(t);
+    const float weight[3] = {weights.x, weights.y, weights.z};
+    const float3 to_metric = (float3)(scalar_reciprocal(scale.x), scalar_reciprocal(scale.y),
+                                      scalar_reciprocal(scale.z));
+    float3 sum = (float3)(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        const float3 n = unpack_one_normal(codes[i]) * to_metric;
+        sum += n * (scalar_reciprocal(scalar_root(dot_product(n, n))) * weight[i]);
+    }
+    const uint code = pack_normal(sum * scale);
+    return code == VXL_NO_NORMAL ? face_normal(t) : code;
+}
+
+/// One work-item: one voxel. Its normal is that of its closest triangle at the point closest to the
+/// centre; VXL_NO_NORMAL if no triangle is near.
+kernel void give_normals(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
+                         global const uint* restrict coordinates,
+                         global const uint* restrict nearest,
+                         global const uint* restrict corner_normals,
+                         global uint* restrict normals) {
+    const uint number = work_item();
+    if (number >= count) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const uint triangle = nearest[number];
+    if (triangle == NO_TRIANGLE) {
+        normals[number] = VXL_NO_NORMAL;
+        return;
+    }
+    const LatticeTriangle t =
+        triangle_from(&mesh, triangle, brick_of(coordinates[number >> 12], bricks), number);
+    normals[number] = VXL_VERTEX_NORMALS ? mean_normal(corner_normals + 3u * triangle,
+                                                       weights_of(&t, scale), scale.xyz, &t)
+                                         : face_normal(&t);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packed normals of triangles' corners, for kernels and host alike.
+// The packed normals of triangles' corners and of cubes, for kernels and host alike.
 #ifndef VXL_SHARED_NORMAL_H
 #define VXL_SHARED_NORMAL_H
 
@@ -14,7 +14,9 @@
 // Normals are those of planes in the voxels of their grid: gradients, which a map carries by its
 // inverse transpose, scaled to unit length.
 #define VXL_NORMAL_UNITS 32767
-#define VXL_NO_NORMAL 0x80008000u  // no code of a normal: the triangle's corners have none
-#define VXL_TRIANGLE_NORMALS 3     // words per triangle
+#define VXL_NO_NORMAL \
+    0x80008000u                 // no code of a normal: the triangle's corners, or the cube, have
+                                // none
+#define VXL_TRIANGLE_NORMALS 3  // words per triangle
 
 #endif

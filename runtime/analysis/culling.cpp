@@ -10,6 +10,7 @@
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/scene_choices.hpp"
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -94,21 +95,50 @@ bool is_shown_instance(const Scene& scene, const Object& object) {
     return object.visible && is_instanced(scene, object);
 }
 
+/// How many times as long a map makes lengths at most, in voxels of the world a metre.
+double voxels_per_metre(const Scene& scene, const Object& object) {
+    const glm::dmat3 map(object.world_from_object);
+    const double stretch =
+        std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+    const glm::dvec3 edge = world_frame(scene.world).voxel_edge;
+    return stretch / std::min({edge.x, edge.y, edge.z});
+}
+
+/// True if the model's cubes may have normals of the surface that they stand for.
+bool gives_cubes_normals(const Model& model, AssetStore& meshes, bool reads) {
+    if (!shows_voxels(model.surface)) return false;
+    if (model.voxels.empty()) return model.normals == CubeNormals::surface;
+    if (model.given || !surface_of_voxel_model(model.voxels)) return false;
+    return !reads || !meshes.voxels(model).normals.empty();
+}
+
+/// The same as lift_of of cubes with normals: rays begin at most |g|_max + |g|_1 above a face,
+/// where g is a gradient of length 1, and that is below 2.75 voxels.
+double lift_of_cubes(const Scene& scene, const Object& object, const Model& model) {
+    constexpr double kMaxVoxels = 2.75;
+    glm::dvec3 edge = world_frame(scene.world).voxel_edge;
+    double per_metre = 1 / std::min({edge.x, edge.y, edge.z});
+    if (is_instanced(scene, object)) {
+        if (!model.voxels.empty() || model.voxel_size == glm::dvec3(0)) return INFINITY;
+        edge = model.voxel_size;
+        per_metre = voxels_per_metre(scene, object);
+    }
+    return kMaxVoxels * std::max({edge.x, edge.y, edge.z}) * per_metre;
+}
+
 /// The longest way, in voxels, from a surface of an object to where its rays to lights begin: the
 /// shadow terminator's fix lifts them by less than the longest edge of a triangle. A file that
 /// isn't read (`reads` is false) may have triangles of any size.
 double lift_of(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     const Model& model = scene.models[size_t(object.model)];
+    if (object.visible && gives_cubes_normals(model, meshes, reads))
+        return lift_of_cubes(scene, object, model);
     if (!object.visible || !lists_primitives(model.surface) || model.solid) return 0;
     if (model.shading.kind == ShadingKind::flat) return 0;
     if (!reads) return INFINITY;
     const MeshSummary* mesh = meshes.summary_of(model);
     if (!mesh || !has_shading_normals(model.shading, mesh->has_normals)) return 0;
-    const glm::dmat3 map(object.world_from_object);
-    const double stretch =
-        std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
-    const glm::dvec3 edge = world_frame(scene.world).voxel_edge;
-    return mesh->longest_edge * stretch / std::min({edge.x, edge.y, edge.z});
+    return mesh->longest_edge * voxels_per_metre(scene, object);
 }
 
 /// The largest of all objects; those `unread` have files that aren't read.

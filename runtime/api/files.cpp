@@ -35,6 +35,7 @@ Model model_of(const fs::path& mesh, const v1::VoxelizeOptions& options) {
     model.resolution = options.voxel_size > 0 ? 0 : options.resolution;
     model.surface = static_cast<Surface>(options.surface);
     model.set = static_cast<VoxelSet>(options.set);
+    model.normals = static_cast<CubeNormals>(options.normals);
     return model;
 }
 
@@ -60,8 +61,10 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
     const GridPlan plan = plan_model(model, mesh);
     check_model(model, plan, device.info());
     const auto start = std::chrono::steady_clock::now();
-    const BrickGrid grid = Voxelizer(device).voxelize(mesh, glm::dmat4(1), plan.frame,
-                                                      {model.surface, model.set, kExportBand});
+    VoxelizeOptions voxels_of_model = options_of(model);
+    voxels_of_model.band = kExportBand;
+    const BrickGrid grid =
+        Voxelizer(device).voxelize(mesh, glm::dmat4(1), plan.frame, voxels_of_model);
     device.finish();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

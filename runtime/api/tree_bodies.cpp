@@ -101,6 +101,7 @@ JsonValue tree(const v1::Sequence& sequence) {
 JsonValue tree(const v1::Model& model) {
     constexpr std::array kSurfaces = {"cubes", "smooth", "exact"};
     constexpr std::array kSets = {"supercover", "thin", "solid"};
+    constexpr std::array kNormals = {"faces", "surface"};
     ObjectTree object;
     std::visit(Overloaded{[&](const v1::Solid& solid) { add_solid(solid, object); },
                           [&](const v1::MeshFile& mesh) { add_mesh(mesh, object); },
@@ -109,6 +110,7 @@ JsonValue tree(const v1::Model& model) {
     object.add("voxel_size", model.voxel_size).add("resolution", model.resolution);
     if (model.surface) object.add("surface", kSurfaces.at(size_t(*model.surface)));
     if (model.set) object.add("set", kSets.at(size_t(*model.set)));
+    if (model.normals) object.add("normals", kNormals.at(size_t(*model.normals)));
     return object.take();
 }
 

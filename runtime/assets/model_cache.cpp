@@ -108,6 +108,7 @@ std::string grid_key(const std::string& source, const VoxelizeOptions& options,
     CacheKey words;
     words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
     words.add(int(options.shading.kind)).add(options.shading.crease_angle);
+    words.add(int(options.normals));
     words.add_columns(frame_from_mesh);
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
     return key_of({producers(), "grid", source, words.bytes()});

@@ -43,6 +43,7 @@ VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surfac
       distance_(grid.distance.read()),
       attributes_(grid.attributes.read()),
       colors_(grid.colors.read()),
+      normals_(grid.normals.read()),
       primitive_first_(grid.primitive_first.read()),
       primitives_(grid.primitives.read()),
       triangle_attributes_(grid.triangle_attributes.read()),
@@ -83,6 +84,7 @@ void VoxelExport::write_model(const std::filesystem::path& path) const {
     add("distance", distance_);
     add("attributes", attributes_);
     add("colors", colors_);
+    add("normals", normals_);
     add("primitive_first", primitive_first_);
     add("primitives", primitives_);
     add("triangles", triangles_);

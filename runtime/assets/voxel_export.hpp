@@ -50,7 +50,7 @@ class VoxelExport {
     std::vector<uint32_t> slots_, coordinates_;
     std::vector<uint64_t> occupancy_;
     std::vector<int16_t> distance_;
-    std::vector<uint32_t> attributes_, colors_;
+    std::vector<uint32_t> attributes_, colors_, normals_;
     std::vector<uint32_t> primitive_first_, primitives_, triangle_attributes_, triangle_normals_;
     std::vector<float> triangles_;
 };

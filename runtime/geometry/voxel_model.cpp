@@ -28,6 +28,7 @@ BrickGrid VoxelModel::upload(const Device& device) const {
     grid.distance = {device, "model distances", distance};
     grid.attributes = {device, "model attributes", attributes};
     grid.colors = {device, "model colors", colors};
+    grid.normals = {device, "model normals", normals};
     grid.transparent = transparent;
     return grid;
 }

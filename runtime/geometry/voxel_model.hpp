@@ -18,7 +18,7 @@ struct VoxelModel {
     std::vector<uint32_t> slots, coordinates;
     std::vector<uint64_t> occupancy;
     std::vector<int16_t> distance;
-    std::vector<uint32_t> attributes, colors;
+    std::vector<uint32_t> attributes, colors, normals;
     bool transparent = false;         ///< true if some voxel isn't opaque
     std::vector<std::string> groups;  ///< names of the attributes' materials
     Mesh mesh;                        ///< triangles of an exact surface, and nothing else

@@ -46,6 +46,8 @@ struct BrickGrid {
     uint32_t attribute = 0;        ///< packed attributes of every voxel if `attributes` is empty
     Buffer<uint32_t> colors;       ///< 4096 per slot: the colour of each voxel, packed as in
                                    ///< shared/voxel.h
+    Buffer<uint32_t> normals;      ///< 4096 per slot: the normals of the surface that cubes stand
+                                   ///< for, see shared/normal.h; empty if no cube has one
     bool transparent = false;      ///< true if some voxel's colour isn't opaque
 
     // Exact surfaces: voxel v of slot s lists primitives[first[s*4096+v] .. first[s*4096+v+1]).
@@ -118,6 +120,7 @@ struct Pyramid {
     Buffer<uint32_t> attributes;   ///< one per voxel, see shared/voxel.h; see `attribute`
     uint32_t attribute = 0;        ///< packed attributes of every voxel if `attributes` is empty
     Buffer<uint32_t> colors;       ///< one per voxel
+    Buffer<uint32_t> normals;      ///< one per voxel, as in BrickGrid
     bool transparent = false;      ///< true if some of the voxels aren't opaque
     Buffer<uint32_t> fields;     ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
     uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
@@ -137,7 +140,7 @@ struct Pyramid {
                                          ///< unknown
     bool clear = false;  ///< true if the space between them is known to hold no medium
 
-    /// The values of `attributes`, `colors` and (times 8) `fields`.
+    /// The values of `attributes`, `colors`, `normals` and (times 8) `fields`.
     uint32_t records() const { return voxel_count + listed_fields; }
 };
 

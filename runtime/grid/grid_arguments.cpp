@@ -34,12 +34,12 @@ PyramidShape shape_of(const Pyramid& pyramid) {
 void bind(KernelArguments& to, const BrickGrid& grid) {
     to.add(glm::ivec4(grid.frame.size, 0), glm::ivec4(grid.frame.bricks(), 0), grid.slots,
            grid.coordinates, grid.occupancy, grid.distance, grid.attributes, grid.attribute,
-           grid.colors, grid.primitive_first, grid.primitives);
+           grid.colors, grid.normals, grid.primitive_first, grid.primitives);
 }
 
 void bind(KernelArguments& to, const Pyramid& pyramid) {
     to.add(shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels,
-           pyramid.attributes, pyramid.attribute, pyramid.colors, pyramid.fields,
+           pyramid.attributes, pyramid.attribute, pyramid.colors, pyramid.normals, pyramid.fields,
            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
            pyramid.triangle_attributes, pyramid.triangle_normals, pyramid.triangle_textures,
            pyramid.textures, pyramid.solids, pyramid.instances.records, pyramid.instances.nodes,

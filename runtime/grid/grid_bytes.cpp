@@ -15,6 +15,7 @@ void visit_grid(Grid& grid, const Visit& visit) {
     visit("model distances", grid.distance);
     visit("model attributes", grid.attributes);
     visit("model colors", grid.colors);
+    visit("model normals", grid.normals);
     visit("source lists", grid.primitive_first);
     visit("source primitives", grid.primitives);
     visit("source triangles", grid.triangles);

@@ -15,6 +15,7 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("leaf voxels", pyramid.leaf_voxels);
     visit("voxel attributes", pyramid.attributes);
     visit("voxel colors", pyramid.colors);
+    visit("voxel normals", pyramid.normals);
     visit("voxel fields", pyramid.fields);
     visit("primitive starts", pyramid.primitive_first);
     visit("primitives", pyramid.primitives);

@@ -52,6 +52,10 @@ void count_labels(const Device& device, const GridCounts& counts, BrickGrid& gri
                                      paint.texels > 0 ? counts.triangles : 0);
         grid.colors = allocate_words(device, "voxel colors", counts.bricks);
     }
+    if (!counts.cube_normals) return;
+    const Buffer<uint32_t> corners(device, "corner normals",
+                                   counts.normals ? VXL_TRIANGLE_NORMALS * counts.triangles : 0);
+    grid.normals = allocate_words(device, "voxel normals", counts.bricks);
 }
 
 BrickGrid empty_grid(const GridCounts& counts) {
@@ -104,7 +108,8 @@ BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts) {
     grid.slots = allocate_slots(device, "brick slots", counts.frame);
     count_surface(device, counts, grid);
     if (counts.surface == Surface::exact) count_triangles(device, counts, grid);
-    if (counts.words || counts.paint.is_there()) count_labels(device, counts, grid);
+    if (counts.words || counts.paint.is_there() || counts.cube_normals)
+        count_labels(device, counts, grid);
     return grid;
 }
 
@@ -125,6 +130,7 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
         const Buffer<uint64_t> undecided =
             allocate_masks(device, "undecided voxels", counts.bricks);
     }
+    if (counts.cube_normals) grid.normals = allocate_words(device, "voxel normals", counts.bricks);
     if (counts.surface != Surface::exact) return grid;
     grid.primitive_first = allocate_list_starts(device, "primitive_first", counts.bricks);
     grid.primitives = Buffer<uint32_t>(device, "primitives", counts.voxels);
@@ -151,6 +157,8 @@ BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const Gri
     if (!whole.attributes.empty())
         grid.attributes = allocate_words(device, "voxel attributes", counts.bricks);
     if (!whole.colors.empty()) grid.colors = allocate_words(device, "voxel colors", counts.bricks);
+    if (!whole.normals.empty())
+        grid.normals = allocate_words(device, "voxel normals", counts.bricks);
     return grid;
 }
 

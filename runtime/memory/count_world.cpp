@@ -37,6 +37,7 @@ void count_bricks_of(const Device& device, const WorldParts& parts, size_t brick
     if (parts.has_attributes())
         world.attributes = allocate_words(device, "world attributes", bricks);
     if (parts.colors) world.colors = allocate_words(device, "world colors", bricks);
+    if (parts.normals) world.normals = allocate_words(device, "world voxel normals", bricks);
     world.slots = allocate_slots(device, "world slots", world.frame);
     world.coordinates = Buffer<uint32_t>(device, "world coordinates", bricks);
 }
@@ -122,6 +123,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     count_painting(device, counts.bricks);
     count_lists(device, others, counts.primitives, grid);
     world.parts.exact = !grid.primitive_first.empty();
+    world.parts.normals = !grid.normals.empty();
     return world;
 }
 
@@ -134,6 +136,8 @@ void count_growth(const Device& device, BrickGrid& world) {
     if (!world.attributes.empty())
         world.attributes = allocate_words(device, "world attributes", bricks);
     if (!world.colors.empty()) world.colors = allocate_words(device, "world colors", bricks);
+    if (!world.normals.empty())
+        world.normals = allocate_words(device, "world voxel normals", bricks);
 }
 
 BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,

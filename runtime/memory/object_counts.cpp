@@ -77,6 +77,7 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     const glm::dvec3 table(frame.bricks());
     counts.bricks = size_t(std::clamp(extent.bricks, 1.0, table.x * table.y * table.z));
     counts.voxels = size_t(std::max(extent.voxels, 1.0));
+    counts.cube_normals = shows_voxels(model.surface) && model.normals == CubeNormals::surface;
     if (model.solid) counts.shapes = count_shapes(*model.solid);
     if (!mesh) return counts;
     counts.words = mesh->group_names.size() > 1;

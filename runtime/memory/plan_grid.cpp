@@ -33,6 +33,8 @@ constexpr std::array kWords = {
     BufferWords{"triangle", "its triangles", BufferGrowth::triangles},
     BufferWords{"source normals", "its triangles' normals", BufferGrowth::triangles},
     BufferWords{"world normals", "its triangles' normals", BufferGrowth::triangles},
+    BufferWords{"corner normals", "its triangles' normals", BufferGrowth::triangles},
+    BufferWords{"voxel normals", "its voxels' normals"},
     BufferWords{"lattice", "its triangles", BufferGrowth::triangles},
     BufferWords{"bin lists", "its triangles", BufferGrowth::triangles},
     BufferWords{"starts", "the starts of its voxels' lists"},

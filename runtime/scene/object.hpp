@@ -68,8 +68,9 @@ struct Model {
     bool is_surface_open = false;  ///< the scene leaves the surface to its files; until they are
                                    ///< read, `surface` is that of most files of the kind
     std::string surface_reason;    ///< why make_choices() chose it, as half a sentence
-    VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
-    Shading shading;                      ///< of an exact mesh
+    VoxelSet set = VoxelSet::supercover;       ///< for `cubes`
+    Shading shading;                           ///< of an exact mesh, or of cubes with its normals
+    CubeNormals normals = CubeNormals::faces;  ///< of `cubes`
     /// Box in object space outside of which no object shows the model: the world's bounds as seen
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
     /// not used.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two choices that a model makes about its voxels.
+// The choices that a model makes about its voxels.
 #pragma once
 
 #include <array>
@@ -52,6 +52,12 @@ enum class VoxelSet : uint8_t {
     supercover,  ///< every voxel that the surface touches: no ray passes, even through corners
     thin,        ///< 6-separating: a path of voxels that share faces can't pass
     solid,       ///< every voxel whose centre is inside
+};
+
+/// The normals by which light falls on cubes.
+enum class CubeNormals : uint8_t {
+    faces,    ///< those of the cubes' own faces
+    surface,  ///< those of the surface that the cubes stand for
 };
 
 }  // namespace voxelume

@@ -44,7 +44,7 @@ void add_kinds(std::string_view part, const Keys& before, std::span<const Kind> 
 
 std::vector<KeyTable> make_tables() {
     const Keys placement = keys_of(factor_rows()) + Keys{"matrix"};
-    const Keys lattice = {"voxel_size", "resolution", "surface", "set"};
+    const Keys lattice = {"voxel_size", "resolution", "surface", "set", "normals"};
     std::vector<KeyTable> tables = {
         {"scene",
          {"$schema", "voxelume", "world", "materials", "models", "objects", "lights", "observer",

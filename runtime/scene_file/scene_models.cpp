@@ -11,6 +11,7 @@
 #include "runtime/base/text.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene_file/scene_lattice.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 #include "runtime/scene_file/scene_sequence.hpp"
 
@@ -18,21 +19,6 @@ namespace voxelume {
 namespace {
 
 using Names = std::vector<std::string_view>;
-
-/// Reads the surface of a model. One that doesn't say any, or `auto`, leaves it to its files, and
-/// `usual` stands until they are read; solids are exact.
-void read_surface(const SceneFields& fields, Surface usual, Model& model) {
-    Names names;
-    for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
-    names.push_back("auto");
-    const auto value = fields.find("surface");
-    const size_t choice = value ? value->choice(names) : kSurfaceKinds.size();
-    model.is_surface_open = choice == kSurfaceKinds.size() && !model.solid;
-    if (choice < kSurfaceKinds.size())
-        model.surface = kSurfaceKinds[choice].surface;
-    else
-        model.surface = model.solid ? Surface::exact : usual;
-}
 
 /// How many metres a unit of a file has, or its longest side is to have.
 void read_file_size(const SceneFields& fields, Model& model) {
@@ -57,29 +43,6 @@ void read_file_size(const SceneFields& fields, Model& model) {
     for (const Unit& unit : kUnits) names.push_back(unit.name);
     if (const auto unit = fields.find("unit"))
         model.object_from_file.scale = kUnits[unit->choice(names)].metres;
-}
-
-/// The pitch, surface and set of a model, whose source is already read.
-void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
-    fields.refuse_both("voxel_size", "resolution");
-    model.is_sized = fields.has("resolution") || fields.has("voxel_size");
-    if (const auto resolution = fields.find("resolution")) {
-        if (model.solid && is_infinite(*model.solid)) {
-            resolution->fail(
-                "an infinite solid has no longest side; give a \"voxel_size\" instead");
-        }
-        model.resolution = resolution->integer(1, 65536);
-    } else {
-        const auto size = fields.find("voxel_size");
-        model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
-    }
-    read_surface(fields, Surface::smooth, model);
-    if (const auto set = fields.find("set")) {
-        model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
-        if (model.surface != Surface::cubes) {
-            set->fail("only a model with \"surface\": \"cubes\" has a set; leave it out");
-        }
-    }
 }
 
 /// Which values of a file of values are voxels.
@@ -157,21 +120,6 @@ Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     fields.get("radius");
     fields.read_rows(morph_rows(), morph);
     return morph;
-}
-
-constexpr Range kCreaseAngle{0, 180};  // degrees
-
-/// The shading of a mesh, which counts where the mesh is exact.
-Shading read_shading(const SceneFields& fields) {
-    Shading shading;
-    if (const auto kind = fields.find("shading"))
-        shading.kind = static_cast<ShadingKind>(kind->choice(Names{"auto", "flat", "smooth"}));
-    if (const auto angle = fields.find("crease_angle")) {
-        shading.crease_angle = angle->number(kCreaseAngle);
-        if (shading.kind != ShadingKind::smooth)
-            angle->fail("only a mesh with \"shading\": \"smooth\" has creases; leave it out");
-    }
-    return shading;
 }
 
 void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {

@@ -8,25 +8,26 @@ namespace voxelume {
 
 /// A feature that is false does not exist in the machine code, and its buffers are not allocated.
 struct Features {
-    bool cubes = false;            ///< some voxel is a surface itself
-    bool smooth = false;           ///< some voxel has a distance field
-    bool triangles = false;        ///< some voxel lists triangles
-    bool shading_normals = false;  ///< some triangle has normals at its corners
-    bool solids = false;           ///< some voxel lists analytic solids
-    bool field_lists = false;      ///< some voxel lists the distance fields in it
-    bool attributes = false;       ///< voxels differ in object, material or kind
-    bool colors = false;           ///< voxels have colours of their own
-    bool textures = false;         ///< some triangle wears a texture
-    bool texture_alpha = false;    ///< ... whose alpha counts
-    bool medium = false;           ///< the environment absorbs light
-    bool medium_grid = false;      ///< ... and its density varies
-    bool medium_colors = false;    ///< ... and so does its colour
-    bool shadows = false;          ///< lights can be hidden
-    bool area_samples = false;     ///< some light has an area
-    bool checker = false;          ///< some material changes its colour from block to block
-    bool paths = false;            ///< rays are reflected, refracted or continue through surfaces
-    bool transmission = false;     ///< some object lets light through
-    bool refracts = false;         ///< some surface bends rays, or reflects by Fresnel's law
+    bool cubes = false;           ///< some voxel is a surface itself
+    bool smooth = false;          ///< some voxel has a distance field
+    bool triangles = false;       ///< some voxel lists triangles
+    bool corner_normals = false;  ///< some triangle has normals at its corners
+    bool voxel_normals = false;   ///< some cube has the normal of the surface it stands for
+    bool solids = false;          ///< some voxel lists analytic solids
+    bool field_lists = false;     ///< some voxel lists the distance fields in it
+    bool attributes = false;      ///< voxels differ in object, material or kind
+    bool colors = false;          ///< voxels have colours of their own
+    bool textures = false;        ///< some triangle wears a texture
+    bool texture_alpha = false;   ///< ... whose alpha counts
+    bool medium = false;          ///< the environment absorbs light
+    bool medium_grid = false;     ///< ... and its density varies
+    bool medium_colors = false;   ///< ... and so does its colour
+    bool shadows = false;         ///< lights can be hidden
+    bool area_samples = false;    ///< some light has an area
+    bool checker = false;         ///< some material changes its colour from block to block
+    bool paths = false;           ///< rays are reflected, refracted or continue through surfaces
+    bool transmission = false;    ///< some object lets light through
+    bool refracts = false;        ///< some surface bends rays, or reflects by Fresnel's law
     bool absorbs = false;  ///< the environment, or an object that light passes through, absorbs
                            ///< light
     bool filter = false;   ///< shadow rays may pass through transmitting objects
@@ -53,6 +54,8 @@ struct Features {
     friend bool operator==(const Features&, const Features&) = default;
 
     bool exact() const { return triangles || solids; }
+    /// Whether light falls by normals that aren't those of the surfaces that rays meet.
+    bool shading_normals() const { return corner_normals || voxel_normals; }
     /// Whether rays must know on which of a voxel's surfaces they begin.
     bool sources() const { return exact() || field_lists; }
 
@@ -61,7 +64,9 @@ struct Features {
                 {"VXL_SMOOTH", smooth},
                 {"VXL_EXACT", exact()},
                 {"VXL_TRIANGLES", triangles},
-                {"VXL_SHADING_NORMALS", shading_normals},
+                {"VXL_SHADING_NORMALS", shading_normals()},
+                {"VXL_CORNER_NORMALS", corner_normals},
+                {"VXL_VOXEL_NORMALS", voxel_normals},
                 {"VXL_SOLIDS", solids},
                 {"VXL_FIELD_LISTS", field_lists},
                 {"VXL_SOURCES", sources()},

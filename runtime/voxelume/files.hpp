@@ -18,10 +18,11 @@ namespace voxelume::v1 {
 
 /// How a mesh becomes voxels.
 struct VoxelizeOptions {
-    double voxel_size = 0;                ///< metres; 0: `resolution` decides
-    int resolution = 256;                 ///< voxels along the longest side
-    Surface surface = Surface::smooth;    ///< what a voxel shows
-    VoxelSet set = VoxelSet::supercover;  ///< of cubes
+    double voxel_size = 0;                     ///< metres; 0: `resolution` decides
+    int resolution = 256;                      ///< voxels along the longest side
+    Surface surface = Surface::smooth;         ///< what a voxel shows
+    VoxelSet set = VoxelSet::supercover;       ///< of cubes
+    CubeNormals normals = CubeNormals::faces;  ///< of cubes; models (.vxm) keep them
 };
 
 /// What voxelizing a mesh made.

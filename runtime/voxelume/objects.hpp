@@ -94,7 +94,7 @@ struct Morph {
     std::optional<double> radius{};  ///< metres
 };
 
-/// The normals by which light falls on an exact mesh.
+/// The normals by which light falls on an exact mesh, or on cubes with those of their mesh.
 enum class Shading {
     automatic,  ///< those of the file's vertices, where it has some; else flat
     flat,       ///< each triangle's own
@@ -123,7 +123,8 @@ struct MeshFile {
     /// Metres that the longest side of the mesh becomes, with the middle of its box at the origin.
     std::optional<double> fit{};
     std::optional<Unit> unit{};            ///< of the file, instead of `fit`; without both metres
-    std::optional<Shading> shading{};      ///< of an exact mesh; without it automatic
+    std::optional<Shading> shading{};      ///< of an exact mesh, or of cubes with the normals of
+                                           ///< the mesh; without it automatic
     std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
 };
 
@@ -168,14 +169,21 @@ enum class VoxelSet {
     solid        ///< all whose centre is inside
 };
 
+/// The normals by which light falls on `cubes`.
+enum class CubeNormals {
+    faces,   ///< those of their own faces
+    surface  ///< those of the mesh or solid that they stand for
+};
+
 /// An object before it is placed, and the lattice that it is voxelized on.
 struct Model {
     std::string name{};                                 ///< by which objects name it
     std::variant<Solid, MeshFile, VoxelFile> source{};  ///< a mesh, voxels or a solid
-    std::optional<Vec3> voxel_size{};  ///< metres in object space; without it the world's
-    std::optional<int> resolution{};   ///< instead: voxels along the longest side, 1..65536
-    std::optional<Surface> surface{};  ///< without it what suits the model, as plan() says
-    std::optional<VoxelSet> set{};     ///< of cubes; without it supercover
+    std::optional<Vec3> voxel_size{};      ///< metres in object space; without it the world's
+    std::optional<int> resolution{};       ///< instead: voxels along the longest side, 1..65536
+    std::optional<Surface> surface{};      ///< without it what suits the model, as plan() says
+    std::optional<VoxelSet> set{};         ///< of cubes; without it supercover
+    std::optional<CubeNormals> normals{};  ///< of cubes; without it faces
 };
 
 /// How an object gets into the picture.

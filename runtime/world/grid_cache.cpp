@@ -137,7 +137,9 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
         return find_or_make(whole_of(model, set), body_source(model, source, set), "", keeps);
     };
     const auto left = [&](VoxelSet set) {
-        return voxelize_solid(device_, rest, glm::dmat4(1), source.frame, {model.surface, set});
+        const VoxelizeOptions options{
+            .surface = model.surface, .set = set, .normals = model.normals};
+        return voxelize_solid(device_, rest, glm::dmat4(1), source.frame, options);
     };
     ++voxelized_;
     const SharedGrid whole = body(model.set);

@@ -47,7 +47,8 @@ class VoxelModels : public FileTest {
         return render(test_device(), parse_scene(text, folder / "s.json", {}), report);
     }
 
-    void voxelize_to(const std::string& name, Surface surface) const {
+    void voxelize_to(const std::string& name, Surface surface,
+                     CubeNormals normals = CubeNormals::faces) const {
         put_bytes(folder / "m.obj", kObj);
         const Device device = test_device();
         AssetStore meshes;
@@ -56,8 +57,9 @@ class VoxelModels : public FileTest {
         Model model;
         model.voxel_size = glm::dvec3(0.05);
         model.surface = surface;
+        model.normals = normals;
         const BrickGrid grid = Voxelizer(device).voxelize(
-            mesh, glm::dmat4(1), model_frame(model, &summary), {surface, VoxelSet::supercover});
+            mesh, glm::dmat4(1), model_frame(model, &summary), options_of(model));
         const VoxelExport exported(grid, mesh, surface, VoxelSet::supercover);
         exported.write_model(folder / (name + ".vxm"));
         exported.write_vdb(folder / (name + ".vdb"));
@@ -90,6 +92,21 @@ TEST_F(VoxelModels, OfAModelFileRenderAsTheirMeshToTheBit) {
             for (size_t i = 0; i < mesh.planes.at(color).size(); ++i)
                 EXPECT_NEAR(mesh.planes.at(color)[i], voxels.planes.at(color)[i], 1e-3) << i;
         }
+    }
+}
+
+TEST_F(VoxelModels, KeepTheNormalsOfTheirCubes) {
+    voxelize_to("soft", Surface::cubes, CubeNormals::surface);
+    const std::string model = R"({"mesh": "m.obj", "voxel_size": 0.05, "surface": "cubes")";
+    const Image hard = rendered(model + "}", "");
+    for (const char* more :
+         {"", R"(, {"model": "thing", "placement": "instance", "position": [-0.4, 0, 0.2]})",
+          R"(, {"model": "thing", "scale": [1, -1, 1], "turn": [20, 0, 0]})"}) {
+        const Image mesh = rendered(model + R"(, "normals": "surface"})", "", more);
+        const Image voxels = rendered(R"({"voxels": "soft.vxm"})", "", more);
+        for (const char* color : kColors)
+            EXPECT_EQ(mesh.planes.at(color), voxels.planes.at(color)) << more;
+        EXPECT_NE(mesh.planes.at("R"), hard.planes.at("R"));
     }
 }
 

@@ -67,15 +67,19 @@ PlacementDifference difference_of(const std::string& name) {
 
 // The light samples of a lamp are others in its model's voxels. voxels.json is left out: an
 // instance keeps its model's cubes, turned with it, while the world shows those of its own lattice
-// that they become, and outlines of both are up to two voxels of that lattice apart.
+// that they become, and outlines of both are up to two voxels of that lattice apart. So is
+// cubes.json. Global light (cornell, daylight, still_life) is noise at few samples.
 TEST(ShippedPlacements, LookAlikeInTheWorldAndAsInstances) {
     std::vector<const char*> names = {"bunny", "solids", "lamp", "pendulum", "drill", "whitted"};
-    if (is_exhaustive()) names.insert(names.end(), {"prism", "stained_glass"});
+    if (is_exhaustive())
+        names.insert(names.end(),
+                     {"prism", "stained_glass", "fog", "turntable", "melt", "procession"});
     for (const char* name : names) {
         const PlacementDifference found = difference_of(name);
         EXPECT_LT(found.other_object, 0.001) << name;
         EXPECT_LT(found.far, 0.001) << name;
-        EXPECT_LT(found.color, 0.005) << name;
+        // Fog shows the light of other samples of its lamp in all of the hall.
+        EXPECT_LT(found.color, std::string(name) == "fog" ? 0.02 : 0.005) << name;
     }
 }
 

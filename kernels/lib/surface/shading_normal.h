@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normals for light: those of a triangle's corners, interpolated where rays meet it.
+// Normals for light: those of a triangle's corners, interpolated where rays meet it, and those that
+// cubes have from the surface that they stand for.
 //
-// Visibility, sides and the medium behind a surface go by the triangle's own normal.
+// Visibility, sides and the medium behind a surface go by the triangle's or the face's own normal.
 #ifndef VXL_SHADING_NORMAL_H
 #define VXL_SHADING_NORMAL_H
 
 #include "lib/lanes/vector.h"
-#include "shared/normal.h"
+#include "lib/surface/packed_normal.h"
 
 /// The packed normals as vectors in the voxels of their grid, not of unit length.
 static inline Vector unpack_normal(lane_uint packed) {
-    const float unit_length = 1.0f / VXL_NORMAL_UNITS;
-    const lane_float u = LANES_FLOAT(LANES_AS_INT(packed << 16) >> 16) * unit_length;
-    const lane_float v = LANES_FLOAT(LANES_AS_INT(packed) >> 16) * unit_length;
-    const lane_float z = 1.0f - fabs(u) - fabs(v);
-    const lane_float fold = fmax(-z, 0.0f);
-    const Vector n = {u - LANES_SELECT(LANE_MASK(u >= 0.0f), fold, -fold),
-                      v - LANES_SELECT(LANE_MASK(v >= 0.0f), fold, -fold), z};
+    Vector n;
+    unpack_components(packed, &n.x, &n.y, &n.z);
     return n;
 }
 

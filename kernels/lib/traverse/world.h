@@ -13,9 +13,10 @@
     PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks, \
         global const uint *restrict leaves, global const uint *restrict leaf_voxels,             \
         global const uint *restrict attributes, uint constant_attribute,                         \
-        global const uint *restrict colors, global const uint *restrict fields,                  \
-        global const uint *restrict primitive_first, global const uint *restrict primitives,     \
-        global const float *restrict triangles, global const uint *restrict triangle_attributes, \
+        global const uint *restrict colors, global const uint *restrict voxel_normals,           \
+        global const uint *restrict fields, global const uint *restrict primitive_first,         \
+        global const uint *restrict primitives, global const float *restrict triangles,          \
+        global const uint *restrict triangle_attributes,                                         \
         global const uint *restrict triangle_normals,                                            \
         global const uint *restrict triangle_textures, global const uint *restrict textures,     \
         global const SolidShape *restrict solids,                                                \
@@ -28,6 +29,7 @@ typedef struct {
     global const uint* restrict attributes;
     uint constant_attribute;  // of every voxel where there are no `attributes`
     global const uint* restrict colors;
+    global const uint* restrict normals;  // of cubes, see shared/normal.h
     global const uint* restrict fields;
     global const uint* restrict primitive_first;
     global const uint* restrict primitives;
@@ -55,15 +57,24 @@ typedef struct {
 } WorldView;
 
 /// The value of a WorldView in a kernel with these parameters.
-#define VXL_WORLD                                                                  \
-    {                                                                              \
-        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels),          \
-            {attributes,       constant_attribute, colors,    fields,              \
-             primitive_first,  primitives,         triangles, triangle_attributes, \
-             triangle_normals, triangle_textures,  textures,  solids},             \
-        {                                                                          \
-            instance_records, instance_nodes, group_materials                      \
-        }                                                                          \
+#define VXL_WORLD                                                                               \
+    {                                                                                           \
+        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels), {attributes,          \
+                                                                           constant_attribute,  \
+                                                                           colors,              \
+                                                                           voxel_normals,       \
+                                                                           fields,              \
+                                                                           primitive_first,     \
+                                                                           primitives,          \
+                                                                           triangles,           \
+                                                                           triangle_attributes, \
+                                                                           triangle_normals,    \
+                                                                           triangle_textures,   \
+                                                                           textures,            \
+                                                                           solids},             \
+        {                                                                                       \
+            instance_records, instance_nodes, group_materials                                   \
+        }                                                                                       \
     }
 
 #endif

@@ -9,6 +9,7 @@
         global const uint *restrict grid_coordinates, global const ulong *restrict grid_occupancy, \
         global const short *restrict grid_distance, global const uint *restrict grid_attributes,   \
         uint grid_attribute, global const uint *restrict grid_colors,                              \
+        global const uint *restrict grid_normals,                                                  \
         global const uint *restrict grid_primitive_first,                                          \
         global const uint *restrict grid_primitives
 
@@ -22,15 +23,17 @@ typedef struct {
     global const uint* restrict attributes;
     uint attribute;
     global const uint* restrict colors;
+    global const uint* restrict normals;
     global const uint* restrict primitive_first;
     global const uint* restrict primitives;
 } BrickGrid;
 
 /// The value of a BrickGrid in a kernel with these parameters.
-#define VXL_BRICK_GRID                                                                          \
-    {                                                                                           \
-        grid_size, grid_bricks, grid_slots, grid_coordinates, grid_occupancy, grid_distance,    \
-            grid_attributes, grid_attribute, grid_colors, grid_primitive_first, grid_primitives \
+#define VXL_BRICK_GRID                                                                        \
+    {                                                                                         \
+        grid_size, grid_bricks, grid_slots, grid_coordinates, grid_occupancy, grid_distance,  \
+            grid_attributes, grid_attribute, grid_colors, grid_normals, grid_primitive_first, \
+            grid_primitives                                                                   \
     }
 
 #endif

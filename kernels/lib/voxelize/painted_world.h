@@ -10,7 +10,7 @@
     int4 world_bricks, WorldBounds bounds, global const uint *restrict painted,         \
         global const uint *restrict coordinates, global short *restrict world_distance, \
         global ulong *restrict world_occupancy, global uint *restrict world_attributes, \
-        global uint *restrict world_colors
+        global uint *restrict world_colors, global uint *restrict world_normals
 
 // Buffers that the world doesn't need are null.
 typedef struct {
@@ -22,13 +22,14 @@ typedef struct {
     global ulong* restrict occupancy;
     global uint* restrict attributes;
     global uint* restrict colors;
+    global uint* restrict normals;
 } PaintedWorld;
 
 // The value of a PaintedWorld in a kernel with these parameters.
 #define VXL_PAINTED                                                                  \
     {                                                                                \
         world_bricks, bounds, painted, coordinates, world_distance, world_occupancy, \
-            world_attributes, world_colors                                           \
+            world_attributes, world_colors, world_normals                            \
     }
 
 #endif

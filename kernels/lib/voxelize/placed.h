@@ -22,23 +22,25 @@ typedef struct {
     global const uint* materials;
     global const uint* attributes;
     global const uint* colors;
+    global const uint* normals;
 } PlacedObject;
 
 // The parameters that `bind` of a Painter sets, in its order.
-#define VXL_OBJECT_PARAMETERS                                                               \
-    constant long *rows, int fraction_bits, int4 object_bricks,                             \
-        global const uint *restrict object_slots, global const ulong *restrict object_near, \
-        global const ulong *restrict object_occupancy,                                      \
-        global const short *restrict object_distance, float distance_scale,                 \
-        uint4 object_attribute_map, global const uint *restrict object_materials,           \
-        global const uint *restrict object_attributes, global const uint *restrict object_colors
+#define VXL_OBJECT_PARAMETERS                                                                     \
+    constant long *rows, int fraction_bits, int4 object_bricks,                                   \
+        global const uint *restrict object_slots, global const ulong *restrict object_near,       \
+        global const ulong *restrict object_occupancy,                                            \
+        global const short *restrict object_distance, float distance_scale,                       \
+        uint4 object_attribute_map, global const uint *restrict object_materials,                 \
+        global const uint *restrict object_attributes, global const uint *restrict object_colors, \
+        global const uint *restrict object_normals
 
 // The value of a PlacedObject in a kernel with these parameters.
 #define VXL_OBJECT                                                                       \
     {                                                                                    \
         rows, fraction_bits, object_bricks, object_slots, object_near, object_occupancy, \
             object_distance, distance_scale, object_attribute_map, object_materials,     \
-            object_attributes, object_colors                                             \
+            object_attributes, object_colors, object_normals                             \
     }
 
 typedef struct {

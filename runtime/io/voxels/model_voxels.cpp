@@ -121,6 +121,8 @@ class ModelReader {
             array<uint64_t>("occupancy", smooth ? 0 : stored * kLeavesPerBrick, !smooth);
         model.distance = array<int16_t>("distance", smooth ? stored * kVoxelsPerBrick : 0, smooth);
         model.colors = array<uint32_t>("colors", stored * kVoxelsPerBrick, false);
+        if (shows_voxels(model.surface))
+            model.normals = array<uint32_t>("normals", stored * kVoxelsPerBrick, false);
         if (!lists_primitives(model.surface))
             model.attributes = array<uint32_t>("attributes", stored * kVoxelsPerBrick, false);
     }

@@ -46,6 +46,7 @@ Pyramid upload(const Device& device, const BrickGrid& grid, const Numbering& num
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts) {
     const PyramidParts parts{.attributes = !grid.attributes.empty() || has_two_sorts(grid),
                              .colors = !grid.colors.empty(),
+                             .normals = !grid.normals.empty(),
                              .fields = !grid.distance.empty(),
                              .exact = !grid.primitive_first.empty()};
     return allocate_pyramid(device, grid, parts, counts);
@@ -74,6 +75,7 @@ Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const Pyra
                             static_cast<uint32_t>(kind) << VXL_KIND_SHIFT;
     pyramid.transparent = grid.transparent;
     if (parts.colors) pyramid.colors = Buffer<uint32_t>(device, "voxel colors", records);
+    if (parts.normals) pyramid.normals = Buffer<uint32_t>(device, "voxel normals", records);
     if (parts.fields)
         pyramid.fields = Buffer<uint32_t>(device, "voxel fields", records * VXL_FIELD_WORDS);
     if (parts.exact) {
@@ -104,7 +106,7 @@ Pyramid write_pyramid(const Device& device, const Program& program, const BrickG
     program.kernel("write_voxels")
         .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid, marks.masks,
                 starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
-                pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+                pyramid.normals, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
     const auto end = uint32_t(numbers.totals[1]);
     if (!pyramid.primitive_first.empty())
         pyramid.primitive_first.write(std::span(&end, 1), pyramid.voxel_count);
@@ -119,6 +121,7 @@ Defines index_defines(const BrickGrid& grid) {
             {"VXL_ATTRIBUTES", !grid.attributes.empty()},
             {"VXL_WRITE_ATTRIBUTES", !grid.attributes.empty() || has_two_sorts(grid)},
             {"VXL_COLORS", !grid.colors.empty()},
+            {"VXL_VOXEL_NORMALS", !grid.normals.empty()},
             {"VXL_PRIMITIVES", !grid.primitive_first.empty()}};
 }
 

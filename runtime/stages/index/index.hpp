@@ -41,7 +41,7 @@ struct PyramidCounts {
 
 /// What a pyramid stores of its voxels.
 struct PyramidParts {
-    bool attributes = false, colors = false, fields = false, exact = false;
+    bool attributes = false, colors = false, normals = false, fields = false, exact = false;
     size_t listed_fields = 0;
 };
 

@@ -123,6 +123,7 @@ Defines features_of(const PlacedWorld& world, const PlacedField* field) {
             {"VXL_BASE_ATTRIBUTES", !base.attributes.empty()},
             {"VXL_PRIMITIVES", !base.primitive_first.empty()},
             {"VXL_COLORS", !base.colors.empty() || std::ranges::any_of(world.fields, has_colors)},
+            {"VXL_VOXEL_NORMALS", !base.normals.empty()},
             {"VXL_ATTRIBUTES", field && !field->grid.attributes.empty()},
             {"VXL_OWN_COLORS", field && !field->grid.colors.empty()}};
 }
@@ -142,6 +143,7 @@ Numbering number_united(const GridFrame& frame, const UnitedBricks& united,
 PyramidParts parts_of(const PlacedWorld& world, const Numbering& numbers) {
     PyramidParts parts{.attributes = true, .fields = true};
     parts.exact = !world.voxels.primitive_first.empty();
+    parts.normals = !world.voxels.normals.empty();
     parts.colors = !world.voxels.colors.empty() ||
                    std::ranges::any_of(world.fields, [](const PlacedField& field) {
                        return !field.grid.colors.empty();
@@ -199,7 +201,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
         .launch(WorkItem::heavy, arrays.count, arrays.count, base, arrays.base_slots, arrays.first,
                 arrays.entries, arrays.masks, arrays.united, arrays.listing, arrays.of_base, starts,
                 pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
-                pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+                pyramid.normals, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
     for (size_t i = 0; i < world.fields.size(); ++i) {
         const PlacedField& field = world.fields[i];
         pyramid.transparent |= field.grid.transparent;

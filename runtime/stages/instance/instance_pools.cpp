@@ -35,7 +35,8 @@ struct Extent {
 };
 
 struct Parts {
-    bool colors = false, fields = false, exact = false, normals = false;
+    bool colors = false, fields = false, exact = false;
+    bool voxel_normals = false, normals = false;  ///< of cubes, of triangles' corners
     JoinedTextures textures;
 };
 
@@ -76,6 +77,8 @@ class Total {
         joined.leaf_voxels = Buffer<uint32_t>(device, "leaf voxels", total_.leaves);
         joined.attributes = Buffer<uint32_t>(device, "voxel attributes", total_.voxels);
         if (parts_.colors) joined.colors = Buffer<uint32_t>(device, "voxel colors", total_.voxels);
+        if (parts_.voxel_normals)
+            joined.normals = Buffer<uint32_t>(device, "voxel normals", total_.voxels);
         if (parts_.fields)
             joined.fields =
                 Buffer<uint32_t>(device, "voxel fields", total_.voxels * VXL_FIELD_WORDS);
@@ -103,6 +106,7 @@ class Total {
         total_.add(p);
         voxel_count_ += p.voxel_count;
         parts_.colors |= !p.colors.empty();
+        parts_.voxel_normals |= !p.normals.empty();
         parts_.fields |= !p.fields.empty();
         parts_.exact |= !p.primitive_first.empty();
         parts_.normals |= !p.triangle_normals.empty();
@@ -188,6 +192,10 @@ class Joiner {
             words(p.colors, full_.voxels, joined_.colors);
         else if (parts_.colors)
             copies(p.records(), full_.voxels, kWhite, joined_.colors);
+        if (!p.normals.empty())
+            words(p.normals, full_.voxels, joined_.normals);
+        else if (parts_.voxel_normals)
+            copies(p.records(), full_.voxels, VXL_NO_NORMAL, joined_.normals);
         // An exact voxel may list fields; zeros mean that it lists none.
         if (!p.fields.empty())
             words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);

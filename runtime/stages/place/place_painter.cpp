@@ -31,8 +31,11 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
                                   {{"VXL_SMOOTH", stores_distances(surface)},
                                    {"VXL_ATTRIBUTES", parts.has_attributes()},
                                    {"VXL_COLORS", parts.colors},
+                                   {"VXL_VOXEL_NORMALS", parts.normals},
                                    {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
                                    {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
+                                   {"VXL_OBJECT_NORMALS", !object.grid->normals.empty()},
+                                   {"VXL_NATIVE_DIVIDE", device.is_cpu()},
                                    {"VXL_REACH", map.has_reach},
                                    {"VXL_KEEPS_INSIDE", object.keeps_inside}}},
                                  {"place_bricks.cl", brick_defines(parts)}};
@@ -65,7 +68,7 @@ Surface surface_of(const BrickGrid& grid) {
 
 bool WorldParts::is_stored_like(const WorldParts& other) const {
     return smooth == other.smooth && occupancy == other.occupancy && colors == other.colors &&
-           has_attributes() == other.has_attributes();
+           normals == other.normals && has_attributes() == other.has_attributes();
 }
 
 BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
@@ -102,6 +105,7 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
         parts.smooth |= stores_distances(surface);
         parts.occupancy |= !stores_distances(surface);
         parts.colors |= !object.grid->colors.empty();
+        parts.normals |= !object.grid->normals.empty();
         parts.transparent |= object.grid->transparent;
         const std::vector<uint32_t> attributes = possible_attributes(object, surface);
         parts.attributes.insert(attributes.begin(), attributes.end());
@@ -154,13 +158,14 @@ void bind(KernelArguments& to, const Painter& painter) {
     to.add(painter.rows_, painter.map_.fraction_bits, glm::ivec4(grid.frame.bricks(), 0),
            grid.slots, painter.near_, grid.occupancy, grid.distance,
            static_cast<float>(painter.map_.distance_scale), painter.attribute_map_.map,
-           painter.attribute_map_.materials, grid.attributes, grid.colors);
+           painter.attribute_map_.materials, grid.attributes, grid.colors, grid.normals);
 }
 
 void bind(KernelArguments& to, const PaintedWorld& painted) {
     const BrickGrid& world = painted.world;
     to.add(glm::ivec4(world.frame.bricks(), 0), bounds_of(world.frame), painted.painted.slots,
-           world.coordinates, world.distance, world.occupancy, world.attributes, world.colors);
+           world.coordinates, world.distance, world.occupancy, world.attributes, world.colors,
+           world.normals);
 }
 
 void Painter::classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,

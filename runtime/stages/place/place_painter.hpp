@@ -18,7 +18,7 @@ Surface surface_of(const BrickGrid& grid);
 
 /// The parts that the world stores: those that any of its objects has.
 struct WorldParts {
-    bool smooth = false, occupancy = false, colors = false, transparent = false;
+    bool smooth = false, occupancy = false, colors = false, normals = false, transparent = false;
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernels/shared/normal.h"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/place_painter.hpp"
 
@@ -19,6 +20,7 @@ constexpr const char* kOccupancy = "world occupancy";
 constexpr const char* kDistances = "world distances";
 constexpr const char* kAttributes = "world attributes";
 constexpr const char* kColors = "world colors";
+constexpr const char* kNormals = "world voxel normals";
 
 /// Puts a larger buffer in the place of an `old` one, whose values it begins with.
 template <class T>
@@ -33,7 +35,8 @@ Defines brick_defines(const WorldParts& parts) {
     return {{"VXL_SMOOTH", parts.smooth},
             {"VXL_OCCUPANCY", parts.occupancy},
             {"VXL_ATTRIBUTES", parts.has_attributes()},
-            {"VXL_COLORS", parts.colors}};
+            {"VXL_COLORS", parts.colors},
+            {"VXL_VOXEL_NORMALS", parts.normals}};
 }
 
 WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world)
@@ -42,6 +45,7 @@ WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGri
       occupancy_(parts.occupancy),
       has_attributes_(parts.has_attributes()),
       colors_(parts.colors),
+      normals_(parts.normals),
       defines_(brick_defines(parts)),
       world_(world) {
     const glm::ivec3 table = world.frame.bricks();
@@ -65,6 +69,7 @@ void WorldBricks::store_like(const WorldParts& parts) {
     store(world_.attributes, has_attributes_, parts.has_attributes(), kAttributes, voxels,
           world_.attribute);
     store(world_.colors, colors_, parts.colors, kColors, voxels, kWhite);
+    store(world_.normals, normals_, parts.normals, kNormals, voxels, uint32_t{VXL_NO_NORMAL});
     defines_ = brick_defines(parts);
 }
 
@@ -120,7 +125,8 @@ void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
     if (parts == 0) return;
     kernel("move_bricks")
         .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "moved bricks", moves),
-                world_.distance, world_.occupancy, world_.attributes, world_.colors);
+                world_.distance, world_.occupancy, world_.attributes, world_.colors,
+                world_.normals);
 }
 
 void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
@@ -131,14 +137,17 @@ void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
     if (parts == 0) return;
     kernel("clear_bricks")
         .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "cleared bricks", slots),
-                world_.distance, world_.occupancy, world_.attributes, world_.colors);
+                world_.distance, world_.occupancy, world_.attributes, world_.colors,
+                world_.normals);
 }
 
 /// Makes room for `bricks` slots. A world that grows once may grow again, so from its second growth
 /// on it gets room for a quarter more, if a buffer may be that large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
-    const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ ? 4 : smooth_ ? 2 : 1);
+    const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ || normals_ ? 4
+                                          : smooth_                              ? 2
+                                                                                 : 1);
     const size_t maximum = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
     const size_t brick_numbers =
         reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, maximum);
@@ -147,6 +156,7 @@ void WorldBricks::reserve(uint32_t bricks) {
     if (has_attributes_)
         enlarge(world_.attributes, allocate_words(device_, kAttributes, brick_numbers));
     if (colors_) enlarge(world_.colors, allocate_words(device_, kColors, brick_numbers));
+    if (normals_) enlarge(world_.normals, allocate_words(device_, kNormals, brick_numbers));
     reserved_ = uint32_t(brick_numbers);
 }
 

@@ -43,7 +43,7 @@ class WorldBricks {
     void reserve(uint32_t bricks);
 
     Device device_;
-    bool smooth_, occupancy_, has_attributes_, colors_;
+    bool smooth_, occupancy_, has_attributes_, colors_, normals_;
     Defines defines_;
     BrickGrid& world_;
     std::vector<uint32_t> slots_;        ///< BrickGrid::slots

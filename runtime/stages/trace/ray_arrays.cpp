@@ -61,7 +61,7 @@ void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     maker.make(batch.hits, "hits", hit_components(features));
     if (features.positions) maker.make(batch.positions, "positions", 3);
     if (features.normals) maker.make(batch.normals, "normals", 3);
-    if (features.normals && features.shading_normals) maker.make(batch.shading, "shading", 6);
+    if (features.normals && features.shading_normals()) maker.make(batch.shading, "shading", 6);
     if (features.hit_attributes) maker.make(batch.hit_attributes, "hit attributes", 1);
     if (!features.radiance) return;
     maker.make(batch.radiance, "radiance", 3);

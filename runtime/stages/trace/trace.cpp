@@ -14,7 +14,8 @@ Features features_of(const Pyramid& pyramid) {
     features.triangles = !pyramid.triangles.empty();
     features.textures = !pyramid.triangle_textures.empty();
     features.texture_alpha = features.textures && pyramid.texture_alpha;
-    features.shading_normals = !pyramid.triangle_normals.empty();
+    features.corner_normals = !pyramid.triangle_normals.empty();
+    features.voxel_normals = !pyramid.normals.empty();
     features.solids = !pyramid.solids.empty();
     features.field_lists = pyramid.listed_fields > 0;
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;

@@ -71,6 +71,12 @@ class Joiner {
         code_.kernel("join_covers")
             .launch(WorkItem::light, leaves, grid_.brick_count, uploaded(sources), body_.occupancy,
                     inside.occupancy, rest.cover.occupancy, rest.inside.occupancy, grid_.occupancy);
+        if (!body_.normals.empty()) {
+            grid_.normals = allocate_words(device_, "voxel normals", grid_.brick_count);
+            code_.kernel("join_normals")
+                .launch(WorkItem::heavy, grid_.brick_count, grid_.brick_count, uploaded(sources),
+                        body_.normals, rest.cover.normals, grid_.normals);
+        }
         return finish();
     }
 

@@ -108,16 +108,14 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
         Buffer<uint32_t>(job.device, "source attributes", std::span<const uint32_t>(words));
 }
 
-/// Keeps the normals of the triangles' corners, for light.
-void keep_normals(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
-                  const Shading& shading) {
+/// The normals of the triangles' corners, for light; empty for a mesh that is shaded flat.
+std::vector<uint32_t> normals_of(const GridFrame& frame, const Mesh& mesh,
+                                 const glm::dmat4& frame_from_mesh, const Shading& shading) {
     const std::vector<glm::vec3> normals = corner_normals(mesh, shading);
-    if (normals.empty()) return;
+    if (normals.empty()) return {};
     glm::dmat3 map = glm::inverseTranspose(glm::dmat3(frame_from_mesh));
-    for (int column = 0; column < 3; ++column) map[column] *= job.grid.frame.voxel_edge;
-    job.grid.triangle_normals =
-        Buffer<uint32_t>(job.device, "source normals",
-                         std::span<const uint32_t>(packed_normals(mesh, normals, map)));
+    for (int column = 0; column < 3; ++column) map[column] *= frame.voxel_edge;
+    return packed_normals(mesh, normals, map);
 }
 
 }  // namespace
@@ -136,7 +134,10 @@ BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mes
 BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                                       const GridFrame& frame, const VoxelizeOptions& options) {
     check_frame(frame);
-    const MeshLabels labels = labels_of(mesh, options.surface);
+    MeshLabels labels = labels_of(mesh, options.surface);
+    std::vector<uint32_t> normals;
+    if (has_cube_normals(options) || lists_primitives(options.surface))
+        normals = normals_of(frame, mesh, frame_from_mesh, options.shading);
     MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
     if (needs_inside(options)) cap_open_outlines(lattice);
     const DeviceTriangles triangles = upload(device_, lattice);
@@ -158,11 +159,15 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
         voxelize_cubes(job, VoxelSet::supercover, kListMargin);
         list_primitives(job, program("voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
         keep_triangles(job, mesh, frame_from_mesh, labels);
-        keep_normals(job, mesh, frame_from_mesh, options.shading);
+        if (!normals.empty())
+            job.grid.triangle_normals =
+                Buffer<uint32_t>(device_, "source normals", std::span<const uint32_t>(normals));
         keep_textures(job, mesh);
     }
-    if (!labels.triangle_attributes.empty() || has_paint(mesh))
-        label_voxels(job, program("voxelize_label.cl", label_defines(device_, mesh)),
+    if (has_cube_normals(options)) labels.corner_normals = std::move(normals);
+    labels.has_normals = has_cube_normals(options);
+    if (!labels.triangle_attributes.empty() || has_paint(mesh) || labels.has_normals)
+        label_voxels(job, program("voxelize_label.cl", label_defines(device_, labels)),
                      program("voxelize_distance.cl", slice_defines(device_)),
                      bin(job, job.triangles, label_reach(frame), kLatticePerBrick), labels);
     return job.grid;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// mesh groups and colours -> the packed attributes and colours of voxels.
+// mesh groups, colours and normals -> those of voxels.
 #include <algorithm>
 
 #include "runtime/image/srgb.hpp"
@@ -52,16 +52,27 @@ void color_voxels(VoxelizeJob& job, const Program& label, const Mesh& mesh,
                 job.grid.colors);
 }
 
+void give_normals(VoxelizeJob& job, const Program& label, const std::vector<uint32_t>& of_corners,
+                  const Buffer<uint32_t>& nearest) {
+    const size_t voxels = size_t(4096) * job.bins.stored;
+    job.grid.normals = allocate_words(job.device, "voxel normals", job.bins.stored);
+    label.kernel("give_normals")
+        .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels), job.bricks,
+                edge_scale(job.grid.frame), job.triangles, job.bins.coordinates, nearest,
+                Buffer<uint32_t>(job.device, "corner normals", of_corners), job.grid.normals);
+}
+
 }  // namespace
 
 bool has_paint(const Mesh& mesh) {
     return !mesh.vertex_colors.empty() || !mesh.textures.empty();
 }
 
-Defines label_defines(const Device& device, const Mesh& mesh) {
+Defines label_defines(const Device& device, const MeshLabels& labels) {
     Defines defines = slice_defines(device);
-    defines.emplace_back("VXL_VERTEX_COLORS", !mesh.vertex_colors.empty());
-    defines.emplace_back("VXL_TEXTURES", !mesh.textures.empty());
+    defines.emplace_back("VXL_VERTEX_COLORS", !labels.mesh->vertex_colors.empty());
+    defines.emplace_back("VXL_TEXTURES", !labels.mesh->textures.empty());
+    defines.emplace_back("VXL_VERTEX_NORMALS", !labels.corner_normals.empty());
     return defines;
 }
 
@@ -88,6 +99,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
                     nearest, words, job.grid.attributes);
     }
     if (has_paint(*labels.mesh)) color_voxels(job, label, *labels.mesh, nearest);
+    if (labels.has_normals) give_normals(job, label, labels.corner_normals, nearest);
 }
 
 }  // namespace voxelume

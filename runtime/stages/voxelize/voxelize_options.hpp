@@ -12,12 +12,21 @@ struct VoxelizeOptions {
     double band = 2.8;  ///< for `smooth`: the distance up to which meshes' distances are exact, in
                         ///< shortest voxel edges, at most 4; rays and gradients at a surface read
                         ///< 2.8
-    Shading shading{};  ///< for `exact` meshes
+    Shading shading{};  ///< for `exact` meshes, and cubes with normals of their mesh
+    CubeNormals normals = CubeNormals::faces;  ///< for `cubes`
 };
+
+/// True if the options give each cube a normal.
+inline bool has_cube_normals(const VoxelizeOptions& options) {
+    return shows_voxels(options.surface) && options.normals == CubeNormals::surface;
+}
 
 /// The options that a model asks for.
 inline VoxelizeOptions options_of(const Model& model) {
-    return {.surface = model.surface, .set = model.set, .shading = model.shading};
+    return {.surface = model.surface,
+            .set = model.set,
+            .shading = model.shading,
+            .normals = model.normals};
 }
 
 }  // namespace voxelume

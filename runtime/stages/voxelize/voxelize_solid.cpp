@@ -49,6 +49,7 @@ class SolidVoxelizer {
         else
             occupy(set);
         if (lists_primitives(options.surface)) list_primitives();
+        if (has_cube_normals(options)) give_normals();
         return std::move(grid_);
     }
 
@@ -95,17 +96,28 @@ class SolidVoxelizer {
         grid_.coordinates = Buffer<uint32_t>(device_, "coordinates", coordinates);
     }
 
-    void sample() {
+    /// Runs a kernel over all nodes or voxels of the stored bricks.
+    template <class T>
+    void run_over_bricks(Kernel kernel, const Buffer<T>& values) {
         constexpr uint32_t kBricksPerLaunch = 1u << 16;  // 2^28 nodes: the count fits its type
-        grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
-        Kernel kernel = code_.kernel("sample_solid");
         for (uint32_t first = 0; first < grid_.brick_count; first += kBricksPerLaunch) {
             const uint32_t bricks = std::min(kBricksPerLaunch, grid_.brick_count - first);
             const auto nodes = static_cast<uint32_t>(bricks * kVoxelsPerBrick);
             kernel.launch(WorkItem::light, nodes / static_cast<uint32_t>(device_.lanes()), solids_,
-                          grid_.coordinates, int4_of(grid_.frame.bricks()), first, nodes,
-                          grid_.distance);
+                          grid_.coordinates, int4_of(grid_.frame.bricks()), first, nodes, values);
         }
+    }
+
+    void sample() {
+        grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
+        run_over_bricks(code_.kernel("sample_solid"), grid_.distance);
+    }
+
+    void give_normals() {
+        grid_.normals = allocate_words(device_, "voxel normals", grid_.brick_count);
+        const Program code(device_, "voxelize_normals.cl",
+                           {{"VXL_NATIVE_DIVIDE", device_.is_cpu()}});
+        run_over_bricks(code.kernel("normals_of_solid"), grid_.normals);
     }
 
     void occupy(VoxelSet set) {

@@ -76,21 +76,24 @@ void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<u
 /// Lists the triangles of each voxel.
 void list_primitives(VoxelizeJob& job, const Program& exact);
 
-/// The values that voxels take from the mesh's groups and colours.
+/// The values that voxels take from the mesh's groups, colours and normals.
 struct MeshLabels {
     uint32_t attributes = 0;                    ///< of a voxel without a triangle
     std::vector<uint32_t> triangle_attributes;  ///< empty: one value for all
     const Mesh* mesh = nullptr;                 ///< what has the colours
+    bool has_normals = false;                   ///< cubes get normals of the surface
+    std::vector<uint32_t> corner_normals{};     ///< as in BrickGrid::triangle_normals; empty: each
+                                                ///< triangle's own
 };
 
 /// True for a mesh that gives its voxels colours.
 bool has_paint(const Mesh& mesh);
 
 /// The build constants of the kernels that label voxels.
-Defines label_defines(const Device& device, const Mesh& mesh);
+Defines label_defines(const Device& device, const MeshLabels& labels);
 
-/// Gives each voxel the packed attributes and the colour of its closest triangle. `lists` holds the
-/// triangles within `label_reach` of each brick.
+/// Gives each voxel the packed attributes, the colour and the normal of its closest triangle.
+/// `lists` holds the triangles within `label_reach` of each brick.
 void label_voxels(VoxelizeJob& job, const Program& label, const Program& distance,
                   const TriangleBins& lists, const MeshLabels& labels);
 

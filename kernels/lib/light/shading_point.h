@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The normals by which light falls on what rays have met, where these aren't those of the surface.
+#ifndef VXL_SHADING_POINT_H
+#define VXL_SHADING_POINT_H
+
+#include "lib/surface/shading_normal.h"
+#include "lib/traverse/shaded_hit.h"
+#include "lib/traverse/world.h"
+
+/// A gradient in the voxels of the hits, in metric space.
+static inline Vector metric_gradient(const WorldView* world, const ShadedHit* h, Vector g) {
+    if (VXL_INSTANCES) g = world_gradient(&h->ray, g, h->of_instance);
+    return scaled(g, world->shape.inverse_edge);
+}
+
+/// Triangles: the mean of their corners' normals, turned over where the surface is met from
+/// `behind`. Rays to lights begin as if each corner were a round surface's, at the height of the
+/// tangent planes (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4).
+static inline void light_triangles(const WorldView* world, const ShadedHit* h, Vector normal,
+                                   lane_int behind, ShadingPoint* s) {
+    const lane_float zero = (lane_float)0.0f;
+    const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
+    const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
+    global const uint* packed = world->surface.triangle_normals;
+    const lane_uint place = number * (uint)VXL_TRIANGLE_NORMALS;
+    const lane_int curved = triangle & LANE_MASK(LANES_GATHER_UINT(packed, place) != VXL_NO_NORMAL);
+    if (!lanes_any(curved)) return;
+    const Vector o = h->ray.origin, d = h->ray.direction;
+    Vector from[3];
+    lane_float share[3];
+    for (uint i = 0; i < 3; ++i) {
+        const Vector corner = triangle_corner(world->surface.triangles, number, i);
+        from[i] = add_scaled(difference(o, corner), d, h->ray.t);
+    }
+    corner_shares(from, share);
+    Vector sum = {zero, zero, zero}, lift = sum;
+    for (uint i = 0; i < 3; ++i) {
+        Vector g = unpack_normal(LANES_GATHER_UINT(packed, place + i));
+        g = select_vector(behind, opposite(g), g);
+        const Vector metric = metric_gradient(world, h, g);
+        const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
+        const lane_float below = fmax(-dot_product(g, from[i]) * inverse, 0.0f);
+        const Vector n = unit(metric);
+        sum = add_scaled(sum, n, share[i]);
+        lift = add_scaled(lift, n, share[i] * below);
+    }
+    sum = unit(sum);
+    s->normal = select_vector(curved & LANE_MASK(dot_product(sum, sum) > 0.0f), sum, s->normal);
+    s->lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s->lift);
+}
+
+/// Cubes: the normals of the surface that they stand for, turned over where both the face, whose
+/// normal is `normal`, and the ray are behind it.
+///
+/// Rays to lights begin above the steps that the cubes of a flat surface make, so that these cast
+/// no shadows. With the gradient g of the surface, a set of voxels around it reaches up to |g|_1
+/// (of a supercover; less of others) above it. The voxel in front of a face across axis a holds
+/// nothing, so the surface lies so low that no step is higher than |g_a| + |g|_1 / 2 above the
+/// voxel's centre.
+static inline void light_cubes(const WorldView* world, const ShadedHit* h, Vector place,
+                               Vector normal, ShadingPoint* s) {
+    const lane_int cubes =
+        LANE_MASK((h->packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) & h->hit & ~h->exact;
+    const lane_uint code =
+        LANES_GATHER_UINT(world->surface.normals, h->voxel & LANES_AS_UINT(cubes));
+    const lane_int curved = cubes & LANE_MASK(code != VXL_NO_NORMAL);
+    if (!lanes_any(curved)) return;
+    Vector g = unpack_normal(code);
+    Vector metric = metric_gradient(world, h, g);
+    const Vector way = scaled(h->world_way, world->shape.edge);
+    const lane_int behind =
+        LANE_MASK(dot_product(metric, normal) < 0.0f) & LANE_MASK(dot_product(metric, way) > 0.0f);
+    g = select_vector(behind, opposite(g), g);
+    metric = select_vector(behind, opposite(metric), metric);
+    const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
+    const Vector size = {fabs(g.x), fabs(g.y), fabs(g.z)};
+    const lane_float across = LANES_SELECT(LANE_MASK(axis == 0u), size.x,
+                                           LANES_SELECT(LANE_MASK(axis == 1u), size.y, size.z));
+    const Vector from = {place.x - 0.5f, place.y - 0.5f, place.z - 0.5f};
+    const lane_float top = fma((lane_float)0.5f, size.x + size.y + size.z, across);
+    const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
+    const lane_float below = fmax(top - dot_product(g, from), 0.0f) * inverse;
+    const Vector n = unit(metric);
+    const Vector lift = {n.x * below, n.y * below, n.z * below};
+    s->normal = select_vector(curved, n, s->normal);
+    s->lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s->lift);
+}
+
+/// The normals by which light falls on points whose geometric normals are `normal`, at `place` in
+/// their voxels, and how far above the surface rays to lights begin.
+static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h, Vector place,
+                                         Vector normal, lane_int behind) {
+    const lane_float zero = (lane_float)0.0f;
+    ShadingPoint s = {normal, {zero, zero, zero}};
+    if (VXL_CORNER_NORMALS) light_triangles(world, h, normal, behind, &s);
+    if (VXL_VOXEL_NORMALS) light_cubes(world, h, place, normal, &s);
+    return s;
+}
+
+#endif

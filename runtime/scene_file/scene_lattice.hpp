@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a model that say what its voxels are.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "runtime/scene/object.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
+
+namespace voxelume {
+
+/// Reads the surface of a model. One that doesn't say any, or `auto`, leaves it to its files, and
+/// `usual` stands until they are read; solids are exact.
+void read_surface(const SceneFields& fields, Surface usual, Model& model);
+
+/// The pitch, surface, set and normals of a model, whose source is already read.
+void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model);
+
+/// The shading of a mesh, which counts where the mesh is exact, or its cubes have its normals.
+Shading read_shading(const SceneFields& fields);
+
+}  // namespace voxelume
