@@ -19,8 +19,8 @@
 #ifndef VXL_VERTEX_COLORS
 #define VXL_VERTEX_COLORS 1
 #endif
-#ifndef VXL_TEXTURES
-#define VXL_TEXTURES 0
+#ifndef VXL_MESH_TEXTURES
+#define VXL_MESH_TEXTURES 0
 #endif
 /// Whether it has normals at its triangles' corners.
 #ifndef VXL_VERTEX_NORMALS
@@ -201,7 +201,7 @@ kernel void color_voxels(
     float3 color = (float3)(1.0f);
     if (VXL_VERTEX_COLORS)
         color = mean_color(vload3(triangle, color_indices), vertex_colors, weights);
-    if (VXL_TEXTURES && texture_words[triangle] != VXL_NO_TEXTURE) {
+    if (VXL_MESH_TEXTURES && texture_words[triangle] != VXL_NO_TEXTURE) {
         const uint word = texture_words[triangle];
         const float2 uv = mean_uv(vload3(triangle, uv_indices), uvs, weights);
         color *= texture_color(vload4(word & VXL_TEXTURE_MASK, textures),

@@ -45,7 +45,8 @@ static inline lane_float alpha_of_hits(const WorldView* world, Vector origin, Ve
         from[i] = add_scaled(difference(ray.origin, corner), ray.direction, ray.t);
     }
     corner_shares(from, share);
-    TextureArea area = {(lane_float)0.0f, (lane_float)0.0f};
+    TextureArea area;
+    area.u = area.v = (lane_float)0.0f;
     for (uint i = 0; i < 3; ++i) {
         const lane_uint place = worn + (VXL_WORN_UVS + 2u * i);
         area.u = fma(share[i], LANES_GATHER_FLOAT((global const float*)words, place), area.u);

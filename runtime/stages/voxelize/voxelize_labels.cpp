@@ -71,7 +71,7 @@ bool has_paint(const Mesh& mesh) {
 Defines label_defines(const Device& device, const MeshLabels& labels) {
     Defines defines = slice_defines(device);
     defines.emplace_back("VXL_VERTEX_COLORS", !labels.mesh->vertex_colors.empty());
-    defines.emplace_back("VXL_TEXTURES", !labels.mesh->textures.empty());
+    defines.emplace_back("VXL_MESH_TEXTURES", !labels.mesh->textures.empty());
     defines.emplace_back("VXL_VERTEX_NORMALS", !labels.corner_normals.empty());
     return defines;
 }
