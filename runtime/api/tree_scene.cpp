@@ -58,10 +58,15 @@ void add_kind(const v1::SunSky& sky, ObjectTree& object) {
     object.add("turbidity", sky.turbidity).add("ground", sky.ground);
 }
 
+void add_kind(const v1::MapSky& sky, ObjectTree& object) {
+    object.add("kind", "map").add("file", sky.file.string()).add("rotation", sky.rotation);
+}
+
 JsonValue tree_of_sky(const v1::Sky& sky) {
     ObjectTree object;
     std::visit([&object](const auto& kind) { add_kind(kind, object); }, sky.kind);
-    return object.add("strength", sky.strength).add("samples", sky.samples).take();
+    object.add("strength", sky.strength).add("samples", sky.samples);
+    return object.add("visible", sky.visible).take();
 }
 
 void add_source(const v1::PointLight& light, ObjectTree& object) {

@@ -69,7 +69,7 @@ class FrameWalk {
         memory_.volume = height();
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
         memory_.image = height();
-        memory_.emitter_host_bytes = image.emitter_host_bytes;
+        memory_.light_host_bytes = image.emitter_host_bytes + image.sky_host_bytes;
         memory_.dilated_occupancy = double(
             (image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size()) * 4);
         const Features features = features_of(scene_, world);

@@ -77,7 +77,7 @@ World read_world(const SceneValue& value, const AssetSearch& search) {
         count_voxels(world);
     }
     fields.read_rows(world_rows(), world);
-    if (const auto sky = fields.find("sky")) world.sky = read_sky(*sky);
+    if (const auto sky = fields.find("sky")) world.sky = read_sky(*sky, search);
     if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
     return world;
 }

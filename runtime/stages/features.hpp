@@ -38,6 +38,8 @@ struct Features {
     bool lens = false;                 ///< sight rays start all over a lens
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
+    int sky_rays = 0;                  ///< VXL_EMITTERS_*: how paths find the light of a map
+    bool sky_hidden = false;           ///< observers don't see the sky
     int media = 0;                     ///< size of the sets of transmitting objects that rays are
                                        ///< inside of
     bool medium_set_capped = false;    ///< ... and this size may not be enough
@@ -51,6 +53,8 @@ struct Features {
     friend bool operator==(const Features&, const Features&) = default;
 
     bool exact() const { return triangles || solids; }
+    /// Whether paths send rays to emitters or to the sky.
+    bool looks() const { return emitters != 0 || sky_rays != 0; }
     /// Whether rays must know on which of a voxel's surfaces they begin.
     bool sources() const { return exact() || field_lists; }
 
@@ -85,6 +89,8 @@ struct Features {
                 {"VXL_LENS", lens},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},
+                {"VXL_SKY_RAYS", sky_rays},
+                {"VXL_SKY_HIDDEN", sky_hidden},
                 {"VXL_MEDIA", media},
                 {"VXL_MEDIUM_SET_CAPPED", medium_set_capped},
                 {"VXL_INSTANCES", instances},

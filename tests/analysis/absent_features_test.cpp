@@ -87,25 +87,18 @@ Features plain_features() {
 
 /// The headers to gut. medium_set.h, instances.h and cube_body.h stay, because the walk of all rays
 /// uses parts of them.
-const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
-                                        "lib/surface/field.h",
-                                        "lib/light/filter.h",
-                                        "lib/traverse/instance_hit.h",
-                                        "lib/solid/solid_hit.h",
-                                        "lib/surface/triangle.h",
-                                        "lib/solid/solid_ray.h",
-                                        "lib/surface/begin_inside.h",
-                                        "lib/surface/shading_normal.h",
-                                        "lib/light/sky.h",
-                                        "lib/light/sobol.h",
-                                        "lib/light/directions.h",
-                                        "lib/light/emitters.h",
-                                        "lib/light/emission_share.h",
-                                        "lib/traverse/lens.h",
-                                        "lib/light/path_samples.h",
-                                        "lib/light/ggx.h",
-                                        "lib/light/physical.h",
-                                        "lib/light/physical_light.h"};
+const std::set<std::string> kRemoved = {
+    "lib/surface/smooth.h",         "lib/surface/field.h",
+    "lib/light/filter.h",           "lib/traverse/instance_hit.h",
+    "lib/solid/solid_hit.h",        "lib/surface/triangle.h",
+    "lib/solid/solid_ray.h",        "lib/surface/begin_inside.h",
+    "lib/surface/shading_normal.h", "lib/light/sky.h",
+    "lib/light/sky_map.h",          "lib/light/light_rays.h",
+    "lib/lanes/exact_angle.h",      "lib/light/sobol.h",
+    "lib/light/directions.h",       "lib/light/emitters.h",
+    "lib/light/emission_share.h",   "lib/traverse/lens.h",
+    "lib/light/path_samples.h",     "lib/light/ggx.h",
+    "lib/light/physical.h",         "lib/light/physical_light.h"};
 
 /// The kernels that frames of such a scene launch, by file.
 const std::map<std::string, std::set<std::string>> kLaunched = {

@@ -25,7 +25,7 @@ std::string scene_text(const std::string& light) {
             fmt::format(R"({{"model": "ball", "material": "glass", "scale": {}}},)", 1 - 0.04 * i);
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.5, -1.1, -2.4], "max": [1.5, 1.3, 1.6]},
-          "sky": {"kind": "gradient", "samples": 2}, "ambient": [0.2, 0.2, 0.2],
+          "sky": {"kind": "map", "file": "around.hdr", "samples": 2, "visible": false}, "ambient": [0.2, 0.2, 0.2],
           "medium": {"absorption": [0.1, 0.2, 0.3],
                      "density": {"kind": "grid", "file": "fog.vdb", "lit": [1, 0, 0],
                                  "transfer": [{"value": 0, "absorption": 0.2},
@@ -81,6 +81,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     put_bytes(folder / "m.obj",
               "v 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     write_fog(folder / "fog.vdb");
+    put_bytes(folder / "around.hdr", "#?RADIANCE\n\n-Y 1 +X 2\n\x40\x50\x60\x80\x20\x20\x20\x80");
     const Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});
     const bool is_global = scene.render.light == LightMode::global;
     const Device& device = shared_device();
@@ -88,7 +89,8 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device))
         EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE" ||
-                    ((name == "VXL_GLOBAL" || name == "VXL_EMITTERS" || name == "VXL_PHYSICAL") &&
+                    ((name == "VXL_GLOBAL" || name == "VXL_EMITTERS" || name == "VXL_PHYSICAL" ||
+                      name == "VXL_SKY_RAYS") &&
                      !is_global))
             << name;
 

@@ -109,7 +109,7 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
     set_out_child(r, shape,
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
-    if (VXL_EMITTERS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
+    if (VXL_LOOKS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and

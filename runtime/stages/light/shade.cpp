@@ -11,6 +11,7 @@
 #include "runtime/opencl/float4.hpp"
 #include "runtime/stages/light/albedo_table.hpp"
 #include "runtime/stages/light/sky_light.hpp"
+#include "runtime/stages/light/sky_map.hpp"
 
 namespace voxelume {
 namespace {
@@ -119,11 +120,14 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
       materials_(
           device, "materials",
           std::span<const MaterialRecord>(material_records(scene, world, features.physical))),
+      sky_is_hidden_(features.sky_hidden),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
-    if (features.sky != VXL_SKY_NONE) {
+    if (features.sky == VXL_SKY_MAP) {
+        sky_.map = build_sky_map(device, *scene.world.sky);
+    } else if (features.sky != VXL_SKY_NONE) {
         const SkyRecord record = sky_record(*scene.world.sky);
-        sky_ = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
+        sky_.record = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
     }
     if (features.global) environment_.ambient = {};  // it stands for light that paths find
     if (features.paths)
@@ -131,9 +135,14 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
                                   std::span<const uint32_t>(object_ranks(scene.objects)));
 }
 
-void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, materials_, ranks_,
-                            batch, count);
+void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count,
+                         bool from_observer) {
+    if (sky_is_hidden_)
+        surface_.launch_packets(count, pyramid, environment_, sky_, uint32_t(from_observer),
+                                emitters_, materials_, ranks_, batch, count);
+    else
+        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, materials_, ranks_,
+                                batch, count);
 }
 
 }  // namespace voxelume
