@@ -209,6 +209,11 @@ kernel void extend_paths(
         matt = scatter_by(&p, &batch, first, &view, path_point(&samples, VXL_DECISION_DIRECTION),
                           layer);
         if (VXL_PHYSICAL) way.diffuse &= ~matt.is | matt.lives;
+        if (VXL_ROUGH_GLASS) {
+            matt.through &= way.diffuse;
+            way.refracted |= matt.through;
+            way.diffuse &= ~matt.through;
+        }
     }
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
     const lane_int goes_on = scattered | way.straight;

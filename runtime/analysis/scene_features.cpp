@@ -65,6 +65,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         opacity |= (effects & kIsSeenThrough) != 0;
         reflection |= (effects & kReflects) != 0;
         features.physical |= features.global && (effects & kIsPhysical) != 0;
+        features.rough_glass |= features.global && follows && glass_share(*m) > 0;
         fresnel |= (effects & kHasReflectance) != 0 && (effects & (kReflects | kRefracts)) != 0;
         absorption |= (effects & kAbsorbs) != 0 && (transmits(*m) || features.voxel_opacity);
     }

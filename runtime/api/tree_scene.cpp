@@ -188,10 +188,11 @@ JsonValue tree(const v1::World& world) {
 
 JsonValue tree(const v1::Material& material) {
     ObjectTree object;
-    if (material.base_color || material.metallic || material.roughness) {
+    if (material.base_color || material.metallic || material.roughness || material.transmission) {
         object.add("base_color", material.base_color.value_or(material.color));
         if (material.metallic) object.add("metallic", *material.metallic);
         if (material.roughness) object.add("roughness", *material.roughness);
+        if (material.transmission) object.add("transmission", *material.transmission);
     } else {
         object.add("color", material.color).add("diffuse", material.diffuse);
         object.add("specular", material.specular).add("shininess", material.shininess);

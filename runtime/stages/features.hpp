@@ -35,6 +35,7 @@ struct Features {
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
     bool physical = false;             ///< ... and some material is physically based
+    bool rough_glass = false;          ///< ... and lets light through
     bool lens = false;                 ///< sight rays start all over a lens
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
@@ -86,6 +87,7 @@ struct Features {
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
                 {"VXL_GLOBAL", global},
                 {"VXL_PHYSICAL", physical},
+                {"VXL_ROUGH_GLASS", rough_glass},
                 {"VXL_LENS", lens},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},

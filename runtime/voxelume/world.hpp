@@ -126,9 +126,10 @@ struct Material {
     std::optional<Checker> checker{};  ///< a second colour in every other block
     /// One of these makes the material physically based: then `color` and the values from `diffuse`
     /// to `refraction` and `fresnel` say nothing. scenes/README.md tells what is shown.
-    std::optional<Color> base_color{};  ///< 0..1; otherwise `color`
-    std::optional<double> metallic{};   ///< share of metal, 0..1; otherwise 0
-    std::optional<double> roughness{};  ///< 0 polished to 1 dull; otherwise 0.5
+    std::optional<Color> base_color{};     ///< 0..1; otherwise `color`
+    std::optional<double> metallic{};      ///< share of metal, 0..1; otherwise 0
+    std::optional<double> roughness{};     ///< 0 polished to 1 dull; otherwise 0.5
+    std::optional<double> transmission{};  ///< share of glass, of what isn't metal, 0..1
 };
 
 }  // namespace voxelume::v1

@@ -87,18 +87,29 @@ Features plain_features() {
 
 /// The headers to gut. medium_set.h, instances.h and cube_body.h stay, because the walk of all rays
 /// uses parts of them.
-const std::set<std::string> kRemoved = {
-    "lib/surface/smooth.h",         "lib/surface/field.h",
-    "lib/light/filter.h",           "lib/traverse/instance_hit.h",
-    "lib/solid/solid_hit.h",        "lib/surface/triangle.h",
-    "lib/solid/solid_ray.h",        "lib/surface/begin_inside.h",
-    "lib/surface/shading_normal.h", "lib/light/sky.h",
-    "lib/light/sky_map.h",          "lib/light/light_rays.h",
-    "lib/lanes/exact_angle.h",      "lib/light/sobol.h",
-    "lib/light/directions.h",       "lib/light/emitters.h",
-    "lib/light/emission_share.h",   "lib/traverse/lens.h",
-    "lib/light/path_samples.h",     "lib/light/ggx.h",
-    "lib/light/physical.h",         "lib/light/physical_light.h"};
+const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
+                                        "lib/surface/field.h",
+                                        "lib/light/filter.h",
+                                        "lib/traverse/instance_hit.h",
+                                        "lib/solid/solid_hit.h",
+                                        "lib/surface/triangle.h",
+                                        "lib/solid/solid_ray.h",
+                                        "lib/surface/begin_inside.h",
+                                        "lib/surface/shading_normal.h",
+                                        "lib/light/sky.h",
+                                        "lib/light/sky_map.h",
+                                        "lib/light/rough_glass.h",
+                                        "lib/light/light_rays.h",
+                                        "lib/lanes/exact_angle.h",
+                                        "lib/light/sobol.h",
+                                        "lib/light/directions.h",
+                                        "lib/light/emitters.h",
+                                        "lib/light/emission_share.h",
+                                        "lib/traverse/lens.h",
+                                        "lib/light/path_samples.h",
+                                        "lib/light/ggx.h",
+                                        "lib/light/physical.h",
+                                        "lib/light/physical_light.h"};
 
 /// The kernels that frames of such a scene launch, by file.
 const std::map<std::string, std::set<std::string>> kLaunched = {
@@ -139,7 +150,7 @@ TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
     features.paths = features.global = features.area_samples = true;
     features.emitters = VXL_EMITTERS_BOTH;
     const std::set<std::string> removed = {"lib/light/ggx.h", "lib/light/physical.h",
-                                           "lib/light/physical_light.h"};
+                                           "lib/light/physical_light.h", "lib/light/rough_glass.h"};
     for (const auto& [file, kernel] : {std::pair("extend.cl", "extend_paths"),
                                        {"light.cl", "add_light"},
                                        {"area_light.cl", "add_area_light"}}) {
@@ -160,12 +171,16 @@ TEST(AbsentFeatures, TakeNoArgumentsOfKernels) {
     with.paths = with.global = true;
     const Features without = with;
     with.emitters = VXL_EMITTERS_BOTH;
-    constexpr int kEmitterParameters = 6;
+    Features with_map = without;
+    with_map.sky = VXL_SKY_MAP;
+    with_map.sky_rays = VXL_EMITTERS_BOTH;
+    constexpr int kEmitterParameters = 6, kMapParameters = 3;
     for (const auto& [file, kernel] :
          {std::pair("shade.cl", "shade_surface"), std::pair("extend.cl", "extend_paths")}) {
         const int fewer = parameters_of(file, kernel, without);
         EXPECT_GT(fewer, 20) << kernel;
         EXPECT_EQ(parameters_of(file, kernel, with), fewer + kEmitterParameters) << kernel;
+        EXPECT_EQ(parameters_of(file, kernel, with_map), fewer + kMapParameters) << kernel;
     }
 }
 

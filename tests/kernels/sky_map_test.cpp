@@ -15,8 +15,6 @@
 namespace voxelume {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 constexpr const char* kSkySource = R"(
 #include "lib/lanes/work_item.h"
 #include "lib/light/sky_map.h"
@@ -78,9 +76,9 @@ glm::dvec3 blended(const SkyMapData& data, double u, double v) {
 
 /// The direction of a place; the middle is +Z, and +X lies left of it.
 glm::dvec3 direction(double u, double v, double turn) {
-    const double longitude = 2 * kPi * (0.5 - u + turn);
-    return {std::sin(longitude) * std::sin(kPi * v), std::cos(kPi * v),
-            std::cos(longitude) * std::sin(kPi * v)};
+    const double longitude = 2 * std::numbers::pi * (0.5 - u + turn);
+    return {std::sin(longitude) * std::sin(std::numbers::pi * v), std::cos(std::numbers::pi * v),
+            std::cos(longitude) * std::sin(std::numbers::pi * v)};
 }
 
 struct SkyMapTest : testing::Test {
@@ -147,7 +145,7 @@ TEST_F(SkyMapTest, ShowsThePictureBetweenTheMiddlesOfItsTexels) {
             for (int c = 0; c < 3; ++c)
                 // Near a pole a direction in floats is that of several places.
                 ASSERT_NEAR(seen[i].light[c], 2 * blended(data, places[i].x, places[i].y)[c],
-                            2e-3 / std::sin(kPi * places[i].y))
+                            2e-3 / std::sin(std::numbers::pi * places[i].y))
                     << places[i].x << " " << places[i].y;
     }
 }
@@ -179,7 +177,7 @@ TEST_F(SkyMapTest, CellsAreAsProbableAsTheirLight) {
             const double v = (y + 0.5) / (12 * kFine);
             const double value =
                 glm::dot(blended(data, (x + 0.5) / (24 * kFine), v), {0.2126, 0.7152, 0.0722}) *
-                std::sin(kPi * v);
+                std::sin(std::numbers::pi * v);
             light[size_t(y / kFine * 24 + x / kFine)] += value;
             sum += value;
         }
@@ -189,8 +187,9 @@ TEST_F(SkyMapTest, CellsAreAsProbableAsTheirLight) {
             middles.push_back(direction((x + 0.5) / 24, (y + 0.5) / 12, 0));
     const std::vector<Seen> seen = look(data, middles);
     for (size_t i = 0; i < middles.size(); ++i) {
-        const double sine = std::sin(kPi * (double(i / 24) + 0.5) / 12);
-        const double expected = light[i] / sum * 24 * 12 / (2 * kPi * kPi * sine);
+        const double sine = std::sin(std::numbers::pi * (double(i / 24) + 0.5) / 12);
+        const double expected =
+            light[i] / sum * 24 * 12 / (2 * std::numbers::pi * std::numbers::pi * sine);
         ASSERT_NEAR(seen[i].density, expected, 2e-3 * expected + 1e-8) << i;
     }
 }
@@ -207,8 +206,8 @@ TEST_F(SkyMapTest, ChoosesDirectionsAsTheDensitySays) {
             for (size_t i = 0; i < kCount; ++i) {
                 const glm::dvec3 w{ways[i], ways[kCount + i], ways[2 * kCount + i]};
                 ASSERT_NEAR(glm::length(w), 1, 1e-6);
-                const double turn = std::atan2(w.x, w.z) / (2 * kPi) + 0.5;
-                const int row = std::min(int(std::acos(w.y) / kPi * kRows), kRows - 1);
+                const double turn = std::atan2(w.x, w.z) / (2 * std::numbers::pi) + 0.5;
+                const int row = std::min(int(std::acos(w.y) / std::numbers::pi * kRows), kRows - 1);
                 ++found[size_t(row * kColumns + std::min(int(turn * kColumns), kColumns - 1))];
                 if (i % 64 == 0) some.push_back(w);
             }
@@ -224,8 +223,9 @@ TEST_F(SkyMapTest, ChoosesDirectionsAsTheDensitySays) {
             std::vector<double> angles;
             for (int y = 0; y < kRows * kFine; ++y)
                 for (int x = 0; x < kColumns * kFine; ++x) {
-                    const double theta = kPi * (y + 0.5) / (kRows * kFine);
-                    const double turn = 2 * kPi * ((x + 0.5) / (kColumns * kFine) - 0.5);
+                    const double theta = std::numbers::pi * (y + 0.5) / (kRows * kFine);
+                    const double turn =
+                        2 * std::numbers::pi * ((x + 0.5) / (kColumns * kFine) - 0.5);
                     grid.emplace_back(std::sin(turn) * std::sin(theta), std::cos(theta),
                                       std::cos(turn) * std::sin(theta));
                     angles.push_back(std::sin(theta));
@@ -233,8 +233,8 @@ TEST_F(SkyMapTest, ChoosesDirectionsAsTheDensitySays) {
             const std::vector<Seen> densities = look(data, grid, 0.4);
             double all = 0;
             for (size_t k = 0; k < grid.size(); ++k) {
-                const double share =
-                    densities[k].density * angles[k] * 2 * kPi * kPi / double(grid.size());
+                const double share = densities[k].density * angles[k] * 2 * std::numbers::pi *
+                                     std::numbers::pi / double(grid.size());
                 const size_t y = k / (kColumns * kFine), x = k % (kColumns * kFine);
                 expected[y / kFine * kColumns + x / kFine] += share * kCount;
                 all += share;

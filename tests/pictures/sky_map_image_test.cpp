@@ -13,8 +13,6 @@
 namespace voxelume {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// The radiance of a place of a picture.
 using Paint = glm::dvec3 (*)(double u, double v);
 
@@ -23,7 +21,7 @@ using Paint = glm::dvec3 (*)(double u, double v);
 glm::dvec3 sunny(double u, double v) {
     if (v > 0.5) return {0.05, 0.04, 0.03};
     if (std::abs(u - 0.3) < 0.016 && std::abs(v - 0.2) < 0.032) return {300, 250, 200};
-    return {0.2 + 0.3 * v, 0.4 + 0.2 * std::sin(2 * kPi * u), 0.9};
+    return {0.2 + 0.3 * v, 0.4 + 0.2 * std::sin(2 * std::numbers::pi * u), 0.9};
 }
 
 glm::dvec3 white(double, double) {
@@ -101,9 +99,10 @@ TEST_F(SkyMapImage, LightsAFloorByItsCosineWeightedMean) {
     glm::dvec3 expected(0);
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 256; ++x) {
-            const double theta = kPi * (y + 0.5) / 128;
+            const double theta = std::numbers::pi * (y + 0.5) / 128;
             expected += sunny((x + 0.5) / 256, (y + 0.5) / 128) * std::cos(theta) *
-                        std::sin(theta) * (2 * kPi / 256) * (kPi / 128) / kPi;
+                        std::sin(theta) * (2 * std::numbers::pi / 256) * (std::numbers::pi / 128) /
+                        std::numbers::pi;
         }
     for (const char* light : {"local", "global"}) {
         const Image image =

@@ -19,7 +19,7 @@ inline std::vector<nlohmann::json> full_scenes() {
                                 "reflection": 0.5, "refraction": 0.5, "ior": 1.5, "fresnel": true,
                                 "opacity": 0.5, "checker": {"color": [0, 0, 0], "size": [1, 0, 1], "origin": [0, 0, 0]}, "absorption": [3, 2, 1],
                                 "emission": [4, 5, 6]},
-                          "b": {"base_color": [0, 0.5, 1], "metallic": 0.5, "roughness": 0.25}},
+                          "b": {"base_color": [0, 0.5, 1], "metallic": 0.5, "roughness": 0.25, "transmission": 0.5}},
             "models": {"m": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "cubes", "set": "thin"},
                        "r": {"mesh": "m.obj", "resolution": 64, "surface": "exact",
                              "shading": "smooth", "crease_angle": 45},

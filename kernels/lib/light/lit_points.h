@@ -20,7 +20,8 @@ typedef struct {
 
 /// Surface points that light may reach. Their shadow rays begin at `start`.
 typedef struct {
-    lane_int lit;  // mask
+    lane_int lit;      // mask
+    lane_int leaving;  // mask: met from inside; only of scenes with rough glass
     lane_uint voxel, material;
     Vector position, normal, shading_normal, start;
 } LitPoints;
@@ -33,6 +34,9 @@ static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints*
     if (VXL_TRANSMISSION)
         p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
     if (!lanes_any(p->lit)) return false;
+    p->leaving = (lane_int)0;
+    if (VXL_ROUGH_GLASS)
+        p->leaving = LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_LEAVING) != 0u);
     p->voxel = number & LANES_AS_UINT(p->lit);
     p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);
     p->position = load_vector(batch->positions, stride, first);

@@ -23,7 +23,7 @@ static inline lane_int find_physical_shares(LightRecord light, const Incidence* 
     const lane_uint color =
         color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
     const PhysicalView view = view_physical(materials, p->lit, p->material, color, colors, p->voxel,
-                                            normal, opposite(way));
+                                            normal, opposite(way), p->leaving);
     if (!lanes_any(view.is)) return some;
     lane_float value[3], density;
     const lane_int above = physical_value(&view, i->l, value, &density);
