@@ -129,7 +129,7 @@ python_package() {
     cmake --install "$build" --prefix "$folder/library" >/dev/null
     python3 -m venv "$folder/fresh" --clear
     "$folder/fresh/bin/pip" wheel -q --no-deps -w "$folder/wheels" ./python \
-        -C build-dir="$folder/module" -C cmake.define.CMAKE_PREFIX_PATH="$folder/library"
+        -C build-dir="$folder/module" -C cmake.define.voxelume_DIR="$folder/library/lib/cmake/voxelume"
     "$folder/fresh/bin/pip" install -q "$(echo "$folder"/wheels/*.whl)[test]"
     say "Testing the wheel"
     # From a folder without sources, so that what is tested is what was installed.

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <thread>
@@ -14,6 +15,7 @@
 #include "cli/build_facts.hpp"
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/doctor_pictures.hpp"
 #include "cli/report.hpp"
 #include "cli/warnings.hpp"
 #include "runtime/voxelume_verify.hpp"
@@ -118,6 +120,26 @@ Report test_rows(const Device& device, bool& is_right) {
     return rows;
 }
 
+/// The hashes of pictures on a device, and whether all are those that are known.
+Report picture_rows(const Device& device, bool as_json, bool& is_right) {
+    Report rows = Report::array();
+    std::map<std::string, uint64_t> launches;
+    for (const KnownPicture& picture : known_pictures()) {
+        const PictureResult result = render_known(picture, device, launches);
+        const bool is_known = result.hash == picture.hash;
+        is_right &= is_known;
+        Report row = {{"picture", picture.name},
+                      {"hash", result.hash},
+                      {"state", is_known ? "as known" : fmt::format("wrong: {}", picture.hash)}};
+        if (as_json)
+            row["kernels"] = result.kernels;
+        else
+            row["kernels"] = result.kernels.size();
+        rows.push_back(row);
+    }
+    return rows;
+}
+
 int run(const DoctorCommand& command) {
     Report report = system_report();
     report.update(cache_report(command.json));
@@ -130,6 +152,7 @@ int run(const DoctorCommand& command) {
             const Device device = Device::open(command.device);
             report["tested"] = device.info().name;
             report["tests"] = test_rows(device, is_right);
+            report["pictures"] = picture_rows(device, command.json, is_right);
         } catch (const Error& error) {
             report["tested"] = fault = error.what();
         }

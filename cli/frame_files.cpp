@@ -110,6 +110,8 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
         ->check(one_of({"8", "16"}));
     app.add_flag("--float", command.float_color,
                  "write the colours of .exr files as 32-bit floats, not halves");
+    app.add_flag("--multi-part", command.multi_part,
+                 "write each layer of .exr files as a part of its own: rgba, depth, N, ...");
     app.add_option("--channels", command.channels,
                    "channels of .exr files, with commas between them: RGBA Z distance P N objectId "
                    "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "

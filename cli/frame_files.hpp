@@ -27,6 +27,7 @@ struct RenderCommand {
     std::string view_transform = "srgb";
     int png_bits = 8;
     bool float_color = false;
+    bool multi_part = false;
     std::string channels = "RGBA,Z,P,N,objectId";
     std::string stats;
     bool plan_only = false;

@@ -8,10 +8,12 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/complaint.hpp"
 #include "cli/shard_manifest.hpp"
 
 namespace voxelume::cli {
@@ -45,7 +47,7 @@ std::string difference(const ShardManifest& a, const ShardManifest& b) {
         (a.rows && (a.rows->height != b.rows->height || a.rows->outputs != b.rows->outputs)))
         return "their images differ in size";
     const auto options = [](const ImageFileOptions& o) {
-        return std::tuple(o.exposure, o.view_transform, o.png_bits, o.float_color);
+        return std::tuple(o.exposure, o.view_transform, o.png_bits, o.float_color, o.multi_part);
     };
     if (options(a.options) != options(b.options) || a.options.channels != b.options.channels)
         return "their options of images differ";
@@ -129,16 +131,12 @@ std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
     return outputs;
 }
 
-int run(const MergeCommand& command) {
-    std::vector<Part> parts;
-    for (const std::string& file : command.parts)
-        if (!file.ends_with(".shard.exr")) parts.push_back({file, read_manifest(file)});
-    if (parts.empty()) fail_usage("merge: name the files .shard of the parts, not their images");
+void merge_run(std::vector<Part> parts, bool is_quiet) {
     check_same_run(parts);
     check_numbers(parts);
     std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.number; });
     const auto say = [&](const std::string& what) {
-        if (!command.quiet) fmt::print(stderr, "{} of {} parts\n", what, parts.size());
+        if (!is_quiet) fmt::print(stderr, "{} of {} parts\n", what, parts.size());
     };
     if (parts.front().manifest.rows) {
         for (const fs::path& file : merge_rows(parts)) say(file.string());
@@ -146,7 +144,44 @@ int run(const MergeCommand& command) {
         check_frames(parts);
         say(fmt::format("all {} frames are there, whole,", parts.front().manifest.frames.size()));
     }
-    return 0;
+}
+
+/// The parts of each run, by its first output: a call with several inputs, views or values leaves
+/// those of several.
+using Runs = std::map<std::string, std::vector<Part>>;
+
+Runs read_runs(const MergeCommand& command) {
+    Runs runs;
+    for (const std::string& file : command.parts) {
+        if (file.ends_with(".shard.exr")) continue;
+        ShardManifest manifest = read_manifest(file);
+        const std::string output = manifest.outputs.empty() ? "" : manifest.outputs.front();
+        runs[output].push_back({file, std::move(manifest)});
+    }
+    if (runs.empty()) fail_usage("merge: name the files .shard of the parts, not their images");
+    return runs;
+}
+
+/// A run that can't be merged doesn't stop those after it.
+int run(const MergeCommand& command) {
+    Runs runs = read_runs(command);
+    if (runs.size() == 1) {
+        merge_run(std::move(runs.begin()->second), command.quiet);
+        return 0;
+    }
+    size_t failed = 0;
+    ErrorKind kind = ErrorKind::input;
+    for (auto& [output, parts] : runs) {
+        try {
+            merge_run(std::move(parts), command.quiet);
+        } catch (const Error& error) {
+            complain(error.what(), error.kind());
+            kind = failed++ == 0 || kind == error.kind() ? error.kind() : ErrorKind::render;
+        }
+    }
+    if (!command.quiet)
+        fmt::print(stderr, "{} of {} runs merged\n", runs.size() - failed, runs.size());
+    return failed == 0 ? 0 : static_cast<int>(kind);
 }
 
 }  // namespace

@@ -100,8 +100,10 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     FrameJob job;
     job.image_files = {command.exposure,
                        parse_view_transform(command.view_transform, "render: --view-transform"),
-                       command.png_bits, command.float_color,
-                       parse_channels(command.channels, "render: --channels")};
+                       command.png_bits,
+                       command.float_color,
+                       parse_channels(command.channels, "render: --channels"),
+                       command.multi_part};
     Scene scene = read_with(command.scene, "render");
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);

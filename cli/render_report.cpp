@@ -72,7 +72,7 @@ void print_summary(const Statistics& statistics) {
                           count_text(rays.secondary_rays), count_text(rays.ended_paths))
             : "";
     const std::string noise =
-        rays.noise > 0 ? fmt::format(", noise {:.3f}", rays.noise) : std::string();
+        rays.noise ? fmt::format(", noise {:.3f}", *rays.noise) : std::string();
     fmt::print(
         stderr,
         "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}{}; "

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;  // changes with the keys, and with what they mean
+constexpr int kFormat = 3;  // changes with the keys, and with what they mean
 constexpr const char* kFormatKey = "voxelume_shard";
 
 Json json_of(const ShardFile& file) {
@@ -55,6 +55,7 @@ ShardManifest manifest_of(const Json& json) {
         parse_view_transform(json.at("view_transform").get<std::string>(), "view_transform");
     manifest.options.png_bits = json.at("png_bits").get<int>();
     manifest.options.float_color = json.at("float").get<bool>();
+    manifest.options.multi_part = json.at("multi_part").get<bool>();
     manifest.options.channels = parse_channels(json.at("channels").get<std::string>(), "channels");
     for (const Json& frame : json.at("own")) {
         ShardManifest::Frame& own = manifest.own.emplace_back();
@@ -83,6 +84,7 @@ void write_manifest(const std::filesystem::path& file, const ShardManifest& mani
                  {"view_transform", name_of(manifest.options.view_transform)},
                  {"png_bits", manifest.options.png_bits},
                  {"float", manifest.options.float_color},
+                 {"multi_part", manifest.options.multi_part},
                  {"channels", channel_names(manifest.options.channels)},
                  {"own", Json::array()}};
     for (const ShardManifest::Frame& frame : manifest.own) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pyramids of models -> the world's pyramid with the models' data appended, for instances.
 #include "lib/lanes/work_item.h"
+#include "shared/texture.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
@@ -43,4 +44,13 @@ kernel void append_primitives(const uint count, const uint start, const uint fir
     const uint i = work_item();
     if (i >= count) return;
     to[start + i] = from[i] + (from[i] & VXL_SOLID_PRIMITIVE ? first_solid : first_triangle);
+}
+
+// One word of what triangles wear; their textures begin by `first` later now.
+kernel void append_worn(const uint count, const uint start, const uint first,
+                        global const uint* restrict from, global uint* restrict to) {
+    const uint i = work_item();
+    if (i >= count) return;
+    const bool is_place = i % VXL_WORN_WORDS == VXL_WORN_TEXTURE && from[i] != VXL_NO_TEXTURE;
+    to[start + i] = is_place ? from[i] + first : from[i];
 }

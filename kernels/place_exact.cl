@@ -6,6 +6,7 @@
 #include "lib/lanes/work_item.h"
 #include "lib/voxelize/placed_attributes.h"
 #include "shared/solid.h"
+#include "shared/texture.h"
 #include "shared/trace.h"
 
 // One brick of the world: adds the lengths of the object's lists to its voxels' counts.
@@ -75,6 +76,15 @@ kernel void append_words(const uint count, const uint start, global const uint* 
                          global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i];
+}
+
+// One word of what triangles wear; their textures begin by `first` later now.
+kernel void append_worn(const uint count, const uint start, const uint first,
+                        global const uint* restrict from, global uint* restrict to) {
+    const uint i = work_item();
+    if (i >= count) return;
+    const bool is_place = i % VXL_WORN_WORDS == VXL_WORN_TEXTURE && from[i] != VXL_NO_TEXTURE;
+    to[start + i] = is_place ? from[i] + first : from[i];
 }
 
 // One triangle's packed attributes.

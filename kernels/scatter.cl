@@ -36,6 +36,7 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
     if (VXL_INSTANCES)
         LANES_STORE((lane_uint)VXL_NO_INSTANCE, batch.paths,
                     VXL_PATH_INSTANCE * batch.stride + first);
+    if (VXL_WIDENS) LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_WIDTH * batch.stride + first);
     if (!(VXL_TRANSMISSION | VXL_GLOBAL)) return;
     LANES_STORE(LANES_AS_UINT(LANES_NUMBERS + (int)first), batch.paths,
                 VXL_PATH_TARGET * batch.stride + first);

@@ -11,12 +11,21 @@
 #include "lib/surface/field.h"
 #include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
+#include "lib/surface/texture_alpha.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/paths.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
+
+// What only scenes with textures need.
+#if VXL_TEXTURES
+#include "lib/surface/paint.h"
+#define VXL_FOOTPRINT_PARAMETER Footprint footprint,
+#else
+#define VXL_FOOTPRINT_PARAMETER
+#endif
 
 /// The points where rays met their surfaces: the place in the voxel, and the unit normal in
 /// metric space.
@@ -195,6 +204,7 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
                   is_joined(h->packed, materials);
     }
     hidden &= h->hit & (transmits(materials, material, *opacity) | exit);
+    if (VXL_TEXTURE_ALPHA) hidden &= have_bodies(materials, h->packed, h->primitive, h->hit);
     *opacity = LANES_SELECT(hidden, (lane_float)0.0f, *opacity);
     return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
 }
@@ -204,7 +214,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    Environment environment, const SkyView* sky, uint from_observer,
                                    const Emitters* emitters, Vector position, lane_float opacity,
                                    lane_uint material, global const float* restrict materials,
-                                   const RayBatch* batch, uint first) {
+                                   Colors colors, const RayBatch* batch, uint first) {
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
     lane_float around[3] = {(lane_float)environment.background.x,
@@ -222,8 +232,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
     }
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color =
-            surface_color(materials, place, world->surface.colors, h->voxel, channel);
+        const lane_float color = surface_color(materials, place, colors, channel);
         lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
         if (VXL_EMITTERS) emission *= counts;
@@ -240,7 +249,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 /// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           VXL_SKY_PARAMETERS VXL_SKY_DEPTH_PARAMETER VXL_EMITTER_PARAMETERS
-                              global const float* restrict materials,
+                              VXL_FOOTPRINT_PARAMETER global const float* restrict materials,
                           global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
@@ -261,7 +270,11 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     if (VXL_HIT_ATTRIBUTES) LANES_STORE(h.packed, hit_attributes, first);
     if (!VXL_RADIANCE) return;
     const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
-    lane_float opacity = surface_opacity(materials, material, colors, h.voxel);
+#if VXL_TEXTURES
+    paint_hits(&world, &h, &footprint, position, p.normal, &batch, first);
+#endif
+    const Colors own = colors_of_hits(colors, h.voxel, paint, first);
+    lane_float opacity = surface_opacity(materials, material, own);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
     if (VXL_TRANSMISSION) {
         const MediumSet before = load_medium_set(paths, stride, first, h.hit);
@@ -271,5 +284,5 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyView around = VXL_SKY_VIEW;
     store_own_light(&world, &h, environment, &around, VXL_FROM_OBSERVER, &table, position, opacity,
-                    material, materials, &batch, first);
+                    material, materials, own, &batch, first);
 }

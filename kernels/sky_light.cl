@@ -46,7 +46,7 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, 
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     const SkyView around = VXL_SKY_VIEW;
     LitPoints p;
-    if (!load_lit_points(&batch, first, &p)) return;
+    if (!load_lit_points(&world, &batch, first, &p)) return;
     const lane_uint seed = seed_of_place(p.position);
     lane_float weight = (lane_float)(1.0f / (float)directions);
     Vector way;
@@ -67,13 +67,12 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, 
     lane_float from_sky[3];
     sky_light(&around, way, from_sky);
     const lane_float scale = LANES_GATHER_FLOAT(materials, p.material + VXL_MATERIAL_DIFFUSE) *
-                             surface_opacity(materials, p.material, colors, p.voxel) * weight;
+                             surface_opacity(materials, p.material, p.colors) * weight;
     const lane_uint color_at =
         color_offset(materials, p.material, p.position.x, p.position.y, p.position.z);
     lane_int some = (lane_int)0;
     for (int c = 0; c < 3; ++c) {
-        r.contribution[c] =
-            surface_color(materials, color_at, colors, p.voxel, c) * from_sky[c] * scale;
+        r.contribution[c] = surface_color(materials, color_at, p.colors, c) * from_sky[c] * scale;
         some |= LANE_MASK(r.contribution[c] > 0.0f);
     }
     send_or_add(&queue, &r, p.lit & some, behind, &batch, first);

@@ -127,13 +127,16 @@ VXL_SIZE_IS(MaterialRecord, 128);
 //   VXL_GLASS_IOR          the index of refraction over that of the outside
 //   VXL_GLASS_BACK         2: the part of light that facets don't return at once which comes back
 //   VXL_GLASS_PER_MISSING  2: 1 over the mean share of that light, by the cosine
-//   VXL_GLASS_TABLE        VXL_ALBEDO_ENTRIES times 2: the share of that light for the angles of
-//                          VXL_ALBEDO_MISSING
+//   VXL_GLASS_TABLE        VXL_GLASS_ENTRIES times 2: the share of that light. The angles of
+//   entries
+//                          are evenly spaced in the mean of their cosine, as total reflection
+//                          begins at a steep one, and of the u of VXL_ALBEDO_MISSING
+#define VXL_GLASS_ENTRIES 128
 #define VXL_GLASS_IOR 0
 #define VXL_GLASS_BACK 1
 #define VXL_GLASS_PER_MISSING 3
 #define VXL_GLASS_TABLE 8
-#define VXL_GLASS_FLOATS 160
+#define VXL_GLASS_FLOATS 288
 
 // Values of LightRecord::kind.
 #define VXL_LIGHT_POINT 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures of meshes as voxelizing reads them, for kernels and host alike.
+// Textures of meshes, as voxelizing and shading read them, for kernels and host alike.
 #ifndef VXL_SHARED_TEXTURE_H
 #define VXL_SHARED_TEXTURE_H
 
@@ -15,5 +15,31 @@
 #define VXL_TEXTURE_WRAP_MIRROR 1u
 #define VXL_TEXTURE_WRAP_CLAMP 2u
 #define VXL_TEXTURE_WRAP_V_SHIFT 4
+
+// What an exact triangle wears, in words:
+//   VXL_WORN_UVS      u and v of each corner, floats in texture widths from the upper left
+//   VXL_WORN_TEXTURE  where its texture begins among the textures; VXL_NO_TEXTURE: it wears none
+//   VXL_WORN_COLORS   the colours of its corners, 0x00BBGGRR in sRGB, which multiply the texture
+#define VXL_WORN_UVS 0
+#define VXL_WORN_TEXTURE 6
+#define VXL_WORN_COLORS 7
+#define VXL_WORN_WORDS 10
+
+// The textures of exact triangles, one array of words. The first 256 are floats: the linear light
+// of each sRGB code. A texture begins with its width, height, how it goes on beyond its edges, as
+// in its record above, and what its alpha means; its texels follow, level after level.
+//   VXL_ALPHA_OPAQUE  nothing: the texture covers all
+//   up to 255         a texture of an alpha below this code, in 1/255, isn't there
+//   VXL_ALPHA_BLEND   alpha is opacity
+#define VXL_TEXTURE_CURVE 256
+#define VXL_TEXTURE_HEAD 4
+#define VXL_ALPHA_OPAQUE 0u
+#define VXL_ALPHA_BLEND 256u
+
+// What rays have seen: of each hit its colour, its opacity, and how wide the ray was there, all
+// floats, hit by hit. The first three multiply the material's colour, the fourth its opacity.
+#define VXL_PAINT_OPACITY 3
+#define VXL_PAINT_WIDTH 4
+#define VXL_PAINT_FLOATS 5
 
 #endif

@@ -95,6 +95,8 @@
 // The last exist where paths look for emitters or the sky, see shared/paths.h; behind all others:
 //   VXL_PATH_EMITTER
 //   VXL_PATH_TRAVELLED  in scenes with instances and transmitting objects only
+// This one exists where surfaces wear textures, behind those:
+//   VXL_PATH_WIDTH  float: how wide the ray is at its origin, in metres; 0 from an observer
 // This one exists in scenes with instances only:
 //   VXL_PATH_INSTANCE  the instance that the ray begins on, VXL_NO_INSTANCE for the world
 #define VXL_PATH_SOURCE 0

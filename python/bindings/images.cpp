@@ -87,13 +87,14 @@ voxelume::ViewTransform transform_named(const std::string& name) {
 }
 
 void write(const Image& image, const std::filesystem::path& file, double exposure,
-           const std::string& view_transform, int png_bits, bool float_color,
+           const std::string& view_transform, int png_bits, bool float_color, bool multi_part,
            const std::optional<std::vector<std::string>>& channels) {
     image.write(file, {.exposure = exposure,
                        .view_transform = transform_named(view_transform),
                        .png_bits = png_bits,
                        .float_color = float_color,
-                       .channels = channels ? channels_named(*channels) : groups_of(image)});
+                       .channels = channels ? channels_named(*channels) : groups_of(image),
+                       .multi_part = multi_part});
 }
 
 }  // namespace
@@ -123,13 +124,13 @@ void bind_images(py::module_& module) {
         .def(
             "write", &write, py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0,
             py::arg("view_transform") = "srgb", py::arg("png_bits") = 8,
-            py::arg("float_color") = false, py::arg("channels") = std::nullopt,
-            py::call_guard<py::gil_scoped_release>(),
+            py::arg("float_color") = false, py::arg("multi_part") = false,
+            py::arg("channels") = std::nullopt, py::call_guard<py::gil_scoped_release>(),
             "Writes an OpenEXR or PNG file, by the ending of its name, whole or not at all.\n\n"
             "A PNG file shows light multiplied by 2^`exposure` by the `view_transform` srgb, none, "
             "filmic or agx, in 8 or 16 bits a channel. "
             "An OpenEXR file has all channels of the image, or those of `channels`, named as "
-            "for `render`.")
+            "for `render`, with `multi_part` each layer as a part of its own.")
         .def("__repr__", [](const Image& image) {
             return "<voxelume.Image of " + std::to_string(image.width()) + " x " +
                    std::to_string(image.height()) + " pixels>";

@@ -91,6 +91,11 @@ def test_files_hold_what_memory_does(device, room, tmp_path):
     for channel in parts.channels:
         assert channel in parts and channel in read
     np.testing.assert_array_equal(read["CryptoObject00.R"], parts["CryptoObject00.R"])
+    parts.write(tmp_path / "layers.exr", multi_part=True)
+    assert b"CryptoObject02" in (tmp_path / "layers.exr").read_bytes()
+    read = voxelume.Image.read(tmp_path / "layers.exr")
+    assert read.channels == parts.channels
+    np.testing.assert_array_equal(read["materialId"], parts["materialId"])
     parts.write(tmp_path / "color.exr", channels=["color"])
     assert voxelume.Image.read(tmp_path / "color.exr").channels == ["A", "B", "G", "R"]
     assert b"cryptomatte" in (tmp_path / "parts.exr").read_bytes()

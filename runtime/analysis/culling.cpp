@@ -28,6 +28,12 @@ bool traces_light(const Scene& scene) {
            c.object_matte || c.material_matte;
 }
 
+/// True if rays go on through parts of the textures that the model's mesh wears.
+bool has_alpha(const Model& model, AssetStore& meshes) {
+    const MeshSummary* mesh = meshes.summary_of(model);
+    return mesh && mesh->paint.has_alpha;
+}
+
 /// True if rays continue from surfaces of the object. Voxels in a file that isn't read (`reads` is
 /// false) count as if rays continued from them.
 bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
@@ -37,6 +43,8 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
+    if (model.surface == Surface::exact && !model.solid && (!reads || has_alpha(model, meshes)))
+        return true;
     const auto sends = [&](int number) {
         const Material& material = scene.materials[size_t(number)];
         return transmits(material) ||
@@ -189,7 +197,7 @@ void leave_out_culled(const Scene& scene, Pyramid& world) {
     if (!has(Surface::smooth)) world.fields = {};
     if (has(Surface::exact)) return;
     world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
-    world.triangle_normals = {};
+    world.triangle_normals = world.triangle_textures = world.textures = {};
     world.triangles = {};
 }
 

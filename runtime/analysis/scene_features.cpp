@@ -56,7 +56,8 @@ bool is_lit(const Material* m) {
 /// Adds the features that the materials decide.
 void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     const bool follows = (features.global ? scene.render.bounces : scene.render.depth) > 0;
-    bool refraction = false, opacity = features.voxel_opacity, reflection = false, fresnel = false;
+    bool opacity = features.voxel_opacity || features.texture_alpha;
+    bool refraction = false, reflection = false, fresnel = false;
     bool absorption = false;
     for (const Material* m : shown_materials(scene, world)) {
         features.checker |= m->checker.has_value();
@@ -138,6 +139,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
         voxels.medium_set_capped = all.medium_set_capped;
     }
     voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
+    voxels.textures = voxels.texture_alpha = false;
     return voxels;
 }
 

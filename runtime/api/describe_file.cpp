@@ -62,6 +62,13 @@ Report describe_exr(const fs::path& path) {
                      {"layout", header.layout},
                      {"compression", header.compression}};
     for (const auto& [name, text] : header.attributes) report["attributes"][name] = text;
+    const bool reads_all = std::ranges::all_of(header.parts, &ExrPartHeader::is_read);
+    for (const ExrPartHeader& part : header.parts) {
+        Report row = {{"part", part.name},
+                      {"channels", fmt::format("{}", fmt::join(part.channels, " "))}};
+        if (!reads_all) row["read"] = part.is_read;
+        report["parts"].push_back(row);
+    }
     report["channels"] = Report::array();
     if (header.layout.starts_with("deep")) {
         for (const auto& [name, type] : header.channels)

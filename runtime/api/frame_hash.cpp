@@ -132,6 +132,7 @@ std::string hash_for_image(const std::string& hash, std::string_view ending,
         key.add(options.exposure).add(int(options.view_transform)).add(options.png_bits);
     if (ending == ".exr") {
         key.add(options.float_color);
+        if (options.multi_part) key.add_text("multi-part");
         for (const v1::ChannelRow& row : v1::channel_table())
             if (c.*row.member) key.add_text(row.name);
     }

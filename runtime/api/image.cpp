@@ -120,22 +120,23 @@ void forget_mattes(Image& image) {
                       [&](const auto& attribute) { return attribute.first.starts_with(start); });
 }
 
-/// Calls `write` with the image that has the channels asked for, and how its colours are stored.
+/// Calls `write` with the image that has the channels asked for, and how it is stored.
 template <class Write>
 auto with_channels(const v1::Image::Implementation& image, const v1::ImageFileOptions& options,
                    const Write& write) {
-    const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
+    const ExrStorage storage(options.float_color ? ColorDepth::float32 : ColorDepth::float16,
+                             options.multi_part);
     const auto is_extra = [&](const auto& plane) {
         return is_left_out(plane.first, options.channels);
     };
     if (std::ranges::none_of(image.image->planes, is_extra) &&
         std::ranges::none_of(image.image->id_planes, is_extra))
-        return write(*image.image, depth);
+        return write(*image.image, storage);
     Image shown = *image.image;
     std::erase_if(shown.planes, is_extra);
     std::erase_if(shown.id_planes, is_extra);
     forget_mattes(shown);
-    return write(shown, depth);
+    return write(shown, storage);
 }
 
 [[noreturn]] void refuse_ending(const std::string& name) {
@@ -149,8 +150,8 @@ void write(const std::filesystem::path& file, const v1::Image::Implementation& i
     if (extension == ".png") {
         write_png(file, *image.image, png_options(image, options));
     } else if (extension == ".exr") {
-        with_channels(image, options, [&](const Image& shown, ColorDepth depth) {
-            return write_exr(file, shown, depth, attributes_for(image, extension, options));
+        with_channels(image, options, [&](const Image& shown, const ExrStorage& storage) {
+            return write_exr(file, shown, storage, attributes_for(image, extension, options));
         });
     } else {
         refuse_ending(file.string());
@@ -161,8 +162,8 @@ std::string encoded(std::string_view extension, const v1::Image::Implementation&
                     const v1::ImageFileOptions& options) {
     if (extension == ".png") return png_bytes(*image.image, png_options(image, options));
     if (extension != ".exr") refuse_ending(std::string(extension));
-    return with_channels(image, options, [&](const Image& shown, ColorDepth depth) {
-        return exr_bytes(shown, depth, attributes_for(image, extension, options));
+    return with_channels(image, options, [&](const Image& shown, const ExrStorage& storage) {
+        return exr_bytes(shown, storage, attributes_for(image, extension, options));
     });
 }
 

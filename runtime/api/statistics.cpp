@@ -35,7 +35,7 @@ v1::RayCounts rays_of(const RenderReport& report) {
             .ended_paths = report.ended_paths,
             .medium_overflows = report.medium_overflows,
             .not_finite = report.not_finite,
-            .noise = report.noise.mean()};
+            .noise = report.noise.tiles > 0 ? std::optional(report.noise.mean()) : std::nullopt};
 }
 
 v1::WorldReuse reuse_of(WorldChange change) {

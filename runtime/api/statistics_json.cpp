@@ -57,7 +57,7 @@ void add_rays(const RayCounts& rays, Json& json) {
     json["ended_paths"] = rays.ended_paths;
     json["medium_overflows"] = rays.medium_overflows;
     json["not_finite"] = rays.not_finite;
-    if (rays.noise > 0) json["noise"] = rays.noise;
+    if (rays.noise) json["noise"] = *rays.noise;
 }
 
 Json json_of(const std::vector<Warning>& warnings) {

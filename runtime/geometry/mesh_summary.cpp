@@ -41,7 +41,10 @@ MeshPaint paint_of(const Mesh& mesh) {
     paint.colors = mesh.vertex_colors.size();
     paint.has_corner_colors = !mesh.triangle_colors.empty();
     if (mesh.textures.empty()) return paint;
-    for (const Texture& texture : mesh.textures) paint.texels += texel_count(*texture.image);
+    for (const Texture& texture : mesh.textures) {
+        paint.texels += texel_count(*texture.image);
+        paint.has_alpha |= texture.alpha != kAlphaOpaque;
+    }
     paint.textures = mesh.textures.size();
     paint.uvs = mesh.uvs.size();
     paint.has_corner_uvs = !mesh.triangle_uvs.empty();

@@ -43,9 +43,14 @@ inline uint64_t texel_count(const TextureImage& image) {
     return count;
 }
 
+/// Values of Texture::alpha; between them, a texture isn't there where its alpha is below so many
+/// 255ths. The numbers are those of the kernel.
+inline constexpr uint32_t kAlphaOpaque = 0, kAlphaBlend = 256;
+
 struct Texture {
     std::shared_ptr<const TextureImage> image;  ///< never null
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    uint32_t alpha = kAlphaOpaque;  ///< what the texels' alpha means
 };
 
 }  // namespace voxelume

@@ -56,6 +56,11 @@ struct BrickGrid {
                                            ///< shared/voxel.h
     Buffer<uint32_t> triangle_normals;     ///< 3 per triangle, see shared/normal.h; empty if no
                                            ///< triangle has some
+    Buffer<uint32_t> triangle_textures;    ///< VXL_WORN_WORDS per triangle, see shared/texture.h;
+                                           ///< empty if no triangle wears a texture
+    Buffer<uint32_t> textures;             ///< those that triangles wear
+    uint64_t texture_key = 0;              ///< a hash of `textures`
+    bool texture_alpha = false;            ///< true if the alpha of one of them counts
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 };
 
@@ -118,10 +123,14 @@ struct Pyramid {
     uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
                                  ///< of voxels that several surfaces pass
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
-    Buffer<uint32_t> primitives;       ///< this and the next four are as in BrickGrid
+    Buffer<uint32_t> primitives;       ///< this and the next eight are as in BrickGrid
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
     Buffer<uint32_t> triangle_normals;
+    Buffer<uint32_t> triangle_textures;
+    Buffer<uint32_t> textures;
+    uint64_t texture_key = 0;
+    bool texture_alpha = false;
     Buffer<uint32_t> solids;
     InstanceSet instances;
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if

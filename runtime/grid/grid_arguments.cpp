@@ -41,8 +41,9 @@ void bind(KernelArguments& to, const Pyramid& pyramid) {
     to.add(shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels,
            pyramid.attributes, pyramid.attribute, pyramid.colors, pyramid.fields,
            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-           pyramid.triangle_attributes, pyramid.triangle_normals, pyramid.solids,
-           pyramid.instances.records, pyramid.instances.nodes, pyramid.instances.materials);
+           pyramid.triangle_attributes, pyramid.triangle_normals, pyramid.triangle_textures,
+           pyramid.textures, pyramid.solids, pyramid.instances.records, pyramid.instances.nodes,
+           pyramid.instances.materials);
 }
 
 }  // namespace voxelume

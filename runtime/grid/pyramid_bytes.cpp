@@ -21,6 +21,8 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("source triangles", pyramid.triangles);
     visit("source attributes", pyramid.triangle_attributes);
     visit("source normals", pyramid.triangle_normals);
+    visit("source texture places", pyramid.triangle_textures);
+    visit("source textures", pyramid.textures);
     visit("source solids", pyramid.solids);
 }
 
@@ -41,8 +43,10 @@ uint64_t bytes_of(const Pyramid& pyramid) {
 }
 
 std::string bytes_of_pyramid(const Pyramid& pyramid) {
-    const std::array<uint32_t, 5> counts{pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
-                                         pyramid.transparent, pyramid.listed_fields};
+    const std::array<uint32_t, 5> counts{
+        pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
+        uint32_t(pyramid.transparent) | uint32_t(pyramid.texture_alpha) << 1,
+        pyramid.listed_fields};
     return *packed_bytes({pyramid.frame, counts}, pyramid_buffers(pyramid));
 }
 
@@ -54,7 +58,8 @@ std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view b
     pyramid.leaf_count = header->counts[0];
     pyramid.voxel_count = header->counts[1];
     pyramid.attribute = header->counts[2];
-    pyramid.transparent = header->counts[3] != 0;
+    pyramid.transparent = (header->counts[3] & 1) != 0;
+    pyramid.texture_alpha = (header->counts[3] & 2) != 0;
     pyramid.listed_fields = header->counts[4];
     const bool fits = pyramid.leaves.size() == size_t(pyramid.leaf_count) * 2 &&
                       pyramid.leaf_voxels.size() == pyramid.leaf_count;

@@ -3,6 +3,7 @@
 
 #include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
+#include "kernels/shared/texture.h"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 #include "runtime/stages/voxelize/voxelize_textures.hpp"
@@ -72,7 +73,7 @@ void count_surface(const Device& device, const GridCounts& counts, BrickGrid& gr
     grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
 }
 
-/// Follows list_primitives, keep_triangles and keep_normals.
+/// Follows list_primitives, keep_triangles, keep_normals and keep_textures.
 void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& grid) {
     const auto listed = size_t(kTrianglesPerVoxel * double(counts.voxels));
     grid.primitive_first = allocate_list_starts(device, "primitive starts", counts.bricks);
@@ -83,6 +84,13 @@ void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& 
     if (counts.normals)
         grid.triangle_normals =
             Buffer<uint32_t>(device, "source normals", VXL_TRIANGLE_NORMALS * counts.triangles);
+    if (counts.paint.texels == 0) return;
+    grid.triangle_textures =
+        Buffer<uint32_t>(device, "source texture places", VXL_WORN_WORDS * counts.triangles);
+    grid.textures = Buffer<uint32_t>(device, "source textures",
+                                     texture_words(counts.paint.texels, counts.paint.textures));
+    grid.texture_key = counts.texture_key;
+    grid.texture_alpha = counts.paint.has_alpha;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct GridCounts {
     bool words = false;                  ///< voxels have some
     MeshPaint paint = {};                ///< what gives voxels colours
     bool normals = false;                ///< triangles of an exact mesh have them
+    uint64_t texture_key = 0;            ///< tells the textures of one mesh from another's
     size_t bricks = 0;                   ///< stored
     size_t voxels = 0;                   ///< that the surface passes through
     size_t vertices = 0, triangles = 0;  ///< of a mesh

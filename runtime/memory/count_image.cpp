@@ -91,6 +91,11 @@ void count_sky(const Device& device, const Sky& sky, ImageMemory& memory) {
 
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth) {
+    if (scene.render.channels.has_passes() && !scene.render.channels.color) {
+        Scene lit = scene;  // as its passes are
+        lit.render.channels.color = true;
+        return count_image(device, lit, world, medium, depth);
+    }
     const Features features = features_of(scene, world);
     const Camera camera = camera_of(scene, world.frame);
     const uint64_t rays =

@@ -2,12 +2,15 @@
 #include "runtime/memory/frame_memory.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_display.hpp"
 #include "runtime/memory/count_image.hpp"
+#include "runtime/stages/trace/ray_arrays.hpp"
+#include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
 namespace {
@@ -67,13 +70,27 @@ class FrameWalk {
         height();
         count_volume(device_, scene_, world, medium_, estimate_);
         memory_.volume = height();
+        const Features features = features_of(scene_, world);
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
+        std::optional<Buffer<uint8_t>> hits;
+        if (const double bytes = retained_hits(features); bytes > 0)
+            hits.emplace(device_, "hits", size_t(bytes));
         memory_.image = height();
         memory_.light_host_bytes = image.emitter_host_bytes + image.sky_host_bytes;
         memory_.dilated_occupancy = double(
             (image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size()) * 4);
-        const Features features = features_of(scene_, world);
         memory_.rays = ray_bytes(features, ray_counts(scene_, features));
+    }
+
+    /// The bytes of hits that passes of the light are rendered from.
+    double retained_hits(const Features& features) const {
+        const RenderSettings& render = scene_.render;
+        if (estimate_ == Estimate::minimum || !render.channels.has_passes() ||
+            render.noise.is_given())
+            return 0;
+        const double rays = 16.0 * tile_count(render.size.x, render.size.y) * render.samples;
+        const double bytes = rays * sight_bytes(features);
+        return bytes <= kMaxPassHitBytes ? bytes : 0;
     }
 
     /// The maximum bytes since the last call.

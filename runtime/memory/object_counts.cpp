@@ -81,6 +81,7 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     if (!mesh) return counts;
     counts.words = mesh->group_names.size() > 1;
     counts.paint = mesh->paint;
+    counts.texture_key = reinterpret_cast<uintptr_t>(mesh);
     counts.normals = has_shading_normals(model.shading, mesh->has_normals);
     counts.vertices = mesh->corners;
     counts.triangles = mesh->triangles;

@@ -86,9 +86,10 @@ Renderer::View Renderer::view_of(const Scene& scene, const BuiltWorld& world,
 /// True if hits may be retained: they must take little of the device's memory, and none that the
 /// frame itself needs in addition to the world.
 bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t rays) const {
-    if (!follows_) return false;
+    if (!follows_ && !has_passes_) return false;
     const double bytes = double(rays) * sight_bytes(features),
                  memory = double(device_.info().memory);
+    if (!follows_ && bytes > kMaxPassHitBytes) return false;
     const double needed =
         ray_bytes(features, ray_counts(scene, features)).maximum() + image_bytes(scene.render);
     const auto locked = device_.lock();
@@ -145,34 +146,17 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());
         std::vector<int> samples;
-        Image image = sampled_image(shown, world, report, tiles, samples);
-        add_passes(passes, world, tiles, samples, report, image);
+        const Tiles weighted{tiles.share, tiles.taken, 1.0 / double(1 + passes.size())};
+        tiles.share.set_weight(first_weight(shown, weighted.weight));
+        has_passes_ = !passes.empty() && !shown.render.noise.is_given();
+        Image image = sampled_image(shown, world, report, weighted, samples);
+        add_passes(passes, world, weighted, samples, report, image);
+        if (!follows_) hits_.clear();
         if (!passes.empty()) finish_passes(shown, image);
         if (adds_color)
             for (const char* channel : {"R", "G", "B", "A"}) image.planes.erase(channel);
         return image;
     });
-}
-
-/// Adds the channels that show parts of the light, of the tiles that were rendered, with as many
-/// samples.
-void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
-                          const Tiles& tiles, std::vector<int>& samples, RenderReport& report,
-                          Image& image) const {
-    for (const LightPass& pass : passes) {
-        RenderReport of_pass;
-        TileShare share(tiles.share, tiles.taken);
-        std::vector<TileRange> taken;
-        Renderer renderer(device_, false);
-        renderer.is_white_ = pass.is_white;
-        Image light = renderer.sampled_image(pass.scene, world, of_pass, {share, taken}, samples);
-        of_pass.noise = {};
-        for (const char* color : {"R", "G", "B"})
-            image.planes[fmt::format("{}.{}", pass.name, color)] =
-                std::move(light.planes.at(color));
-        add_counts(of_pass, report);
-        report.image_seconds += of_pass.image_seconds;
-    }
 }
 
 /// Tells whoever shares or watches the tiles that these are done.
@@ -193,18 +177,23 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     image_.reset();
     const Pyramid& world = built.pyramid;
     Features features = features_of(scene, world);
-    if (is_white_) features.colors = false;
+    if (is_white_) features.colors = features.textures = features.texture_alpha = false;
     const Camera observer = camera_of(scene, world.frame);
 
     const uint32_t all_tiles = tiles.share.tiles();
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    const uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.maximum());
+    uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.maximum());
+    View view = view_of(scene, built, features);
+    const bool is_lent = lender_ && lender_->lends_hits(view, in_batch);
+    if (is_lent) in_batch = lender_->tiles_in_batch_;
     RayBatch batch = allocate_batch(device_, features, in_batch * rays_per_tile);
 
-    View view = view_of(scene, built, features);
-    report.hits_are_kept = view_ == view && !hits_.empty();
+    report.hits_are_kept = is_lent || (view_ == view && !hits_.empty());
+    if (report.hits_are_kept) batch.rays = {}, batch.hits = {};  // those that are known follow
     view_.reset();  // an error may leave the hits incomplete
     if (!report.hits_are_kept) hits_.clear();
+    const std::vector<SightHits>& known = is_lent ? lender_->hits_ : hits_;
+    tiles_in_batch_ = in_batch;
     const uint64_t rays = uint64_t(all_tiles) * rays_per_tile;
     const bool keeps_hits = has_room(scene, features, rays);
 
@@ -228,19 +217,20 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         const uint32_t first = range->first, now = range->count;
         illumination.set_sampling(path_sampling(scene, observer, first));
         if (report.hits_are_kept) {
-            batch.rays = hits_[first / in_batch].rays;
-            batch.hits = hits_[first / in_batch].hits;
+            const SightHits& sight_hits = *std::ranges::find(known, first, &SightHits::first);
+            batch.rays = sight_hits.rays;
+            batch.hits = sight_hits.hits;
             illumination.light_hits(batch, now * rays_per_tile);
         } else {
-            if (keeps_hits && first > 0) renew_sight(device_, batch);
+            if (!hits_.empty()) renew_sight(device_, batch);
             sight.cast(shape_of(world), first, now, batch);
             if (beams) beams->start(batch, now * rays_per_tile);
             illumination.light(batch, now * rays_per_tile);
-            if (keeps_hits) hits_.push_back({batch.rays, batch.hits});
+            if (keeps_hits) hits_.push_back({first, batch.rays, batch.hits});
         }
         resolve.pixels(world, batch, first, now);
         mattes.pixels(batch, first, now);
-        report.sight_rays += now * rays_per_tile;
+        if (!is_lent) report.sight_rays += now * rays_per_tile;
         note_done(*range, tiles);
     }
     view_ = std::move(view);

@@ -69,6 +69,7 @@ class Renderer {
     struct Tiles {
         TileShare& share;
         std::vector<TileRange>& taken;  ///< the tiles that it rendered
+        double weight = 1;              ///< of this image's work, in what the share tells
     };
 
     /// Renders those tiles of the image that are left in `tiles`; the others are undefined.
@@ -87,6 +88,7 @@ class Renderer {
     };
     /// The rays and hits of one batch.
     struct SightHits {
+        uint32_t first = 0;  ///< tile
         Buffer<float> rays;
         Buffer<uint32_t> hits;
     };
@@ -98,6 +100,9 @@ class Renderer {
     };
 
     static View view_of(const Scene& scene, const BuiltWorld& world, const Features& features);
+    static bool have_equal_hits(const View& a, const View& b);
+    bool lends_hits(const View& view, uint32_t max_tiles) const;
+    static double first_weight(const Scene& scene, double weight);
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
     WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
     void note_done(const TileRange& range, const Tiles& tiles) const;
@@ -112,15 +117,18 @@ class Renderer {
 
     Device device_;
     bool follows_;
-    bool is_white_ = false;       ///< voxels show no colours of their own
-    std::optional<Scene> scene_;  ///< the scene whose image is retained
-    uint64_t world_ = 0;          ///< the version of its world
+    bool is_white_ = false;    ///< voxels show no colours of their own
+    bool has_passes_ = false;  ///< hits are retained until the passes of the light are rendered
+    const Renderer* lender_ = nullptr;  ///< of a pass: who has the hits of the image's sight rays
+    std::optional<Scene> scene_;        ///< the scene whose image is retained
+    uint64_t world_ = 0;                ///< the version of its world
     std::shared_ptr<const Image> image_;
     RenderReport report_;
     std::optional<WorldDilation> dilated_occupancy_;
     std::optional<View> view_;
     std::vector<SightHits> hits_;  ///< those of each batch of the view; empty if there is no room
                                    ///< for them
+    uint32_t tiles_in_batch_ = 0;  ///< at most
 };
 
 /// Renders the image of a single frame.

@@ -22,10 +22,12 @@ std::optional<TileRange> TileShare::take(uint32_t count) {
     return range;
 }
 
-void TileShare::done(const TileRange& range) {
+void TileShare::add_work(double tiles) {
+    if (whole_) return whole_->add_work(tiles);
+    constexpr double kRounding = 1e-6;  // of sums of weights
     const std::lock_guard lock(mutex_);
-    done_ += range.count;
-    if (progress_) progress_(done_, tiles_);
+    done_ += tiles;
+    if (progress_) progress_(std::min(uint32_t(done_ + kRounding * tiles_), tiles_), tiles_);
 }
 
 }  // namespace voxelume

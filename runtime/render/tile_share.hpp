@@ -29,14 +29,23 @@ class TileShare {
     explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
         : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
-    /// Hands out these tiles of another's, which ends both when it is closed.
-    TileShare(const TileShare& whole, std::vector<TileRange> ranges)
-        : tiles_(whole.tiles_), maximum_(UINT32_MAX), whole_(&whole), ranges_(std::move(ranges)) {}
+    /// Hands out these tiles of another's, which ends both when it is closed. They are `weight` of
+    /// the work that the whole's callback is told of.
+    TileShare(TileShare& whole, std::vector<TileRange> ranges, double weight)
+        : tiles_(whole.tiles_),
+          maximum_(UINT32_MAX),
+          weight_(weight),
+          whole_(&whole),
+          ranges_(std::move(ranges)) {}
 
     /// The next tiles, at most `count`; empty if all were handed out.
     std::optional<TileRange> take(uint32_t count);
-    /// Reports to the progress callback that these tiles are done.
-    void done(const TileRange& range);
+    /// Reports to the progress callback that these tiles are done, with the weight of their work.
+    void done(const TileRange& range) { add_work(range.count * weight_); }
+    /// Reports that work is done, or needn't be: 1 is a tile with all of its weights.
+    void add_work(double tiles);
+    /// Says that its own tiles are only so much of the work.
+    void set_weight(double weight) { weight_ = weight; }
     /// Ends the work: no more tiles are handed out.
     void close() { is_closed_ = true; }
     bool is_closed() const { return is_closed_ || (whole_ && whole_->is_closed()); }
@@ -44,16 +53,19 @@ class TileShare {
     uint32_t tiles() const { return tiles_; }
     uint32_t maximum() const { return std::min(maximum_, tiles_); }  ///< maximum at a time
     /// True if progress is observed or tiles are shared.
-    bool is_watched() const { return progress_ || maximum_ < tiles_; }
+    bool is_watched() const {
+        return progress_ || maximum_ < tiles_ || (whole_ && whole_->is_watched());
+    }
 
   private:
     std::mutex mutex_;
     uint32_t tiles_;
     uint32_t maximum_;
     uint32_t next_ = 0;
-    uint32_t done_ = 0;
+    std::atomic<double> weight_ = 1;  ///< of a tile's work
+    double done_ = 0;                 ///< tiles
     FrameProgress progress_;
-    const TileShare* whole_ = nullptr;
+    TileShare* whole_ = nullptr;
     std::vector<TileRange> ranges_;  ///< those left, of another's tiles
     std::atomic<bool> is_closed_ = false;
 };

@@ -5,6 +5,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/solid.hpp"
+#include "runtime/scene/track_values.hpp"
 
 namespace voxelume {
 
@@ -24,7 +25,7 @@ void MovedPart::apply() {
 
 void MovedPart::set(const Track& track) {
     const Slot to = slot(track.value, track.solid);
-    if (track.files.empty()) return put(to, values_at(track.keys, frame_), track.item);
+    if (track.files.empty()) return put(to, values_of(track, frame_), track.item);
     *std::get<std::filesystem::path*>(to) = track.files[key_before(track.keys.frames, frame_)];
     if (part_.part == ScenePart::world)
         std::get<GridDensity>(scene_.world.medium.density).where = where(track.path);

@@ -45,6 +45,9 @@ struct ImageChannels {
     bool shadow = false;          ///< shadow.R ...: the part of the direct light that is hidden
     bool light_groups = false;    ///< light_GROUP.R ... of each group, and light_rest.R ...
 
+    /// Whether there are parts of the light among them.
+    bool has_passes() const { return albedo || direct || indirect || shadow || light_groups; }
+
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
 };
 

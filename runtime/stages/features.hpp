@@ -16,6 +16,8 @@ struct Features {
     bool field_lists = false;      ///< some voxel lists the distance fields in it
     bool attributes = false;       ///< voxels differ in object, material or kind
     bool colors = false;           ///< voxels have colours of their own
+    bool textures = false;         ///< some triangle wears a texture
+    bool texture_alpha = false;    ///< ... whose alpha counts
     bool medium = false;           ///< the environment absorbs light
     bool medium_grid = false;      ///< ... and its density varies
     bool medium_colors = false;    ///< ... and so does its colour
@@ -70,6 +72,8 @@ struct Features {
                 {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
+                {"VXL_TEXTURES", textures},
+                {"VXL_TEXTURE_ALPHA", texture_alpha},
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_MEDIUM_COLORS", medium_colors},

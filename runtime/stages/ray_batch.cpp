@@ -10,7 +10,8 @@ void bind(KernelArguments& to, const RayQueue& queue) {
 void bind(KernelArguments& to, const RayBatch& batch) {
     bind(to, static_cast<const RayQueue&>(batch));
     to.add(batch.beams, batch.hits, batch.positions, batch.normals, batch.shading,
-           batch.hit_attributes, batch.radiance, batch.sides, batch.transmittance, batch.coverage);
+           batch.hit_attributes, batch.radiance, batch.sides, batch.transmittance, batch.coverage,
+           batch.paint);
 }
 
 void bind(KernelArguments& to, const ShadowQueue& queue) {

@@ -43,6 +43,8 @@ struct RayBatch : RayQueue {
     Buffer<uint32_t> sides;       ///< VXL_SIDE_* bits: which side of the surface each ray met
     Buffer<float> transmittance;  ///< 3: the part of the light that passes through the segment
     Buffer<float> coverage;       ///< the part of what lies behind that is covered
+    // only in scenes with textures:
+    Buffer<float> paint;  ///< VXL_PAINT_FLOATS, hit by hit: see shared/texture.h
 };
 
 /// VXL_BATCH_PARAMETERS of kernels.

@@ -27,7 +27,7 @@ struct Channels {
     bool material = false;        ///< materialId
     bool object_matte = false;    ///< Cryptomatte of the objects: CryptoObject00 to CryptoObject02
     bool material_matte = false;  ///< ... of the materials: CryptoMaterial00 to CryptoMaterial02
-    // Each of these is traced once more, or several times:
+    // Each of these is lit once more, or several times:
     bool albedo = false;        ///< albedo.R ...: the surface's own colour
     bool direct = false;        ///< direct.R ...: light that comes straight to the first surface
     bool indirect = false;      ///< indirect.R ...: all other light
@@ -73,6 +73,7 @@ struct ImageFileOptions {
     int png_bits = 8;                                    ///< PNG: bits a channel, 8 or 16
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
     Channels channels{};       ///< OpenEXR: others that the image has aren't written
+    bool multi_part = false;   ///< OpenEXR: each layer as a part of its own, named as the layer
 };
 
 /// An image: planes of width x height values, row 0 at the top, x fastest. Copies share the planes,
@@ -86,7 +87,8 @@ struct ImageFileOptions {
 class Image {
   public:
     /// Reads an OpenEXR file with all of its channels, or a PNG file, whose R G B A become codes
-    /// over 255 (`holds_codes`). Throws Error::input.
+    /// over 255 (`holds_codes`). Of an OpenEXR file with several parts it reads the first and all
+    /// flat ones with the same data window. Throws Error::input.
     static Image read(const std::filesystem::path& file);
 
     /// Pixels along a row.

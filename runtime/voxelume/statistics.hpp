@@ -55,8 +55,8 @@ struct RayCounts {
     uint64_t medium_overflows = 0;     ///< rays in more overlapping objects than they can remember
     uint32_t not_finite = 0;           ///< values that became 0
     /// The standard error of light in 4 x 4 pixels over their mean, as a root mean square over all
-    /// images. 0 where none has a target of noise or time.
-    double noise = 0;
+    /// images. Empty where none has a target of noise or time.
+    std::optional<double> noise{};
 };
 
 /// Instances, and the models that they share.

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "kernels/shared/emitters.h"
+#include "kernels/shared/sky.h"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program.hpp"
@@ -96,6 +97,9 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/solid/solid_ray.h",
                                         "lib/surface/begin_inside.h",
                                         "lib/surface/shading_normal.h",
+                                        "lib/surface/paint.h",
+                                        "lib/surface/texture_mean.h",
+                                        "lib/surface/texture_alpha.h",
                                         "lib/light/sky.h",
                                         "lib/light/sky_map.h",
                                         "lib/light/rough_glass.h",

@@ -8,11 +8,13 @@
 #include <set>
 #include <string>
 
+#include "runtime/io/image/png.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/gltf_writer.hpp"
 #include "tests/support/shared_device.hpp"
 
 namespace voxelume {
@@ -42,7 +44,7 @@ std::string scene_text(const std::string& light) {
            "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
            "ice": {"shape": "box", "size": [0.6, 0.5, 0.4], "surface": "cubes", "set": "solid"},
            "floor": {"shape": "box", "size": [2.8, 0.2, 3], "surface": "cubes"},
-           "thing": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
+           "thing": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(
@@ -76,13 +78,36 @@ void write_fog(const std::filesystem::path& path) {
     write_vdb(path, volume);
 }
 
+/// A glTF file of a mesh with a texture through which half of the light passes.
+std::string textured_tetrahedron() {
+    GltfWriter writer;
+    const std::vector<float> positions = {0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f};
+    const std::vector<float> uvs = {0, 0, 1, 0, 0, 1, 1, 1};
+    const std::vector<uint16_t> corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    const int p = writer.accessor(positions, "VEC3", 3), t = writer.accessor(uvs, "VEC2", 2);
+    const int i = writer.accessor(corners, "SCALAR", 1);
+    Image texel{1, 1, {}, {}, {}};
+    for (const char* channel : {"R", "G", "B", "A"}) texel.planes[channel] = Plane<float>{0.5f};
+    const std::string png = GltfWriter::base64(png_bytes(texel, {.keep_alpha = true}));
+    writer.json["images"] = {{{"uri", "data:image/png;base64," + png}}};
+    writer.json["textures"] = {{{"source", 0}}};
+    writer.json["materials"] = {
+        {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    writer.json["meshes"] = {{{"primitives",
+                               {{{"attributes", {{"POSITION", p}, {"TEXCOORD_0", t}}},
+                                 {"indices", i},
+                                 {"material", 0}}}}}};
+    writer.json["nodes"] = {{{"mesh", 0}}};
+    writer.json["scenes"] = {{{"nodes", {0}}}};
+    return writer.gltf();
+}
+
 class AllFeatures : public FileTest, public testing::WithParamInterface<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Lights, AllFeatures, testing::Values("local", "global"));
 
 TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
-    put_bytes(folder / "m.obj",
-              "v 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    put_bytes(folder / "m.gltf", textured_tetrahedron());
     write_fog(folder / "fog.vdb");
     put_bytes(folder / "around.hdr", "#?RADIANCE\n\n-Y 1 +X 2\n\x40\x50\x60\x80\x20\x20\x20\x80");
     const Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});

@@ -113,6 +113,28 @@ TEST_F(CliShardTest, APartOfAnotherVersionsFormatIsRefused) {
     EXPECT_THAT(refusal("p.*.shard"), HasSubstr("is of another version of voxelume"));
 }
 
+TEST_F(CliShardTest, PartsOfSeveralRunsMergeToEachOfThem) {
+    const std::string line =
+        "render scene.json -q --views 2 --sweep lights.0.intensity=1,2 -o "
+        "'q{intensity}-{view}.exr' ";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const auto whole = pictures('q');
+    ASSERT_EQ(whole.size(), 4u);
+    remove(whole);
+    render_parts(line, 2);
+    const ProgramResult result = run("merge q*.shard");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr("4 of 4 runs merged\n"));
+    EXPECT_EQ(pictures('q'), whole);
+    std::filesystem::remove(folder / "q1-2.exr.2-of-2.shard");
+    std::filesystem::remove(folder / "q2-2.exr");
+    const ProgramResult partly = run("merge q*.shard");
+    EXPECT_EQ(partly.exit_code, 4);
+    EXPECT_THAT(partly.err, AllOf(HasSubstr("of 2 parts 1 is missing: 2\n"),
+                                  HasSubstr("3 of 4 runs merged\n")));
+    EXPECT_EQ(pictures('q'), whole);
+}
+
 TEST_F(CliShardTest, AMissingPartIsNamed) {
     render_parts(kImage, 8);
     std::filesystem::remove(folder / "p.exr.3-of-8.shard");
@@ -144,7 +166,7 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
     EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
-    put_bytes(folder / "x.shard", R"({"voxelume_shard": 2, "part": "x"})");
+    put_bytes(folder / "x.shard", R"({"voxelume_shard": 3, "part": "x"})");
     EXPECT_THAT(refusal("x.shard"), HasSubstr("is damaged"));
 }
 

@@ -146,22 +146,45 @@ requeue_first() {
     scontrol update JobId="$1_1" StartTime=now
 }
 
+# Each task is a node with a cache of its own over one that all read, but for the third task, whose
+# node has nothing.
+give_nodes_caches() {
+    rm bin/voxelume
+    cat >bin/voxelume <<END
+#!/usr/bin/env bash
+case \${SLURM_ARRAY_TASK_ID:-} in
+    '') ;;
+    3) VOXELUME_CACHE_DIR=$folder/cold ;;
+    *) VOXELUME_CACHE_DIR=$folder/cache:$folder/node\$SLURM_ARRAY_TASK_ID ;;
+esac
+exec $program "\$@"
+END
+    chmod +x bin/voxelume
+}
+
+# The number of kernels that caches have.
+kernels_in() {
+    find "$@" -path '*programs*' -type f | wc -l
+}
+
 run_slurm() {
     need slurmctld slurmd sbatch
     render_whole
     start_slurm
+    give_nodes_caches
     local start jobs
-    rm -rf cache  # no node has a kernel yet
     start=$(seconds)
     read -r -a jobs < <("$farm/slurm_submit.sh" 8 scene.json -o parts/f.####.exr)
     requeue_first "${jobs[0]}"
     wait_for "${jobs[1]}" "${jobs[0]}"
-    told "24 frames, 8 tasks, one of them requeued" "$start"
+    told "24 frames, 8 tasks, one requeued, one with a cold cache" "$start"
     scontrol show job -o "${jobs[0]}_1" | grep -q 'Restarts=1' ||
         { echo "no task began again"; exit 1; }
     [ "$(stat -c %Y.%y parts/f.0001.exr)" = "$(stat -c %Y.%y kept.exr)" ] ||
         { echo "a finished frame was rendered again"; exit 1; }
     compare 'f.*.exr' 24
+    [ "$(kernels_in cold)" -gt 0 ] || { echo "the cold node compiled nothing"; exit 1; }
+    [ "$(kernels_in node*)" -eq 0 ] || { echo "a warm node compiled again"; exit 1; }
     start=$(seconds)
     read -r -a jobs < <("$farm/slurm_submit.sh" 8 scene.json --frames 7 -o parts/one.exr)
     wait_for "${jobs[1]}" "${jobs[0]}"

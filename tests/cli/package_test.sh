@@ -23,7 +23,7 @@ if [ ! -f "$cache/bare.tar" ]; then
     trap 'rm -rf --one-file-system "$made"' EXIT
     debootstrap --variant=minbase bookworm "$made" "$mirror" >"$cache/log" || fail "$(tail "$cache/log")"
     needs=$(dpkg-deb -f "$package" Depends | tr ',' '\n' | sed -E 's/[|(].*//' | tr -d ' ' | sort -u)
-    for one in g++ pkg-config $needs; do
+    for one in g++ man-db pkg-config $needs; do
         case $one in libopencl*) ;; *) echo "$one" ;; esac
     done | xargs chroot "$made" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y \
         --no-install-recommends pocl-opencl-icd >"$cache/log" 2>&1 || fail "$(tail "$cache/log")"
@@ -57,7 +57,7 @@ in_root 'cd /tmp && voxelume render /usr/share/voxelume/scenes/solids.json -o so
     fail "$(cat "$cache/log")"
 in_root 'cd /tmp && c++ consumer.cpp $(pkg-config --cflags --libs voxelume) -o consumer && ./consumer' \
     >"$cache/log" 2>&1 || fail "$(cat "$cache/log")"
-in_root 'zcat /usr/share/man/man1/voxelume.1.gz | grep -q "^.SH COMMANDS" &&
+in_root 'man voxelume | grep -q "^COMMANDS" &&
     source /usr/share/bash-completion/completions/voxelume && complete -p voxelume >/dev/null' ||
     fail "the manual page or the completion of bash is missing"
 in_root 'test -s /usr/share/doc/voxelume/copyright && test -s /usr/share/doc/voxelume/voxelume.spdx.json' ||

@@ -104,6 +104,10 @@ TEST_F(StatisticsSchemaTest, HasTheNoiseThatAnImageWithATargetReached) {
     EXPECT_NE(info.out.find("noise"), info.out.npos) << info.out;
     const Json timed = statistics("-o a.exr --light global --time 0.5 --samples 128");
     EXPECT_GT(timed["noise"], 0);
+    const Json dark = statistics(
+        "-o a.exr --noise 0.01 --samples 64 --set 'lights=[]' --set world.ambient=0,0,0 "
+        "--set world.background=0,0,0");
+    EXPECT_EQ(dark["noise"], 0);
     EXPECT_FALSE(statistics("-o a.exr --light global --samples 4").contains("noise"));
     EXPECT_EQ(run("render scene.json -o a.exr --noise 0.1 --samples 16").exit_code, 2);
 }

@@ -103,6 +103,17 @@ TEST(BuiltScene, OfExactGlassTakesWhatIsPromised) {
     }
 }
 
+TEST(BuiltScene, WithPassesOfItsLightTakesWhatIsPromised) {
+    for (const bool has_color : {true, false}) {
+        Scene scene = small_scene("solids", {320, 240}, 64);
+        scene.render.samples = 4;
+        scene.render.channels = {has_color, false, false, false, false};
+        scene.render.channels.albedo = scene.render.channels.shadow = true;
+        expect_image_kept(fmt::format("solids, {} and passes", has_color ? "color" : "no color"),
+                          scene);
+    }
+}
+
 /// A ball before a wall, of such materials, in such a space.
 Scene room(const char* ball, const char* wall, const char* space, double voxel,
            const char* surface = "smooth") {

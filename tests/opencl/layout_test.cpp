@@ -9,6 +9,7 @@
 
 #include "kernels/shared/display.h"
 #include "kernels/shared/emitters.h"
+#include "kernels/shared/footprint.h"
 #include "kernels/shared/instance.h"
 #include "kernels/shared/medium.h"
 #include "kernels/shared/paths.h"
@@ -48,6 +49,9 @@
 #define PATH_SAMPLING_FIELDS I(first_tile) I(tiles_x) I(samples) I(bounces) I(first_column) \
     I(first_row) I(first_sample)
 #define LIGHT_AREA_RECORD_FIELDS V(axis_x) V(axis_y)
+#define FOOTPRINT_FIELDS \
+    V(middle) V(across) V(down) V(ahead) F(half_columns) F(half_rows) F(spread) F(width) I(shape) \
+    IA(unused, 3)
 #define SKY_RECORD_FIELDS \
     V(zenith) V(horizon) V(ground) V(sun_direction) V(sun_radiance) V(luminance) \
     V(chromaticity_x) V(chromaticity_y) V(last) V(base)
@@ -87,6 +91,7 @@ constexpr const char* kDensityShapeText = TEXT_OF(DENSITY_SHAPE_FIELDS);
 
 constexpr const char* kPathSamplingText = TEXT_OF(PATH_SAMPLING_FIELDS);
 constexpr const char* kLightAreaRecordText = TEXT_OF(LIGHT_AREA_RECORD_FIELDS);
+constexpr const char* kFootprintText = TEXT_OF(FOOTPRINT_FIELDS);
 constexpr const char* kSkyRecordText = TEXT_OF(SKY_RECORD_FIELDS);
 constexpr const char* kSkyMapRecordText = TEXT_OF(SKY_MAP_RECORD_FIELDS);
 constexpr const char* kInstanceRecordText = TEXT_OF(INSTANCE_RECORD_FIELDS);
@@ -116,6 +121,7 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #include "shared/emitters.h"
 #include "shared/instance.h"
 #include "shared/paths.h"
+#include "shared/footprint.h"
 #include "shared/sky.h"
 #include "shared/solid.h"
 #define F(n) *words++ = as_uint(value.n);
@@ -166,6 +172,7 @@ CROSSES(DisplayLattice, DISPLAY_LATTICE_FIELDS, kDisplayLatticeText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
 CROSSES(PathSampling, PATH_SAMPLING_FIELDS, kPathSamplingText)
 CROSSES(LightAreaRecord, LIGHT_AREA_RECORD_FIELDS, kLightAreaRecordText)
+CROSSES(Footprint, FOOTPRINT_FIELDS, kFootprintText)
 CROSSES(SkyRecord, SKY_RECORD_FIELDS, kSkyRecordText)
 CROSSES(SkyMapRecord, SKY_MAP_RECORD_FIELDS, kSkyMapRecordText)
 CROSSES(InstanceRecord, INSTANCE_RECORD_FIELDS, kInstanceRecordText)

@@ -5,6 +5,7 @@
 
 #include "lib/lanes/fixed_point.h"
 #include "lib/light/scatter_point.h"
+#include "lib/surface/texture_alpha.h"
 #include "lib/traverse/offset_origin.h"
 #include "lib/traverse/ray_queue.h"
 
@@ -25,6 +26,30 @@ static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position
     r->t_end = (lane_float)INFINITY;
 }
 
+/// Mask: rays that go straight on from these hits are inside of the surfaces' objects.
+static inline lane_int bodies_of(const Surroundings* around, const RayBatch* batch, uint first,
+                                 lane_uint packed, lane_int hit) {
+    if (!VXL_TEXTURE_ALPHA) return (lane_int)-1;
+    const lane_uint primitive = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * batch->stride + first);
+    return have_bodies(around->materials, packed, primitive, hit);
+}
+
+/// How wide rays are at the surfaces that they met, in metres.
+static inline lane_float width_at(const RayBatch* batch, uint first) {
+    if (!VXL_WIDENS) return (lane_float)0.0f;
+    const lane_uint hit = first + LANES_AS_UINT((lane_int)LANES_NUMBERS);
+    return LANES_GATHER_FLOAT(batch->paint, hit * VXL_PAINT_FLOATS + VXL_PAINT_WIDTH);
+}
+
+/// How wide rays are that go straight on, at their origins; those `anew` begin at their surfaces.
+/// Rays from an observer stay such.
+static inline lane_float width_straight(const RayBatch* batch, uint first, lane_int anew) {
+    if (!VXL_WIDENS) return (lane_float)0.0f;
+    const lane_float before =
+        LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
+    return LANES_SELECT(anew & LANE_MASK(before > 0.0f), width_at(batch, first), before);
+}
+
 /// What all rays that leave the points have in common. Each begins a node of its own.
 static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, uint first) {
     const lane_float one = (lane_float)1.0f;
@@ -32,6 +57,7 @@ static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, u
     r.source = p->source;
     if (VXL_INSTANCES)
         r.instance = LANES_LOAD(batch->hits, VXL_HIT_INSTANCE * batch->stride + first);
+    r.width = width_at(batch, first);
     r.clear = r.throughput[0] = r.throughput[1] = r.throughput[2] = one;
     r.start = (lane_float)0.0f;
     r.cell_xy = r.cell_z = (lane_uint)0;
@@ -123,6 +149,7 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
     r->t_end = LANES_SELECT(same, t_end, r->t_end);
     r->start = LANES_SELECT(same, t, (lane_float)0.0f);
     r->flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
+    r->width = LANES_SELECT(same, width_straight(batch, first, (lane_int)0), r->width);
     if (VXL_CUBE_BODIES)
         r->flags |= joined_flag(&p->behind, around->materials) |
                     (LANES_AS_UINT(is_cube(p->packed, p->primitive)) & VXL_PATH_FROM_CELL);

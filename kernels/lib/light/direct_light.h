@@ -104,21 +104,21 @@ static inline void aim_at_light(PyramidShape shape, LightRecord light, const Inc
 /// The light that surfaces of `material` at `position` return towards the viewer. Returns a mask of
 /// the points that return any.
 static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_float highlight,
-                                   Vector position, lane_uint material, lane_uint voxel,
+                                   Vector position, lane_uint material, Colors colors,
                                    global const float* restrict materials,
-                                   global const uint* restrict colors, lane_float* contribution) {
+                                   lane_float* contribution) {
     const lane_float diffuse =
         LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE) * i->cosine;
     const lane_float specular =
         LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR) *
         exact_power(highlight, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS));
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
-    const lane_float falloff = i->falloff * surface_opacity(materials, material, colors, voxel);
+    const lane_float falloff = i->falloff * surface_opacity(materials, material, colors);
     const lane_uint color_at =
         color_offset(materials, material, position.x, position.y, position.z);
     lane_int any_contribution = (lane_int)0;
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
+        const lane_float color = surface_color(materials, color_at, colors, channel);
         contribution[channel] = fma(color, diffuse, specular) * falloff * intensity[channel];
         any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
     }
@@ -218,7 +218,7 @@ static inline void shine_from(const WorldView* world, LightRecord light, Vector 
                               const RayBatch* batch, uint first) {
     const float4 edge = world->shape.edge;
     LitPoints p;
-    if (!load_lit_points(batch, first, &p)) return;
+    if (!load_lit_points(world, batch, first, &p)) return;
     Incidence incidence = incidence_of(light, from, edge, p.position, p.shading_normal, p.lit);
     p.lit = incidence.lit;
     const lane_int behind = start_off_surface(world, batch, first, light, &incidence, &p);
@@ -228,11 +228,11 @@ static inline void shine_from(const WorldView* world, LightRecord light, Vector 
     const lane_float highlight = highlight_of(p.shading_normal, incidence.l, d, edge);
     LitRays r;
     aim_at_light(world->shape, light, &incidence, p.start, p.normal, &r);
-    lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.voxel,
-                                materials, world->surface.colors, r.contribution);
+    lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.colors,
+                                materials, r.contribution);
     if (VXL_PHYSICAL)
-        some = find_physical_shares(light, &incidence, &p, d, edge, materials,
-                                    world->surface.colors, some, r.contribution);
+        some =
+            find_physical_shares(light, &incidence, &p, d, edge, materials, some, r.contribution);
     send_or_add(queue, &r, p.lit & some, behind, batch, first);
 }
 

@@ -6,6 +6,7 @@
 #include "lib/lanes/fixed_point.h"
 #include "lib/light/surroundings.h"
 #include "lib/surface/surface_color.h"
+#include "lib/surface/texture_alpha.h"
 #include "lib/traverse/instances.h"
 
 /// Finds the body of cubes that the rays are inside of.
@@ -90,11 +91,14 @@ static inline lane_int cross_surface(const Surroundings* around, const SurfaceHi
         *leaving = LANES_SELECT(cube, found->exit, *leaving);
     }
     lane_int full;
-    ray_state->media = cross_medium_or_overflow(ray_state->media, packed, *leaving, passing, &full);
+    lane_int bodies = passing;
+    if (VXL_TEXTURE_ALPHA)
+        bodies &= have_bodies(around->materials, packed, found->primitive, passing);
+    ray_state->media = cross_medium_or_overflow(ray_state->media, packed, *leaving, bodies, &full);
     if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
         atomic_add(around->medium_overflows, (uint)lanes_count(full));
     lane_int hidden =
-        same_medium(before, effective_medium(&ray_state->media, around->ranks)) & passing;
+        same_medium(before, effective_medium(&ray_state->media, around->ranks)) & bodies;
     if (VXL_CUBE_BODIES) {
         hidden |= found->exit & LANE_MASK(refraction == 0.0f);
         hidden = LANES_SELECT(inner, ~same_medium(before, packed), hidden);
@@ -105,8 +109,8 @@ static inline lane_int cross_surface(const Surroundings* around, const SurfaceHi
 
 /// Reduces the light of the `tinted` rays by the part that a surface with this opacity and
 /// refraction absorbs.
-static inline void tint_light(const WorldView* world, const Surroundings* around, const Walk* w,
-                              lane_float t, lane_uint material, lane_uint voxel, lane_float opacity,
+static inline void tint_light(const Surroundings* around, const Walk* w, lane_float t,
+                              lane_uint material, Colors colors, lane_float opacity,
                               lane_float refraction, lane_int tinted, Filter* filter) {
     global const float* materials = around->materials;
     const lane_uint color = color_offset(materials, material, fma(w->dx, t, w->ox),
@@ -115,9 +119,7 @@ static inline void tint_light(const WorldView* world, const Surroundings* around
     for (int channel = 0; channel < 3; ++channel) {
         lane_float part = clear;
         if (!VXL_GLOBAL)  // paths that go straight on aren't tinted
-            part *=
-                fma(opacity, surface_color(materials, color, world->surface.colors, voxel, channel),
-                    clear);
+            part *= fma(opacity, surface_color(materials, color, colors, channel), clear);
         if (VXL_FILTERED) part = fma(opacity, refraction, part);
         filter->throughput[channel] *= LANES_SELECT(tinted, part, (lane_float)1.0f);
     }
@@ -177,7 +179,12 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
         packed = instance_attributes(&world->instances, found->instance, packed,
                                      hit & LANE_MASK(found->instance != VXL_NO_INSTANCE));
     const lane_uint material = material_offset(packed) & LANES_AS_UINT(hit);
-    const lane_float opacity = surface_opacity(materials, material, world->surface.colors, voxel);
+    const Colors colors = colors_of_voxels(world->surface.colors, voxel);
+    lane_float opacity = surface_opacity(materials, material, colors);
+    if (VXL_TEXTURE_ALPHA) {
+        const Vector o = {w->ox, w->oy, w->oz}, d = {w->dx, w->dy, w->dz};
+        opacity *= alpha_of_hits(world, o, d, found->t, found->primitive, found->instance, hit);
+    }
     const lane_float refraction = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION);
     filter->layers -= hit;
     lane_int passing = hit & LANE_MASK(filter->layers < VXL_MAX_LAYERS);
@@ -185,7 +192,7 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
     lane_int leaving;
     const lane_int hidden =
         cross_surface(around, found, packed, before, refraction, passing, &leaving, ray_state);
-    tint_light(world, around, w, found->t, material, voxel, opacity, refraction, passing & ~hidden,
+    tint_light(around, w, found->t, material, colors, opacity, refraction, passing & ~hidden,
                filter);
     if (!VXL_FILTERED) passing &= hidden | LANE_MASK(1.0f - opacity > 0.0f);
     go_on(&world->pyramid, packed, leaving, passing, f, filter);

@@ -30,8 +30,8 @@ static inline Layer load_layer(const Surroundings* around, global const uint* re
     const lane_int hidden = LANE_MASK((side & VXL_SIDE_HIDDEN) != 0u) & l.hit;
     l.leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
     const lane_uint material = material_offset(l.packed) & LANES_AS_UINT(l.hit);
-    const lane_uint voxel = number & LANES_AS_UINT(l.hit);
-    const lane_float opacity = surface_opacity(around->materials, material, colors, voxel);
+    const Colors own = colors_of_hits(colors, number & LANES_AS_UINT(l.hit), batch->paint, first);
+    const lane_float opacity = surface_opacity(around->materials, material, own);
     l.opacity = LANES_SELECT(l.hit, opacity, (lane_float)1.0f);
     l.opacity = LANES_SELECT(hidden, (lane_float)0.0f, l.opacity);
     l.target = LANES_LOAD(batch->paths, VXL_PATH_TARGET * stride + first);
@@ -87,10 +87,13 @@ static inline void go_straight(PyramidShape shape, const Layer* l, const Surroun
     on->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     on->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on->target = l->target;
-    on->media = cross_counted(load_medium_set(batch->paths, stride, first, l->valid), l->packed,
-                              l->leaving, goes_on, around->medium_overflows);
+    on->media = cross_counted(
+        load_medium_set(batch->paths, stride, first, l->valid), l->packed, l->leaving,
+        goes_on & bodies_of(around, batch, first, l->packed, l->hit), around->medium_overflows);
     if (VXL_CUBE_BODIES) on->flags |= joined_flag(&on->media, around->materials);
-    begin_behind(shape, batch, first, goes_on & are_of_instances(batch, first), on);
+    const lane_int anew = goes_on & are_of_instances(batch, first);
+    begin_behind(shape, batch, first, anew, on);
+    on->width = width_straight(batch, first, anew);
     on->medium = medium_inside(&on->media, around->ranks);
 }
 

@@ -22,12 +22,14 @@ typedef struct {
 typedef struct {
     lane_int lit;      // mask
     lane_int leaving;  // mask: met from inside; only of scenes with rough glass
-    lane_uint voxel, material;
+    lane_uint material;
+    Colors colors;
     Vector position, normal, shading_normal, start;
 } LitPoints;
 
 /// Loads the points of hits. Returns false if none can be lit.
-static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints* p) {
+static inline bool load_lit_points(const WorldView* world, const RayBatch* batch, uint first,
+                                   LitPoints* p) {
     const uint stride = batch->stride;
     const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * stride + first);
     p->lit = LANE_MASK(number != VXL_NO_VOXEL);
@@ -37,7 +39,8 @@ static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints*
     p->leaving = (lane_int)0;
     if (VXL_ROUGH_GLASS)
         p->leaving = LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_LEAVING) != 0u);
-    p->voxel = number & LANES_AS_UINT(p->lit);
+    p->colors =
+        colors_of_hits(world->surface.colors, number & LANES_AS_UINT(p->lit), batch->paint, first);
     p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);
     p->position = load_vector(batch->positions, stride, first);
     p->normal = load_vector(batch->normals, stride, first);

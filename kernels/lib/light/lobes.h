@@ -31,8 +31,9 @@ static inline PhysicalView view_of_paths(const Surroundings* around,
     const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first);
     const lane_uint color =
         color_offset(around->materials, p->material, p->position.x, p->position.y, p->position.z);
-    return view_physical(around->materials, p->hit, p->material, color, colors,
-                         number & LANES_AS_UINT(p->hit), p->shading, opposite(p->way), p->leaving);
+    const Colors own = colors_of_hits(colors, number & LANES_AS_UINT(p->hit), batch->paint, first);
+    return view_physical(around->materials, p->hit, p->material, color, own, p->shading,
+                         opposite(p->way), p->leaving);
 }
 
 /// What the surfaces return. Those that a path meets after its last scattering only let it pass.
@@ -45,15 +46,14 @@ static inline Lobes lobes_of(const Surroundings* around, global const uint* rest
     Scattered reflected, refracted;
     scatter_light(around, p, &reflected, &refracted);
     const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first);
-    const lane_uint voxel = number & LANES_AS_UINT(p->hit);
+    const Colors own = colors_of_hits(colors, number & LANES_AS_UINT(p->hit), batch->paint, first);
     const lane_uint color =
         color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
     const lane_float covered = LANES_SELECT(p->hit & scatters, opacity, zero);
     const lane_float diffuse =
         covered * LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_DIFFUSE);
     Lobes l;
-    for (int c = 0; c < 3; ++c)
-        l.diffuse[c] = diffuse * surface_color(materials, color, colors, voxel, c);
+    for (int c = 0; c < 3; ++c) l.diffuse[c] = diffuse * surface_color(materials, color, own, c);
     if (VXL_PHYSICAL)
         for (int c = 0; c < 3; ++c)
             l.diffuse[c] = LANES_SELECT(view->is, covered * view->albedo[c], l.diffuse[c]);

@@ -135,7 +135,8 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     const lane_int same =
         way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~(of_instance | bent));
     MediumSet passed = load_medium_set(batch->paths, stride, first, p->valid);
-    passed = cross_counted(passed, p->packed, p->leaving, way->straight, around->medium_overflows);
+    const lane_int bodies = way->straight & bodies_of(around, batch, first, p->packed, p->hit);
+    passed = cross_counted(passed, p->packed, p->leaving, bodies, around->medium_overflows);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         lane_uint member = LANES_SELECT(way->refracted, p->behind.members[i], p->before.members[i]);
         r->media.members[i] = LANES_SELECT(way->straight, passed.members[i], member);
@@ -152,6 +153,7 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     r->cell_z = LANES_SELECT(across, face, face & 0xFFFFu);
     begin_behind(shape, batch, first, way->straight & of_instance, r);
+    r->width = LANES_SELECT(same, width_straight(batch, first, of_instance), r->width);
     if (VXL_TRAVELS) {
         const lane_float before = path_float(batch->paths, VXL_PATH_TRAVELLED, stride, first);
         const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));

@@ -110,8 +110,7 @@ static inline void set_layers(lane_uint material, const lane_float* base, Physic
 /// The surfaces of `material` that are seen from the unit vector `out`, by their `normal`, by the
 /// `leaving` lanes from inside. `color` is what color_offset tells.
 static inline PhysicalView view_physical(global const float* restrict materials, lane_int met,
-                                         lane_uint material, lane_uint color,
-                                         global const uint* restrict colors, lane_uint voxel,
+                                         lane_uint material, lane_uint color, Colors colors,
                                          Vector normal, Vector out, lane_int leaving) {
     PhysicalView s;
     s.materials = materials;
@@ -125,7 +124,7 @@ static inline PhysicalView view_physical(global const float* restrict materials,
     s.out.z = clamp(s.out.z, 0.0f, 1.0f);
     if (VXL_ROUGH_GLASS) s.glass = view_glass(materials, s.is, material, leaving, s.out.z, s.width);
     lane_float base[3];
-    for (int c = 0; c < 3; ++c) base[c] = surface_color(materials, color, colors, voxel, c);
+    for (int c = 0; c < 3; ++c) base[c] = surface_color(materials, color, colors, c);
     set_layers(material, base, &s);
     return s;
 }

@@ -12,8 +12,7 @@
 /// mask of points, of all kinds, that return any.
 static inline lane_int find_physical_shares(LightRecord light, const Incidence* i,
                                             const LitPoints* p, Vector d, float4 edge,
-                                            global const float* restrict materials,
-                                            global const uint* restrict colors, lane_int some,
+                                            global const float* restrict materials, lane_int some,
                                             lane_float* contribution) {
     const Vector way = unit(scaled(d, edge));
     Vector normal = p->normal;
@@ -22,13 +21,12 @@ static inline lane_int find_physical_shares(LightRecord light, const Incidence* 
                                reflecting_normal(way, normal, p->shading_normal), normal);
     const lane_uint color =
         color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
-    const PhysicalView view = view_physical(materials, p->lit, p->material, color, colors, p->voxel,
+    const PhysicalView view = view_physical(materials, p->lit, p->material, color, p->colors,
                                             normal, opposite(way), p->leaving);
     if (!lanes_any(view.is)) return some;
     lane_float value[3], density;
     const lane_int above = physical_value(&view, i->l, value, &density);
-    const lane_float falloff =
-        i->falloff * surface_opacity(materials, p->material, colors, p->voxel);
+    const lane_float falloff = i->falloff * surface_opacity(materials, p->material, p->colors);
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     lane_int any_contribution = (lane_int)0;
     for (int c = 0; c < 3; ++c) {

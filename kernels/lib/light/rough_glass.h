@@ -29,8 +29,9 @@ typedef struct {
 static inline lane_float glass_missing(const GlassView* g, lane_uint side, lane_float cosine,
                                        lane_float width) {
     const lane_float by_width = exact_divide(cosine * (1.0f + width), cosine + width);
-    const lane_float place = exact_sqrt(by_width) * (float)(VXL_ALBEDO_ENTRIES - 1);
-    const lane_uint entry = min(LANES_UINT(place), (lane_uint)(VXL_ALBEDO_ENTRIES - 2));
+    const lane_float place =
+        (exact_sqrt(by_width) + cosine) * (0.5f * (float)(VXL_GLASS_ENTRIES - 1));
+    const lane_uint entry = min(LANES_UINT(place), (lane_uint)(VXL_GLASS_ENTRIES - 2));
     const lane_uint first = side + entry * 2u;
     const lane_float low = LANES_GATHER_FLOAT(g->materials, first);
     const lane_float high = LANES_GATHER_FLOAT(g->materials, first + 2u);

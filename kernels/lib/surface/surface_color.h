@@ -5,6 +5,7 @@
 
 #include "lib/lanes/exact_exp.h"
 #include "shared/scene.h"
+#include "shared/texture.h"
 #include "shared/voxel.h"
 
 /// 8-bit sRGB to linear, one channel of a packed colour.
@@ -39,26 +40,62 @@ static inline lane_uint color_offset(global const float* restrict materials, lan
     return material + LANES_AS_UINT((block & 1) * VXL_MATERIAL_CHECKER_COLOR);
 }
 
-/// The colour of a surface point: of its material (see color_offset), times its voxel's own where
-/// the world has such.
+/// Where the own colours of a packet's surfaces are.
+typedef struct {
+    global const uint* voxels;
+    global const float* paint;  // of hits, where surfaces wear textures; else null
+    lane_uint number;           // of the voxels, or of the first floats of the hits' paint
+} Colors;
+
+/// The colours of the hits from `first` on, which are in these voxels.
+static inline Colors colors_of_hits(global const uint* voxels, lane_uint voxel,
+                                    global const float* paint, uint first) {
+    const lane_uint hit = (first + LANES_AS_UINT((lane_int)LANES_NUMBERS)) * VXL_PAINT_FLOATS;
+    const Colors colors = {voxels, paint, VXL_TEXTURES ? hit : voxel};
+    return colors;
+}
+
+/// The colours of voxels where what is met in them has no paint.
+static inline Colors colors_of_voxels(global const uint* voxels, lane_uint voxel) {
+    const Colors colors = {voxels, 0, voxel};
+    return colors;
+}
+
+/// A channel of voxels' own colours; 1 where the world has none.
+static inline lane_float voxel_color(global const uint* restrict colors, lane_uint voxel,
+                                     int channel) {
+    if (!VXL_COLORS) return (lane_float)1.0f;
+    return linear_channel(LANES_GATHER_UINT(colors, voxel), 8 * channel);
+}
+
+/// Voxels' own opacity; 1 where the world has none.
+static inline lane_float voxel_opacity(global const uint* restrict colors, lane_uint voxel) {
+    if (!VXL_VOXEL_OPACITY) return (lane_float)1.0f;
+    const lane_uint transparency = LANES_GATHER_UINT(colors, voxel) >> VXL_TRANSPARENCY_SHIFT;
+    return exact_divide(LANES_FLOAT(255u - transparency), (lane_float)255.0f);
+}
+
+/// The colour of a surface point: of its material (see color_offset), times its own, of the voxel
+/// or, in scenes with textures, of the hit; Colors has both.
 static inline lane_float surface_color(global const float* restrict materials, lane_uint place,
-                                       global const uint* restrict colors, lane_uint voxel,
-                                       int channel) {
+                                       Colors colors, int channel) {
     lane_float color = LANES_GATHER_FLOAT(materials, place + (uint)channel);
-    if (VXL_COLORS) color *= linear_channel(LANES_GATHER_UINT(colors, voxel), 8 * channel);
+    if (VXL_TEXTURES && colors.paint)
+        color *= LANES_GATHER_FLOAT(colors.paint, colors.number + (uint)channel);
+    else if (VXL_COLORS)
+        color *= voxel_color(colors.voxels, colors.number, channel);
     return color;
 }
 
-/// The share of what lies behind that a surface covers: its material's, times its voxel's own. 1 in
-/// scenes without transmitting objects.
+/// The share of what lies behind that a surface covers: its material's, times its own. 1 in scenes
+/// without transmitting objects.
 static inline lane_float surface_opacity(global const float* restrict materials, lane_uint material,
-                                         global const uint* restrict colors, lane_uint voxel) {
+                                         Colors colors) {
     if (!VXL_TRANSMISSION) return (lane_float)1.0f;
-    lane_float opacity = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
-    if (VXL_VOXEL_OPACITY) {
-        const lane_uint transparency = LANES_GATHER_UINT(colors, voxel) >> VXL_TRANSPARENCY_SHIFT;
-        opacity *= exact_divide(LANES_FLOAT(255u - transparency), (lane_float)255.0f);
-    }
+    const lane_float opacity = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
+    if (VXL_TEXTURES && colors.paint)
+        return opacity * LANES_GATHER_FLOAT(colors.paint, colors.number + VXL_PAINT_OPACITY);
+    if (VXL_VOXEL_OPACITY) return opacity * voxel_opacity(colors.voxels, colors.number);
     return opacity;
 }
 

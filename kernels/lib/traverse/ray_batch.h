@@ -15,7 +15,7 @@
         global float *restrict normals, global float *restrict shading,                      \
         global uint *restrict hit_attributes, global float *restrict radiance,               \
         global uint *restrict sides, global float *restrict transmittance,                   \
-        global float *restrict coverage
+        global float *restrict coverage, global float *restrict paint
 
 /// Rays and what they met. Arrays that a scene doesn't need are null.
 typedef struct {
@@ -34,13 +34,14 @@ typedef struct {
     global uint* restrict sides;
     global float* restrict transmittance;
     global float* restrict coverage;
+    global float* restrict paint;
 } RayBatch;
 
 /// The value of a RayBatch in a kernel with these parameters.
 #define VXL_BATCH                                                                      \
     {                                                                                  \
         rays, paths, starts, inside, stride, beams, hits, positions, normals, shading, \
-            hit_attributes, radiance, sides, transmittance, coverage                   \
+            hit_attributes, radiance, sides, transmittance, coverage, paint            \
     }
 
 /// The parameters that `bind` of a ShadowQueue sets, in its order.

@@ -20,6 +20,7 @@ typedef struct {
     lane_float throughput[3];
     lane_uint emitter;     // where paths look for emitters: VXL_PATH_EMITTER
     lane_float travelled;  // where there is one: VXL_PATH_TRAVELLED
+    lane_float width;      // where there is one: VXL_PATH_WIDTH
     // of scenes with transmitting objects
     lane_uint cell_xy, cell_z, medium;  // medium: RayBatch::inside
     lane_float start, clear;
@@ -93,6 +94,7 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, const Slots* sl
     put_uint(q->paths + VXL_PATH_WEIGHT * n, VXL_GLOBAL ? r->state : LANES_AS_UINT(r->weight),
              slots);
     if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, slots);
+    if (VXL_WIDENS) put_uint(q->paths + VXL_PATH_WIDTH * n, LANES_AS_UINT(r->width), slots);
     if (!(VXL_TRANSMISSION | VXL_GLOBAL)) return;
     put_uint(q->paths + VXL_PATH_TARGET * n, r->target, slots);
     for (uint c = 0; c < 3; ++c)

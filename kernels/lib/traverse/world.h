@@ -16,7 +16,9 @@
         global const uint *restrict colors, global const uint *restrict fields,                  \
         global const uint *restrict primitive_first, global const uint *restrict primitives,     \
         global const float *restrict triangles, global const uint *restrict triangle_attributes, \
-        global const uint *restrict triangle_normals, global const SolidShape *restrict solids,  \
+        global const uint *restrict triangle_normals,                                            \
+        global const uint *restrict triangle_textures, global const uint *restrict textures,     \
+        global const SolidShape *restrict solids,                                                \
         global const InstanceRecord *restrict instance_records,                                  \
         global const InstanceNode *restrict instance_nodes,                                      \
         global const uint *restrict group_materials
@@ -32,6 +34,8 @@ typedef struct {
     global const float* restrict triangles;
     global const uint* restrict triangle_attributes;
     global const uint* restrict triangle_normals;
+    global const uint* restrict triangle_textures;
+    global const uint* restrict textures;
     global const SolidShape* restrict solids;
 } SurfaceView;
 
@@ -51,21 +55,15 @@ typedef struct {
 } WorldView;
 
 /// The value of a WorldView in a kernel with these parameters.
-#define VXL_WORLD                                                                               \
-    {                                                                                           \
-        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels), {attributes,          \
-                                                                           constant_attribute,  \
-                                                                           colors,              \
-                                                                           fields,              \
-                                                                           primitive_first,     \
-                                                                           primitives,          \
-                                                                           triangles,           \
-                                                                           triangle_attributes, \
-                                                                           triangle_normals,    \
-                                                                           solids},             \
-        {                                                                                       \
-            instance_records, instance_nodes, group_materials                                   \
-        }                                                                                       \
+#define VXL_WORLD                                                                  \
+    {                                                                              \
+        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels),          \
+            {attributes,       constant_attribute, colors,    fields,              \
+             primitive_first,  primitives,         triangles, triangle_attributes, \
+             triangle_normals, triangle_textures,  textures,  solids},             \
+        {                                                                          \
+            instance_records, instance_nodes, group_materials                      \
+        }                                                                          \
     }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/base/error.hpp"
@@ -26,6 +27,20 @@ GltfValue base_texture(const GltfValue& material) {
     const GltfValue common = material.at("pbrMetallicRoughness");
     if (common.has("baseColorTexture")) return common.at("baseColorTexture");
     return material.extension("KHR_materials_pbrSpecularGlossiness").at("diffuseTexture");
+}
+
+/// What the alpha of a material's texture means, of which its factor is a part.
+uint32_t alpha_of(const GltfValue& material) {
+    const std::string mode = material.text("alphaMode", "OPAQUE");
+    if (mode == "BLEND") return kAlphaBlend;
+    if (mode != "MASK") return kAlphaOpaque;
+    const std::vector<double> factor =
+        material.at("pbrMetallicRoughness").numbers("baseColorFactor", 4);
+    const double cutoff = std::clamp(material.number("alphaCutoff", 0.5), 0.0, 1.0);
+    const double share = factor.empty() ? 1 : std::clamp(factor[3], 0.0, 1.0);
+    // Nothing reaches the cutoff of a smaller factor, which the material's opacity says.
+    if (share <= cutoff) return share < cutoff ? kAlphaOpaque : 255;
+    return uint32_t(std::clamp(std::ceil(255 * cutoff / share), 0.0, 255.0));
 }
 
 }  // namespace
@@ -55,12 +70,14 @@ GltfTextureUse GltfTextures::of_material(int material) const {
 uint32_t GltfTextures::append(int material, Mesh& mesh) {
     const int number = of_material(material).texture;
     if (number < 0) return kNoTexture;
-    const auto [entry, is_new] = appended_.try_emplace(number, kNoTexture);
+    const uint32_t alpha = alpha_of(file_.root().item("materials", size_t(material)));
+    const auto [entry, is_new] = appended_.try_emplace({number, alpha}, kNoTexture);
     if (!is_new) return entry->second;
     const GltfValue root = file_.root(), texture = root.item("textures", size_t(number));
     const auto image = image_of(texture, mesh);
     if (!image) return kNoTexture;
     Texture made{image};
+    made.alpha = alpha;
     const int sampler = texture.index("sampler", root.size("samplers"));
     if (sampler >= 0) {
         const GltfValue from = root.item("samplers", size_t(sampler));

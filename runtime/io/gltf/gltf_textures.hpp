@@ -36,7 +36,7 @@ class GltfTextures {
 
     const GltfFile& file_;
     std::map<int, std::shared_ptr<const TextureImage>> images_;
-    std::map<int, uint32_t> appended_;  ///< by their numbers in the file
+    std::map<std::pair<int, uint32_t>, uint32_t> appended_;  ///< by their numbers and alpha
 };
 
 }  // namespace voxelume

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "runtime/image/image.hpp"
 
@@ -14,31 +15,51 @@ namespace voxelume {
 /// UINT.
 enum class ColorDepth { float16, float32 };
 
+/// How an image is stored.
+struct ExrStorage {
+    ColorDepth color = ColorDepth::float16;
+    bool is_multi_part = false;  ///< each layer is a part of its own, see exr_layers.hpp
+
+    // NOLINTNEXTLINE(google-explicit-constructor): a depth alone says how, too
+    constexpr ExrStorage(ColorDepth depth = ColorDepth::float16, bool has_parts = false)
+        : color(depth), is_multi_part(has_parts) {}
+};
+
 /// Sets how many threads of the process compress and expand EXR files; before the first call there
 /// are none. The bytes don't depend on the number.
 void set_exr_threads(int threads);
 
 /// Writes `image` with ZIP compression, the chromaticities of Rec. 709, and its attributes and
-/// `others` as strings.
+/// `others` as strings. Of several parts the first has these, and each part of a matte has that
+/// matte's own.
 ///
 /// Returns how many values of R G B A weren't finite. They are written as 0, and the caller tells
 /// the user. Halves are rounded to nearest and clamped to +-65504. Equal images give equal bytes.
 /// The file is verified before it appears under its name. Throws Error::output.
 size_t write_exr(const std::filesystem::path& path, const Image& image,
-                 ColorDepth color = ColorDepth::float16,
+                 const ExrStorage& storage = {},
                  const std::map<std::string, std::string>& others = {});
 
 /// The bytes of the file that `write_exr` writes.
-std::string exr_bytes(const Image& image, ColorDepth color = ColorDepth::float16,
+std::string exr_bytes(const Image& image, const ExrStorage& storage = {},
                       const std::map<std::string, std::string>& others = {});
 
 /// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,
 /// where its data window is a part of its display window, the place of that.
-/// It reads the first part of a file with several.
+///
+/// Of a file with several parts it reads the first and all flat ones with the same data window. A
+/// channel of a later part whose name is taken has the part's name before its own: "albedo.R".
 ///
 /// Throws Error::input for a file that is missing, damaged, deep or subsampled, or that declares
 /// more pixels than it can hold.
 Image read_exr(const std::filesystem::path& path);
+
+/// A part of a file with several.
+struct ExrPartHeader {
+    std::string name;
+    std::vector<std::string> channels;  ///< their own names
+    bool is_read = true;                ///< false for what read_exr leaves out
+};
 
 /// The contents of a header, for display to people.
 struct ExrHeader {
@@ -46,11 +67,13 @@ struct ExrHeader {
     int height = 0;
     std::string layout;       ///< "scanline", "tiled", "deep scanline", "deep tiled"
     std::string compression;  ///< "ZIP"
-    std::map<std::string, std::string> channels;    ///< name -> "half", "float" or "uint"
+    std::map<std::string, std::string> channels;    ///< name -> "half", "float" or "uint"; those
+                                                    ///< that read_exr reads
     std::map<std::string, std::string> attributes;  ///< text and chromaticities, both as text
+    std::vector<ExrPartHeader> parts;               ///< empty for a file with one
 };
 
-/// Reads the header alone. Throws Error::input.
+/// Reads the headers alone. Throws Error::input.
 ExrHeader read_exr_header(const std::filesystem::path& path);
 
 }  // namespace voxelume

@@ -83,6 +83,10 @@ Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const Pyra
     pyramid.triangles = grid.triangles;
     pyramid.triangle_attributes = grid.triangle_attributes;
     pyramid.triangle_normals = grid.triangle_normals;
+    pyramid.triangle_textures = grid.triangle_textures;
+    pyramid.textures = grid.textures;
+    pyramid.texture_key = grid.texture_key;
+    pyramid.texture_alpha = grid.texture_alpha;
     pyramid.solids = grid.solids;
     return pyramid;
 }

@@ -5,11 +5,13 @@
 
 #include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
+#include "kernels/shared/texture.h"
 #include "kernels/shared/trace.h"
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/place/joined_textures.hpp"
 
 namespace voxelume {
 namespace {
@@ -34,6 +36,7 @@ struct Extent {
 
 struct Parts {
     bool colors = false, fields = false, exact = false, normals = false;
+    JoinedTextures textures;
 };
 
 /// What pyramids are joined to.
@@ -47,10 +50,10 @@ class Total {
     const Parts& parts() const { return parts_; }
 
     void check_numbers() const {
-        const uint64_t maximum =
-            std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
-                      total_.primitives, total_.triangles * kFloatsPerTriangle,
-                      parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
+        const uint64_t maximum = std::max(
+            {total_.sectors, total_.records, 2 * total_.leaves, total_.voxels, total_.primitives,
+             total_.triangles * kFloatsPerTriangle, parts_.textures.words(),
+             parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
         constexpr uint64_t kMaxEntries = uint64_t{1} << 31;  // kernels gather by signed indices
         if (maximum > kMaxEntries)
             throw Error(ErrorKind::limit,
@@ -63,6 +66,7 @@ class Total {
         Pyramid joined;
         joined.frame = frame_;
         joined.transparent = transparent_;
+        joined.texture_alpha = texture_alpha_;
         joined.leaf_count = uint32_t(total_.leaves);
         joined.voxel_count = voxel_count_;
         joined.listed_fields = uint32_t(total_.voxels) - voxel_count_;
@@ -85,6 +89,11 @@ class Total {
         if (parts_.normals)
             joined.triangle_normals = Buffer<uint32_t>(device, "triangle normals",
                                                        total_.triangles * VXL_TRIANGLE_NORMALS);
+        if (parts_.textures.words() > 0) {
+            joined.triangle_textures =
+                Buffer<uint32_t>(device, "triangle textures", total_.triangles * VXL_WORN_WORDS);
+            joined.textures = Buffer<uint32_t>(device, "textures", parts_.textures.words());
+        }
         joined.solids = Buffer<uint32_t>(device, "solids", total_.solids * VXL_SOLID_WORDS);
         return joined;
     }
@@ -97,14 +106,16 @@ class Total {
         parts_.fields |= !p.fields.empty();
         parts_.exact |= !p.primitive_first.empty();
         parts_.normals |= !p.triangle_normals.empty();
+        parts_.textures.add(p.texture_key, p.textures.size());
         transparent_ |= p.transparent;
+        texture_alpha_ |= p.texture_alpha;
     }
 
     GridFrame frame_;
     Extent total_;
     uint32_t voxel_count_ = 0;
     Parts parts_;
-    bool transparent_ = false;
+    bool transparent_ = false, texture_alpha_ = false;
 };
 
 class Joiner {
@@ -214,13 +225,31 @@ class Joiner {
         else if (parts_.normals)
             copies(p.triangles.size() / kFloatsPerTriangle * VXL_TRIANGLE_NORMALS, normals,
                    VXL_NO_NORMAL, joined_.triangle_normals);
+        append_textures(p);
         words(p.solids, full_.solids * VXL_SOLID_WORDS, joined_.solids);
+    }
+
+    void append_textures(const Pyramid& p) {
+        const uint64_t start = full_.triangles * VXL_WORN_WORDS;
+        const size_t worn = p.triangles.size() / kFloatsPerTriangle * VXL_WORN_WORDS;
+        if (p.textures.empty()) {
+            if (parts_.textures.words() > 0)
+                copies(worn, start, VXL_NO_TEXTURE, joined_.triangle_textures);
+            return;
+        }
+        const bool is_new = textures_.add(p.texture_key, p.textures.size());
+        const uint64_t place = textures_.place(p.texture_key, p.textures.size());
+        if (is_new) words(p.textures, place, joined_.textures);
+        program_.kernel("append_worn")
+            .launch(WorkItem::light, worn, uint32_t(worn), uint32_t(start), uint32_t(place),
+                    p.triangle_textures, joined_.triangle_textures);
     }
 
     Program program_;
     Parts parts_;
     Pyramid joined_;
     Extent full_;
+    JoinedTextures textures_;  ///< of those that are appended
 };
 
 }  // namespace

@@ -76,11 +76,27 @@ Returned returned_at(double cosine, double width, double eta) {
     return sum;
 }
 
-constexpr int kLastAngle = VXL_ALBEDO_ENTRIES - 1;
+constexpr int kLastAngle = VXL_GLASS_ENTRIES - 1;
+
+/// The place of a cosine in tables, from 0 to kLastAngle.
+double place_of(double width, double cosine) {
+    return kLastAngle * (std::sqrt(cosine * (1 + width) / (cosine + width)) + cosine) / 2;
+}
+
+/// The cosine of a place, by halves.
+double cosine_at(double width, double place) {
+    constexpr int kHalves = 60;
+    double low = 0, high = 1;
+    for (int i = 0; i < kHalves; ++i) {
+        const double middle = (low + high) / 2;
+        (place_of(width, middle) < place ? low : high) = middle;
+    }
+    return high;
+}
 
 /// The missing share of a side that kernels read for a cosine.
 double missing_at(const GlassTable& table, size_t side, double width, double cosine) {
-    const double at = kLastAngle * std::sqrt(cosine * (1 + width) / (cosine + width));
+    const double at = place_of(width, cosine);
     const int entry = std::min(int(at), kLastAngle - 1);
     const double low = table.values[size_t(2 * entry) + side];
     const double high = table.values[size_t(2 * entry + 2) + side];
@@ -90,8 +106,7 @@ double missing_at(const GlassTable& table, size_t side, double width, double cos
 /// Sets the missing shares of a side, and their mean.
 void set_side(double width, double eta, size_t side, GlassTable& table) {
     for (int entry = 0; entry <= kLastAngle; ++entry) {
-        const double u = second_power(double(entry) / kLastAngle);
-        const double cosine = std::clamp(width * u / (1 + width - u), 1e-7, 1.0);
+        const double cosine = std::max(cosine_at(width, entry), 1e-7);
         const Returned r = returned_at(cosine, width, eta);
         table.values[size_t(2 * entry) + side] = float(std::max(1 - r.back - r.through, 0.0));
     }

@@ -168,6 +168,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
         const SkyRecord record = sky_record(*scene.world.sky);
         sky_.record = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
     }
+    if (features.textures) footprint_.footprint = footprint_of(scene, world);
     if (features.global) environment_.ambient = {};  // it stands for light that paths find
     if (features.paths)
         ranks_ = Buffer<uint32_t>(device, "ranks",
@@ -178,10 +179,10 @@ void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count
                          bool from_observer) {
     if (sky_is_hidden_)
         surface_.launch_packets(count, pyramid, environment_, sky_, uint32_t(from_observer),
-                                emitters_, materials_, ranks_, batch, count);
+                                emitters_, footprint_, materials_, ranks_, batch, count);
     else
-        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, materials_, ranks_,
-                                batch, count);
+        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, footprint_,
+                                materials_, ranks_, batch, count);
 }
 
 }  // namespace voxelume

@@ -9,6 +9,7 @@
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/emitter_table.hpp"
 #include "runtime/stages/features.hpp"
+#include "runtime/stages/light/footprint.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/stages/sky_map.hpp"
 
@@ -50,6 +51,7 @@ class ShadeStage {
     SkyView sky_;
     bool sky_is_hidden_;
     EmitterTable emitters_;
+    FootprintArgument footprint_;
     Program program_;
     Kernel surface_;
 };

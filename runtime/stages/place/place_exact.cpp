@@ -3,10 +3,12 @@
 
 #include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
+#include "kernels/shared/texture.h"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/placement_attributes.hpp"
+#include "runtime/stages/voxelize/voxelize_textures.hpp"
 
 namespace voxelume {
 namespace {
@@ -62,6 +64,7 @@ void start_lists(const Device& device, const Program& program, const Buffer<uint
 /// The numbers of triangles and of solids' records in the buffers that are joined so far.
 struct Joined {
     uint32_t triangles = 0, solid_records = 0;
+    JoinedTextures textures;
 };
 
 void append_object(const Device& device, const PlacedObject& object, const Buffer<uint32_t>& ends,
@@ -87,6 +90,16 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
     if (!grid.triangle_normals.empty())
         append(triangles * VXL_TRIANGLE_NORMALS, joined.triangles * VXL_TRIANGLE_NORMALS,
                grid.triangle_normals, world.triangle_normals);
+    if (!grid.textures.empty()) {
+        const uint64_t words = grid.textures.size();
+        const bool is_new = joined.textures.add(grid.texture_key, words);
+        const auto place = uint32_t(joined.textures.place(grid.texture_key, words));
+        if (is_new) append(uint32_t(words), place, grid.textures, world.textures);
+        const uint32_t worn = triangles * VXL_WORN_WORDS;
+        program.kernel("append_worn")
+            .launch(WorkItem::light, worn, worn, joined.triangles * VXL_WORN_WORDS, place,
+                    grid.triangle_textures, world.triangle_textures);
+    }
     append(records * VXL_SOLID_WORDS, joined.solid_records * VXL_SOLID_WORDS, grid.solids,
            world.solids);
     program.kernel("set_solid_attributes")
@@ -105,6 +118,16 @@ void allocate_sources(const Device& device, const SourceCounts& counts, BrickGri
     if (counts.normals)
         world.triangle_normals =
             Buffer<uint32_t>(device, "world normals", VXL_TRIANGLE_NORMALS * triangles);
+    if (counts.textures.words() > 0) {
+        if (counts.textures.words() > kMaxTextureWords)
+            throw Error(ErrorKind::limit,
+                        "the world's textures have {} texels, of which 2^31 can be numbered",
+                        counts.textures.words());
+        world.triangle_textures =
+            Buffer<uint32_t>(device, "world texture places", VXL_WORN_WORDS * triangles);
+        world.textures = Buffer<uint32_t>(device, "world textures", counts.textures.words());
+        world.texture_alpha = counts.texture_alpha;
+    }
     world.solids = Buffer<uint32_t>(device, "world solids", counts.solid_words);
 }
 
@@ -120,9 +143,11 @@ void join_exact_surfaces(const Device& device, std::span<const PlacedObject> obj
     world.primitive_first = world.primitives = {};
     world.triangles = {};
     world.triangle_attributes = world.triangle_normals = world.solids = {};
+    world.triangle_textures = world.textures = {};
     if (exact.empty()) return;
     allocate_sources(device, sources, world);
     if (sources.normals) world.triangle_normals.fill(VXL_NO_NORMAL);
+    if (!world.triangle_textures.empty()) world.triangle_textures.fill(VXL_NO_TEXTURE);
     const Program program = program_for(device, *exact.front()->grid);
     const Buffer<uint32_t> counts = count_primitives(device, program, exact, world);
     start_lists(device, program, counts, world);

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "runtime/stages/place/joined_textures.hpp"
 #include "runtime/stages/place/place.hpp"
 
 namespace voxelume {
@@ -13,8 +14,12 @@ struct SourceCounts {
     size_t floats = 0;  ///< of triangles' corners
     size_t solid_words = 0;
     bool normals = false;  ///< some triangle has normals
+    JoinedTextures textures;
+    bool texture_alpha = false;  ///< the alpha of one of them counts
 
     void add(const BrickGrid& grid) {
+        textures.add(grid.texture_key, grid.textures.size());
+        texture_alpha |= grid.texture_alpha;
         floats += grid.triangles.size();
         solid_words += grid.solids.size();
         normals |= !grid.triangle_normals.empty();

@@ -91,6 +91,9 @@ RayArrays allocate_rays(const Device& device, const Features& features, const Ra
 /// What these arrays take.
 RayBytes ray_bytes(const Features& features, const RayCounts& counts);
 
+/// The most bytes of sight rays and hits that an image retains for the passes of its light.
+inline constexpr double kMaxPassHitBytes = double(1u << 30);
+
 /// The bytes of a sight ray and its hit.
 double sight_bytes(const Features& features);
 

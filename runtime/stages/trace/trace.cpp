@@ -12,6 +12,8 @@ Features features_of(const Pyramid& pyramid) {
     features.voxel_opacity = pyramid.transparent;
     features.smooth = !pyramid.fields.empty();
     features.triangles = !pyramid.triangles.empty();
+    features.textures = !pyramid.triangle_textures.empty();
+    features.texture_alpha = features.textures && pyramid.texture_alpha;
     features.shading_normals = !pyramid.triangle_normals.empty();
     features.solids = !pyramid.solids.empty();
     features.field_lists = pyramid.listed_fields > 0;

@@ -13,6 +13,7 @@
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/mesh_lattice.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
+#include "runtime/stages/voxelize/voxelize_textures.hpp"
 
 namespace voxelume {
 namespace {
@@ -158,6 +159,7 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
         list_primitives(job, program("voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
         keep_triangles(job, mesh, frame_from_mesh, labels);
         keep_normals(job, mesh, frame_from_mesh, options.shading);
+        keep_textures(job, mesh);
     }
     if (!labels.triangle_attributes.empty() || has_paint(mesh))
         label_voxels(job, program("voxelize_label.cl", label_defines(device_, mesh)),

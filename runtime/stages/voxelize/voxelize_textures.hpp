@@ -23,6 +23,16 @@ struct DeviceTextures {
 /// the triangle is `texels` on the first level, and `voxels` squares of the shortest edge.
 uint32_t texture_level(double texels, double voxels, int levels);
 
+/// Kernels gather by signed indices.
+inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
+
+/// What triangles of exact voxels wear, as the job's grid keeps it for rays. Meshes without
+/// textures get nothing. Throws Error::limit for more texels than a device's buffer holds.
+void keep_textures(VoxelizeJob& job, const Mesh& mesh);
+
+/// The words of all textures in BrickGrid::textures.
+uint64_t texture_words(uint64_t texels, uint64_t textures);
+
 /// Throws Error::limit for more texels than a device's buffer holds.
 DeviceTextures upload_textures(const VoxelizeJob& job, const Mesh& mesh);
 

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colours of the surfaces that rays have met, where some wear textures: what a sample's part of
+// a pixel shows of each.
+#ifndef VXL_PAINT_H
+#define VXL_PAINT_H
+
+#include "lib/surface/shading_normal.h"
+#include "lib/surface/surface_color.h"
+#include "lib/surface/texture_mean.h"
+#include "lib/traverse/ray_batch.h"
+#include "lib/traverse/shaded_hit.h"
+#include "shared/footprint.h"
+
+/// Where no surface is seen at a smaller angle, for textures: their samples would have no end.
+#define VXL_LEAST_SEEN 0.015625f
+
+/// What packets of rays span where they met surfaces: two vectors across the rays, in metres.
+typedef struct {
+    Vector side[2];
+    lane_float lean[2];  // of TextureArea
+    lane_float off[2];   // how far the middle of what they span lies off the rays, in these vectors
+    lane_float width;    // of a square of the same area
+} RaySpan;
+
+static inline Vector vector_of(float4 v) {
+    const Vector result = {(lane_float)v.x, (lane_float)v.y, (lane_float)v.z};
+    return result;
+}
+
+/// Two vectors of a length across the unit vectors `way`, one of them along the surface of this
+/// normal.
+static inline void span_square(Vector way, Vector normal, lane_float width, RaySpan* s) {
+    Vector flat = cross_of(normal, way);
+    const lane_int straight = LANE_MASK(dot_product(flat, flat) < 1e-6f);
+    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+    const lane_int along_x = LANE_MASK(fabs(way.x) > 0.6f);
+    const Vector axis = {LANES_SELECT(along_x, zero, one), LANES_SELECT(along_x, one, zero), zero};
+    flat = unit(select_vector(straight, cross_of(axis, way), flat));
+    const Vector up = cross_of(way, flat);
+    for (int i = 0; i < 2; ++i) {
+        const Vector v = i == 0 ? flat : up;
+        const Vector stretched = {v.x * width, v.y * width, v.z * width};
+        s->side[i] = stretched;
+    }
+    for (int i = 0; i < 2; ++i) s->off[i] = s->lean[i] = (lane_float)0.0f;
+    s->width = width;
+}
+
+/// How far the middle of the cell in which `from`, the way from the observer, lies is off it along
+/// `step`, in cells. `half_cells` lie on each side of the view's middle.
+static inline lane_float off_middle(Vector from, float4 step, lane_float depth, float half_cells) {
+    const lane_float along = dot_product(from, vector_of(step)) * step.w;
+    const lane_float cells = exact_divide(along, depth) + half_cells;
+    return LANES_SELECT(LANE_MASK(fabs(cells) < 1e6f), floor(cells) + 0.5f - cells,
+                        (lane_float)0.0f);
+}
+
+/// What rays span at the points `position`, in voxels. Those that come from other surfaces had the
+/// width `before` there, which is 0 for rays from the observer.
+static inline RaySpan span_of(const Footprint* f, float4 edge, Vector position, Vector normal,
+                              Vector way, lane_float before, lane_float travelled) {
+    const Vector middle = vector_of(f->middle);
+    const Vector from = scaled(difference(position, middle), edge);
+    const lane_float distance = exact_sqrt(dot_product(from, from));
+    const lane_int first = LANE_MASK(before == 0.0f);
+    lane_float width = fma((lane_float)f->spread, distance, (lane_float)f->width);
+    width = LANES_SELECT(first, width, fma((lane_float)f->spread, travelled, before));
+    RaySpan s;
+    span_square(way, normal, width, &s);
+    if (f->shape == VXL_FOOTPRINT_CONE) return s;
+    lane_float depth = (lane_float)1.0f;
+    if (f->shape == VXL_FOOTPRINT_PYRAMID) depth = dot_product(from, vector_of(f->ahead));
+    depth = LANES_SELECT(first & LANE_MASK(depth > 0.0f), depth, (lane_float)1.0f);
+    const Vector across = vector_of(f->across), down = vector_of(f->down);
+    const Vector none = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
+    s.side[0] = select_vector(first, add_scaled(none, across, depth), s.side[0]);
+    s.side[1] = select_vector(first, add_scaled(none, down, depth), s.side[1]);
+    const lane_float seen = dot_product(normal, from);
+    const lane_int leans = first & LANE_MASK(seen < 0.0f);
+    const lane_float per_seen = exact_reciprocal(LANES_SELECT(leans, seen, (lane_float)-1.0f));
+    for (int i = 0; i < 2 && f->shape == VXL_FOOTPRINT_PYRAMID; ++i)
+        s.lean[i] = LANES_SELECT(leans, dot_product(normal, s.side[i]) * per_seen, s.lean[i]);
+    if (f->half_columns == 0.0f) return s;
+    const lane_float column = off_middle(from, f->across, depth, f->half_columns);
+    const lane_float row = off_middle(from, f->down, depth, f->half_rows);
+    s.off[0] = LANES_SELECT(first, column, s.off[0]);
+    s.off[1] = LANES_SELECT(first, row, s.off[1]);
+    return s;
+}
+
+/// The vector moved along the unit vectors `way` onto the surface of this normal, which `way` runs
+/// against.
+static inline Vector on_surface(Vector v, Vector normal, Vector way) {
+    const lane_float seen = fmin(dot_product(normal, way), (lane_float)-VXL_LEAST_SEEN);
+    return add_scaled(v, way, -exact_divide(dot_product(v, normal), seen));
+}
+
+/// A vector in metres in the voxels of the hits.
+static inline Vector in_hit_voxels(const ShadedHit* h, Vector v, float4 inverse_edge) {
+    v = scaled(v, inverse_edge);
+    if (!VXL_INSTANCES) return v;
+    const lane_float* m = h->ray.map;
+    const Vector own = {fma(m[0], v.x, fma(m[1], v.y, m[2] * v.z)),
+                        fma(m[3], v.x, fma(m[4], v.y, m[5] * v.z)),
+                        fma(m[6], v.x, fma(m[7], v.y, m[8] * v.z))};
+    return select_vector(h->of_instance, own, v);
+}
+
+/// Where triangles, whose records of what they wear begin at `worn`, are met, and how far their
+/// places on textures move along `sides`, those of the span on the surface. `share` becomes that of
+/// each corner.
+static inline TextureArea area_of(const WorldView* world, const ShadedHit* h, lane_uint number,
+                                  lane_uint worn, const Vector* sides, const RaySpan* span,
+                                  lane_float* share) {
+    Vector from[3];
+    for (uint i = 0; i < 3; ++i) {
+        const Vector corner = triangle_corner(world->surface.triangles, number, i);
+        from[i] = add_scaled(difference(h->ray.origin, corner), h->ray.direction, h->ray.t);
+    }
+    corner_shares(from, share);
+    const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
+    const Vector n = cross_of(ab, ac);
+    const lane_float squared = dot_product(n, n);
+    const lane_int some = LANE_MASK(squared > 0.0f);
+    const lane_float inverse = LANES_SELECT(
+        some, exact_reciprocal(LANES_SELECT(some, squared, (lane_float)1.0f)), (lane_float)0.0f);
+    global const float* places = (global const float*)world->surface.triangle_textures;
+    lane_float u[3], v[3];
+    TextureArea area = {(lane_float)0.0f, (lane_float)0.0f};
+    for (uint i = 0; i < 3; ++i) {
+        u[i] = LANES_GATHER_FLOAT(places, worn + (VXL_WORN_UVS + 2u * i));
+        v[i] = LANES_GATHER_FLOAT(places, worn + (VXL_WORN_UVS + 2u * i + 1u));
+        area.u = fma(share[i], u[i], area.u);
+        area.v = fma(share[i], v[i], area.v);
+    }
+    for (int i = 0; i < 2; ++i) {
+        const lane_float b = dot_product(cross_of(sides[i], ac), n) * inverse;
+        const lane_float c = dot_product(cross_of(ab, sides[i]), n) * inverse;
+        area.side_u[i] = fma(b, u[1] - u[0], c * (u[2] - u[0]));
+        area.side_v[i] = fma(b, v[1] - v[0], c * (v[2] - v[0]));
+        area.off[i] = span->off[i];
+        area.lean[i] = span->lean[i];
+    }
+    return area;
+}
+
+/// The colours of the surfaces in `color`, and their opacity: their voxels', or of those that wear
+/// a texture its mean over what the rays span, times the colour that lies between the corners'.
+static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, const RaySpan* span,
+                                 Vector normal, Vector way, lane_float* color) {
+    for (int c = 0; c < 3; ++c) color[c] = voxel_color(world->surface.colors, h->voxel, c);
+    color[VXL_PAINT_OPACITY] = voxel_opacity(world->surface.colors, h->voxel);
+    const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
+    const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
+    const lane_uint worn = number * (uint)VXL_WORN_WORDS;
+    global const uint* words = world->surface.triangle_textures;
+    const lane_uint texture = LANES_GATHER_UINT(words, worn + (uint)VXL_WORN_TEXTURE);
+    const lane_int wears = triangle & LANE_MASK(texture != VXL_NO_TEXTURE);
+    if (!lanes_any(wears)) return;
+    Vector sides[2];
+    for (int i = 0; i < 2; ++i)
+        sides[i] =
+            in_hit_voxels(h, on_surface(span->side[i], normal, way), world->shape.inverse_edge);
+    lane_float share[3], mean[4];
+    const TextureArea area = area_of(world, h, number, worn, sides, span, share);
+    texture_mean(world->surface.textures, texture, &area, wears, mean);
+    global const float* curve = (global const float*)world->surface.textures;
+    lane_uint corner[3];
+    for (uint i = 0; i < 3; ++i)
+        corner[i] = LANES_GATHER_UINT(words, worn + (VXL_WORN_COLORS + i)) & LANES_AS_UINT(wears);
+    for (int c = 0; c < 3; ++c) {
+        lane_float between = (lane_float)0.0f;
+        for (int i = 0; i < 3; ++i)
+            between = fma(share[i], LANES_GATHER_FLOAT(curve, (corner[i] >> (uint)(8 * c)) & 255u),
+                          between);
+        color[c] = LANES_SELECT(wears, mean[c] * between, color[c]);
+    }
+    if (VXL_TEXTURE_ALPHA)
+        color[VXL_PAINT_OPACITY] = LANES_SELECT(wears, mean[3], color[VXL_PAINT_OPACITY]);
+}
+
+/// Writes the paint of a packet's hits, and how wide the rays are there.
+static inline void store_paint(const lane_float* color, lane_float width,
+                               global float* restrict paint, uint first) {
+    float values[VXL_PAINT_FLOATS * VXL_LANES];
+    for (uint c = 0; c < VXL_PAINT_WIDTH; ++c) LANES_STORE(color[c], values, c * VXL_LANES);
+    LANES_STORE(width, values, VXL_PAINT_WIDTH * VXL_LANES);
+    for (uint lane = 0; lane < VXL_LANES; ++lane)
+        for (uint c = 0; c < VXL_PAINT_FLOATS; ++c)
+            paint[(first + lane) * VXL_PAINT_FLOATS + c] = values[c * VXL_LANES + lane];
+}
+
+/// Finds and writes the paint of hits at `position`.
+static inline void paint_hits(const WorldView* world, const ShadedHit* h, const Footprint* f,
+                              Vector position, Vector normal, const RayBatch* batch, uint first) {
+    const float4 edge = world->shape.edge;
+    const Vector metres = scaled(h->world_way, edge);
+    const Vector way = unit(metres);
+    lane_float before = (lane_float)0.0f;
+    if (VXL_WIDENS)
+        before = LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
+    const lane_float travelled = h->world_t * exact_sqrt(dot_product(metres, metres));
+    const RaySpan span = span_of(f, edge, position, normal, way, before, travelled);
+    lane_float color[VXL_PAINT_WIDTH];
+    paint_of_hits(world, h, &span, normal, way, color);
+    store_paint(color, span.width, batch->paint, first);
+}
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of a track at a frame, kept to what its value may be.
+#pragma once
+
+#include <vector>
+
+#include "runtime/scene/scene_motion.hpp"
+
+namespace voxelume {
+
+/// The numbers of a track at a frame, as values_at() has them of its keys, but that a spline which
+/// leaves the value's range between keys stays at the range's end, or, where the end itself is no
+/// value, at the key that is closest to it.
+std::vector<double> values_of(const Track& track, double frame);
+
+}  // namespace voxelume

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much of the world a sample's ray stands for, by which textures are blurred.
+#pragma once
+
+#include <optional>
+
+#include "kernels/shared/footprint.h"
+#include "runtime/grid/grid_frame.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// The footprint of the rays of a scene's observer: one sample's share of a pixel.
+Footprint footprint_of(const Scene& scene, const GridFrame& world);
+
+/// VXL_FOOTPRINT_PARAMETER of kernels: nothing in scenes without textures.
+struct FootprintArgument {
+    std::optional<Footprint> footprint;
+};
+void bind(KernelArguments& to, const FootprintArgument& argument);
+
+}  // namespace voxelume

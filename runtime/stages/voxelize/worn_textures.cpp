@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// a mesh's textures -> what its exact triangles wear, for the rays that meet them.
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+#include "kernels/shared/texture.h"
+#include "runtime/base/error.hpp"
+#include "runtime/image/srgb.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/stages/voxelize/voxelize_textures.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The texture of a triangle of a mesh with textures, kNoTexture for none.
+uint32_t texture_of(const Mesh& mesh, size_t triangle, const glm::uvec3& uvs) {
+    const uint32_t group = mesh.triangle_group.empty() ? 0 : mesh.triangle_group[triangle];
+    const uint32_t texture =
+        group < mesh.group_textures.size() ? mesh.group_textures[group] : kNoTexture;
+    const bool has_places = std::max({uvs.x, uvs.y, uvs.z}) < mesh.uvs.size();
+    return texture < mesh.textures.size() && has_places ? texture : kNoTexture;
+}
+
+/// The colour of a triangle's corner in sRGB, white where the mesh has no colours.
+uint32_t corner_color(const Mesh& mesh, size_t triangle, int corner) {
+    if (mesh.vertex_colors.empty()) return 0xFFFFFF;
+    const auto& numbers = mesh.triangle_colors.empty() ? mesh.triangles : mesh.triangle_colors;
+    const glm::vec3& color = mesh.vertex_colors[numbers[triangle][corner]];
+    return uint32_t(srgb_code(color.x)) | uint32_t(srgb_code(color.y)) << 8 |
+           uint32_t(srgb_code(color.z)) << 16;
+}
+
+/// Writes pieces of textures one behind the other, and hashes them.
+class TextureWriter {
+  public:
+    TextureWriter(const Device& device, uint64_t words)
+        : words_(device, "source textures", words), state_(XXH3_createState(), XXH3_freeState) {
+        XXH3_64bits_reset(state_.get());
+    }
+
+    void write(std::span<const uint32_t> words) {
+        words_.write(words, place_);
+        XXH3_64bits_update(state_.get(), words.data(), words.size_bytes());
+        place_ += words.size();
+    }
+
+    size_t place() const { return place_; }
+
+    void store(BrickGrid& grid) {
+        grid.textures = std::move(words_);
+        grid.texture_key = XXH3_64bits_digest(state_.get());
+    }
+
+  private:
+    Buffer<uint32_t> words_;
+    size_t place_ = 0;
+    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+};
+
+/// Writes all textures; returns where each begins.
+std::vector<uint32_t> write_textures(VoxelizeJob& job, const Mesh& mesh) {
+    uint64_t texels = 0;
+    for (const Texture& texture : mesh.textures) texels += texture.image->texels.size();
+    const uint64_t words = texture_words(texels, mesh.textures.size());
+    if (words > kMaxTextureWords)
+        throw Error(ErrorKind::limit, "the mesh has textures of {} texels, more than 2^31", texels);
+    TextureWriter writer(job.device, words);
+    std::vector<uint32_t> curve;
+    for (const float level : srgb_levels()) curve.push_back(std::bit_cast<uint32_t>(level));
+    writer.write(curve);
+    std::vector<uint32_t> places;
+    places.reserve(mesh.textures.size());
+    for (const Texture& texture : mesh.textures) {
+        const TextureImage& image = *texture.image;
+        places.push_back(uint32_t(writer.place()));
+        const uint32_t head[VXL_TEXTURE_HEAD] = {
+            uint32_t(image.width), uint32_t(image.height),
+            uint32_t(texture.wrap_u) | uint32_t(texture.wrap_v) << VXL_TEXTURE_WRAP_V_SHIFT,
+            texture.alpha};
+        job.grid.texture_alpha |= texture.alpha != kAlphaOpaque;
+        writer.write(head);
+        writer.write(image.texels);
+    }
+    writer.store(job.grid);
+    return places;
+}
+
+}  // namespace
+
+uint64_t texture_words(uint64_t texels, uint64_t textures) {
+    return VXL_TEXTURE_CURVE + textures * VXL_TEXTURE_HEAD + texels;
+}
+
+void keep_textures(VoxelizeJob& job, const Mesh& mesh) {
+    if (mesh.textures.empty()) return;
+    const std::vector<uint32_t> places = write_textures(job, mesh);
+    const auto& numbers = mesh.triangle_uvs.empty() ? mesh.triangles : mesh.triangle_uvs;
+    std::vector<uint32_t> words;
+    words.reserve(mesh.triangles.size() * VXL_WORN_WORDS);
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const uint32_t texture = texture_of(mesh, i, numbers[i]);
+        for (int corner = 0; corner < 3; ++corner)
+            for (int axis = 0; axis < 2; ++axis) {
+                const float at = texture == kNoTexture ? 0 : mesh.uvs[numbers[i][corner]][axis];
+                words.push_back(std::bit_cast<uint32_t>(at));
+            }
+        words.push_back(texture == kNoTexture ? VXL_NO_TEXTURE : places[texture]);
+        for (int corner = 0; corner < 3; ++corner) words.push_back(corner_color(mesh, i, corner));
+    }
+    job.grid.triangle_textures =
+        Buffer<uint32_t>(job.device, "source texture places", std::span<const uint32_t>(words));
+}
+
+}  // namespace voxelume

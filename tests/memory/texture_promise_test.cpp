@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `check` promises of the memory of textures that exact meshes wear, which copies share.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runtime/analysis/culling.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+class TexturePromise : public FileTest {
+  protected:
+    void SetUp() override {
+        FileTest::SetUp();
+        put_bytes(folder / "sheet.obj",
+                  "mtllib sheet.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvt 0 0\nvt 1 1\n"
+                  "usemtl m\nf 1/1 4/2 3/1\nf 1 3 2\n");
+        put_bytes(folder / "sheet.mtl", "newmtl m\nmap_Kd sheet.png\n");
+        Image image{1024, 512, {}, {}, {}};
+        for (const char* channel : {"R", "G", "B"})
+            image.planes[channel] = std::vector<float>(1024 * 512, 0.25f);
+        write_png(folder / "sheet.png", image);
+    }
+
+    Scene copies(const char* placement, int count) const {
+        std::string objects;
+        for (int i = 0; i < count; ++i)
+            objects +=
+                fmt::format(R"({}{{"model": "sheet", "placement": "{}", "position": [0, {}, 0]}})",
+                            i == 0 ? "" : ", ", placement, 0.2 * i);
+        return parse_scene(
+            fmt::format(
+                R"({{"voxelume": 1, "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1.1, -0.1, -1.1], "max": [1.1, 0.9, 1.1]}}}},
+"materials": {{"default": {{}}}},
+"models": {{"sheet": {{"mesh": "sheet.obj", "surface": "exact", "voxel_size": 0.05}}}},
+"objects": [{}], "lights": [],
+"observer": {{"position": [0.2, 1.5, -2.5], "look_at": [0, 0.2, 0],
+             "display": {{"shape": "pyramid", "angles": [50, 40]}}}},
+"render": {{"size": [64, 48]}}}})",
+                objects),
+            folder / "scene.json", {});
+    }
+};
+
+TEST_F(TexturePromise, IsKeptForCopiesInTheWorldAndAsInstances) {
+    for (const char* placement : {"world", "instance"}) {
+        double one = 0;
+        for (const int count : {1, 4}) {
+            Scene scene = copies(placement, count);
+            const Device device = test_device();
+            AssetStore meshes;
+            find_potentially_visible(scene, std::vector<int>{1}, meshes);
+            const FramePlan planned =
+                plan_frames(scene, std::vector<int>{1}, meshes, device.info());
+            const double promise = planned.plan.run_bytes(1, double(device.info().memory));
+            RenderReport report;
+            render(device, scene, report);
+            const auto fact = double(device.counters().peak_bytes);
+            EXPECT_GE(promise, fact) << placement << count;
+            EXPECT_LE(promise, 1.5 * fact) << placement << count;
+            if (count == 1) one = fact;
+            const double most = placement == std::string("instance") ? 1.3 * one : INFINITY;
+            EXPECT_LT(fact, most) << count;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
