@@ -126,7 +126,8 @@ static inline TextureArea area_of(const WorldView* world, const ShadedHit* h, la
         some, exact_reciprocal(LANES_SELECT(some, squared, (lane_float)1.0f)), (lane_float)0.0f);
     global const float* places = (global const float*)world->surface.triangle_textures;
     lane_float u[3], v[3];
-    TextureArea area = {(lane_float)0.0f, (lane_float)0.0f};
+    TextureArea area;
+    area.u = area.v = (lane_float)0.0f;
     for (uint i = 0; i < 3; ++i) {
         u[i] = LANES_GATHER_FLOAT(places, worn + (VXL_WORN_UVS + 2u * i));
         v[i] = LANES_GATHER_FLOAT(places, worn + (VXL_WORN_UVS + 2u * i + 1u));
