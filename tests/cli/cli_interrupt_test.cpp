@@ -57,7 +57,7 @@ TEST_F(CliInterruptTest, TwoSignalsTogetherAreOne) {
         "sh -c '(sleep 3; kill -INT $$; sleep 0.02; kill -INT $$) & exec voxelume render "
         "scene.json -q -o f.##.exr'");
     EXPECT_EQ(result.exit_code, 130) << result.err;
-    EXPECT_THAT(result.err, testing::MatchesRegex("\\n?voxelume: [^\\n]+\\n"));
+    EXPECT_THAT(result.err, testing::MatchesRegex("\n?voxelume: [^\n]+\n"));
     EXPECT_THAT(leftovers(), testing::IsEmpty());
 }
 
