@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <sstream>
 #include <thread>
@@ -15,17 +14,16 @@
 #include "cli/build_facts.hpp"
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "cli/doctor_pictures.hpp"
+#include "cli/doctor_tests.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/report.hpp"
 #include "cli/warnings.hpp"
-#include "runtime/voxelume_verify.hpp"
+#include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kRays = 1e4;  // of each test: seconds on a CPU whose kernels are compiled
 
 struct DoctorCommand {
     std::string device;
@@ -106,40 +104,6 @@ Report device_row(const DeviceInfo& info) {
             {"state", info.is_usable() ? "usable" : info.unusable_because}};
 }
 
-/// Cases of every stress test on a device, and whether all came out right.
-Report test_rows(const Device& device, bool& is_right) {
-    Report rows = Report::array();
-    for (const StressTest& test : stress_tests()) {
-        StressOptions options;
-        options.count = std::max<uint64_t>(1, uint64_t(kRays) / test.rays_per_case);
-        const StressResult result = run_stress(test.name, device, options);
-        is_right &= result.mismatches == 0;
-        rows.push_back(
-            {{"self-test", test.name}, {"cases", result.cases}, {"mismatches", result.mismatches}});
-    }
-    return rows;
-}
-
-/// The hashes of pictures on a device, and whether all are those that are known.
-Report picture_rows(const Device& device, bool as_json, bool& is_right) {
-    Report rows = Report::array();
-    std::map<std::string, uint64_t> launches;
-    for (const KnownPicture& picture : known_pictures()) {
-        const PictureResult result = render_known(picture, device, launches);
-        const bool is_known = result.hash == picture.hash;
-        is_right &= is_known;
-        Report row = {{"picture", picture.name},
-                      {"hash", result.hash},
-                      {"state", is_known ? "as known" : fmt::format("wrong: {}", picture.hash)}};
-        if (as_json)
-            row["kernels"] = result.kernels;
-        else
-            row["kernels"] = result.kernels.size();
-        rows.push_back(row);
-    }
-    return rows;
-}
-
 int run(const DoctorCommand& command) {
     Report report = system_report();
     report.update(cache_report(command.json));
@@ -149,11 +113,14 @@ int run(const DoctorCommand& command) {
     std::string fault;
     if (!command.no_test) {
         try {
+            const Interruptible interruptible;
             const Device device = Device::open(command.device);
             report["tested"] = device.info().name;
-            report["tests"] = test_rows(device, is_right);
-            report["pictures"] = picture_rows(device, command.json, is_right);
+            const DeviceTests tests = test_all_kernels(device, command.json, interruptible.stop());
+            report.update(tests.report);
+            is_right = tests.are_right;
         } catch (const Error& error) {
+            if (error.kind() == ErrorKind::cancelled) throw;
             report["tested"] = fault = error.what();
         }
     }

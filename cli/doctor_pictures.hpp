@@ -2,8 +2,8 @@
 // Pictures whose bits are known: what a device's kernels make of them, for `doctor`.
 #pragma once
 
-#include <cstdint>
-#include <map>
+#include <filesystem>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,21 +17,38 @@ struct KnownPicture {
     std::string_view name;
     std::string scene;       ///< JSON
     bool is_volume = false;  ///< its volumetric image
-    std::string_view hash;   ///< 16 hexadecimal digits
+    std::string_view hash;   ///< 16 hexadecimal digits, of all frames
 };
 
-/// Together they launch most kernels: not those for meshes, files of densities and beams.
+/// Together they launch every kernel that images take.
 std::vector<KnownPicture> known_pictures();
 
-/// What came of one.
-struct PictureResult {
-    std::string hash;
-    std::vector<std::string> kernels;  ///< that were launched
+/// A file that scenes of known pictures name.
+struct KnownFile {
+    std::string_view name;
+    std::string_view text;
 };
 
-/// Renders it, without the cache of models and worlds. `launches` counts those of each kernel since
-/// the device was opened. Throws Error as render_image does.
-PictureResult render_known(const KnownPicture& picture, const Device& device,
-                           std::map<std::string, uint64_t>& launches);
+std::vector<KnownFile> known_files();
+
+/// A folder for the files of the known pictures, which is removed with all that is in it.
+class KnownFiles {
+  public:
+    /// Writes the files into a new temporary folder. Throws Error::output if that fails.
+    KnownFiles();
+    ~KnownFiles();
+    KnownFiles(const KnownFiles&) = delete;
+    KnownFiles& operator=(const KnownFiles&) = delete;
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+/// Renders all frames of a picture, without the cache of models and worlds, and returns their hash.
+/// Throws Error as render_frames does.
+std::string hash_of_render(const KnownPicture& picture, const KnownFiles& files,
+                           const Device& device, const std::stop_token& stop);
 
 }  // namespace voxelume::cli

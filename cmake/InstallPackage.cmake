@@ -37,7 +37,9 @@ install(FILES ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake ${CMAKE_BINARY_DIR}/voxel
 
 # Scenes to begin with, their schema and their manual, and what they name.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume
-        PATTERN pictures EXCLUDE)
+        PATTERN pictures EXCLUDE PATTERN farm/*.sh EXCLUDE PATTERN farm/*.sbatch EXCLUDE)
+file(GLOB farm_programs CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scenes/farm/*.sh ${CMAKE_SOURCE_DIR}/scenes/farm/*.sbatch)
+install(PROGRAMS ${farm_programs} DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume/scenes/farm)
 
 # The prefix of voxelume.pc is found from where the file is, so that an installed tree can be moved.
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})

@@ -6,8 +6,8 @@
 #include "shared/voxel.h"
 
 // Copies one word.
-kernel void append_words(const uint count, const uint start, global const uint* restrict from,
-                         global uint* restrict to) {
+kernel void append_instance_words(const uint count, const uint start,
+                                  global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i];
 }
@@ -38,17 +38,17 @@ kernel void append_bricks(const uint count, const uint start, const uint first_l
 }
 
 // Copies one entry of a list of primitives with its new number.
-kernel void append_primitives(const uint count, const uint start, const uint first_triangle,
-                              const uint first_solid, global const uint* restrict from,
-                              global uint* restrict to) {
+kernel void append_instance_primitives(const uint count, const uint start,
+                                       const uint first_triangle, const uint first_solid,
+                                       global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i >= count) return;
     to[start + i] = from[i] + (from[i] & VXL_SOLID_PRIMITIVE ? first_solid : first_triangle);
 }
 
 // One word of what triangles wear; their textures begin by `first` later now.
-kernel void append_worn(const uint count, const uint start, const uint first,
-                        global const uint* restrict from, global uint* restrict to) {
+kernel void append_instance_worn(const uint count, const uint start, const uint first,
+                                 global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i >= count) return;
     const bool is_place = i % VXL_WORN_WORDS == VXL_WORN_TEXTURE && from[i] != VXL_NO_TEXTURE;

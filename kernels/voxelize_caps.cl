@@ -71,13 +71,14 @@ static inline uint brick_state(BrickFacts f, float caps, float margin) {
 ///
 /// Triangles cap_first .. cap_first + cap_count - 1 are the caps. The three tables give each bin's
 /// number among those with surface, with caps, and with either; the latter have winding numbers.
-kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
-                            VXL_MESH_PARAMETERS, global const uint* restrict surface_bins,
-                            global const uint* restrict cap_bins,
-                            global const uint* restrict any_bins,
-                            global const short* restrict winding,
-                            global const short* restrict carried,
-                            global const short* restrict passing, global uint* restrict states) {
+kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float radius,
+                                 VXL_MESH_PARAMETERS, global const uint* restrict surface_bins,
+                                 global const uint* restrict cap_bins,
+                                 global const uint* restrict any_bins,
+                                 global const short* restrict winding,
+                                 global const short* restrict carried,
+                                 global const short* restrict passing,
+                                 global uint* restrict states) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const LatticeMesh mesh = VXL_MESH;

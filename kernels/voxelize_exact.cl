@@ -35,9 +35,9 @@ static inline void list_triangle(uint number, const LatticeTriangle* t, int3 las
 }
 
 /// One work-item: one brick. Writes the number of triangles of each voxel, and of all together.
-kernel void count_primitives(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
-                             VXL_BINS_PARAMETERS, global uint* restrict counts,
-                             global uint* restrict totals) {
+kernel void count_brick_primitives(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
+                                   VXL_BINS_PARAMETERS, global uint* restrict counts,
+                                   global uint* restrict totals) {
     const uint slot = work_item();
     if (slot >= count) return;
     const LatticeMesh mesh = VXL_MESH;

@@ -19,9 +19,9 @@ static inline LatticePoint lattice_point(lane_int x, lane_int y, lane_int z, flo
 /// A work-item takes VXL_LANES bricks of the grid in order; `states` has room for whole groups. The
 /// reaches are half the diagonals of a brick and of a block, plus the distance that matters, in
 /// shortest edges: between two points the distance changes by no more than they are apart.
-kernel void classify_bricks(global const SolidShape* restrict solids, int4 bricks, uint brick_count,
-                            int of_nodes, float brick_reach, float block_reach,
-                            global uint* restrict states) {
+kernel void classify_solid_bricks(global const SolidShape* restrict solids, int4 bricks,
+                                  uint brick_count, int of_nodes, float brick_reach,
+                                  float block_reach, global uint* restrict states) {
     const uint first = work_item() * VXL_LANES;
     if (first >= brick_count) return;
     const lane_int brick = (lane_int)((int)first) + LANES_NUMBERS;
@@ -110,8 +110,8 @@ kernel void occupy_solid(global const SolidShape* restrict solids,
 }
 
 /// Counts the voxels of one stored brick.
-kernel void count_voxels(global const uint2* restrict occupancy, uint brick_count,
-                         global uint* restrict counts) {
+kernel void count_solid_voxels(global const uint2* restrict occupancy, uint brick_count,
+                               global uint* restrict counts) {
     const uint slot = work_item();
     if (slot >= brick_count) return;
     uint count = 0;

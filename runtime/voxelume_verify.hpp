@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -55,6 +56,23 @@ inline constexpr size_t kMaxStressExamples = 5;
 /// Error::usage for a name that there isn't, and Error as devices do.
 StressResult run_stress(const std::string& test, const Device& device,
                         const StressOptions& options);
+
+/// A kernel of the program. No two have one name.
+struct KernelName {
+    std::string name;
+    std::string file;  ///< below kernels/
+};
+
+/// All kernels, by file.
+std::vector<KernelName> kernel_names();
+
+/// How often each kernel was launched since the device was opened.
+std::map<std::string, uint64_t> launches_of(const Device& device);
+
+/// Asks a device again for arithmetic and walks whose answers are known, as it was asked when it
+/// was first opened. The first fault in words for people; empty if all answers are right. Throws
+/// Error as devices do.
+std::string fault_of_known_bits(const Device& device);
 
 /// A scene whose truth is known.
 struct BenchScene {

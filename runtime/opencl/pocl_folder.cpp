@@ -125,8 +125,12 @@ PoclFolder& PoclFolder::instance() {
 void PoclFolder::remove() {
     const PoclFolder* const folder = existing_folder;
     if (folder == nullptr || folder->folder_.empty()) return;
-    std::error_code ignored;
-    fs::remove_all(folder->folder_, ignored);
+    // PoCL may be compiling in another thread: what it writes while the folder is emptied ends the
+    // removal, so it takes several. The next run removes what is left nevertheless.
+    constexpr int kAttempts = 20;
+    std::error_code error;
+    for (int i = 0; i < kAttempts && fs::exists(folder->folder_, error); ++i)
+        fs::remove_all(folder->folder_, error);
 }
 
 PoclFolder::PoclFolder() : process_(getpid()) {

@@ -42,4 +42,10 @@ expect 5 "b.vdb: can't be written: $gone" voxelize no.obj -o b.vdb
 expect 5 "b.1.vdb: can't be written: $gone" render "$scenes/turntable.json" --frames 1 --volume b.#.vdb
 expect 0 '' voxelize a.obj --resolution 16 -o a.vxm -q
 expect 0 'voxelized model' info a.vxm
+
+for script in share/voxelume/scenes/farm/{parallel.sh,slurm_submit.sh,slurm_part.sbatch,slurm_merge.sbatch}; do
+    [ -x "$script" ] && continue
+    echo "$script isn't a program"
+    failed=1
+done
 exit "$failed"

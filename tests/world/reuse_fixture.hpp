@@ -105,9 +105,9 @@ inline const Kernels kShade = {"absorb_shadows", "absorb_sight",  "add_light",
                                "shade_surface",  "trace_shadows"};
 inline const Kernels kTrace = all_of({kShade, {"cast_sight", "trace_closest"}});
 // Joins the models of instances to the world's voxels.
-inline const Kernels kJoin = all_of(
-    {kTrace,
-     {"append_bricks", "append_copies", "append_numbers", "append_primitives", "append_words"}});
+inline const Kernels kJoin = all_of({kTrace,
+                                     {"append_bricks", "append_copies", "append_numbers",
+                                      "append_instance_primitives", "append_instance_words"}});
 // Where something lets light through, rays continue, and shadow rays lose light where they are
 // traced.
 inline const Kernels kPaths = {
@@ -128,7 +128,7 @@ inline const Kernels kSmooth = all_of(
     {kUnite,
      {"classify_bricks", "clear_bricks", "close_distances", "mark_voxels", "paint_distances"}});
 inline const Kernels kNewCubes = all_of({kCubes, {"occupy_solid", "mark_near_leaves"}});
-inline const Kernels kNewExact = all_of({kNewCubes, {"count_voxels", "number_voxels"}});
+inline const Kernels kNewExact = all_of({kNewCubes, {"count_solid_voxels", "number_voxels"}});
 inline const Kernels kNewSmooth = all_of({kSmooth, {"mark_near_leaves"}});
 inline const Kernels kNewMesh =
     all_of({kNewSmooth,

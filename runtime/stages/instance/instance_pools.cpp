@@ -166,7 +166,7 @@ class Joiner {
   private:
     template <class T>
     void words(const Buffer<T>& from, uint64_t start, const Buffer<T>& to) {
-        program_.kernel("append_words")
+        program_.kernel("append_instance_words")
             .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start),
                     Words(from), Words(to));
     }
@@ -217,7 +217,7 @@ class Joiner {
 
     void append_primitives(const Pyramid& p) {
         if (p.primitive_first.empty()) return;
-        program_.kernel("append_primitives")
+        program_.kernel("append_instance_primitives")
             .launch(WorkItem::light, p.primitives.size(), uint32_t(p.primitives.size()),
                     uint32_t(full_.primitives), uint32_t(full_.triangles), uint32_t(full_.solids),
                     p.primitives, joined_.primitives);
@@ -248,7 +248,7 @@ class Joiner {
         const bool is_new = textures_.add(p.texture_key, p.textures.size());
         const uint64_t place = textures_.place(p.texture_key, p.textures.size());
         if (is_new) words(p.textures, place, joined_.textures);
-        program_.kernel("append_worn")
+        program_.kernel("append_instance_worn")
             .launch(WorkItem::light, worn, uint32_t(worn), uint32_t(start), uint32_t(place),
                     p.triangle_textures, joined_.triangle_textures);
     }

@@ -29,7 +29,7 @@ std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
     const glm::vec4 scale = edge_scale(job.grid.frame);
     const float radius = 0.5f * kBrickSize * glm::length(glm::vec3(scale));
     states = Buffer<uint32_t>(job.device, "brick states", count);
-    caps.kernel("classify_bricks")
+    caps.kernel("classify_open_bricks")
         .launch(WorkItem::heavy, (count + lanes - 1) / lanes, count, job.bricks, scale, radius,
                 job.caps, job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin,
                 w.numbers, w.carried, w.passing, states);

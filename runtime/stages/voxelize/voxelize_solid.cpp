@@ -77,7 +77,7 @@ class SolidVoxelizer {
         const uint32_t items = (count + lanes - 1) / lanes;
         const double band = of_nodes ? kBand : 0.0, less = of_nodes ? 1.0 : 0.0;
         Buffer<uint32_t> states(device_, "brick states", items * lanes);
-        code_.kernel("classify_bricks")
+        code_.kernel("classify_solid_bricks")
             .launch(WorkItem::light, items, solids_, int4_of(bricks), count, cl_int{of_nodes},
                     reach(kBrickSize - less, band), reach(kLeafSize - less, band), states);
 
@@ -174,7 +174,7 @@ class SolidVoxelizer {
     void list_primitives() {
         const uint32_t bricks = grid_.brick_count;
         Buffer<uint32_t> counts(device_, "voxels of bricks", bricks);
-        code_.kernel("count_voxels")
+        code_.kernel("count_solid_voxels")
             .launch(WorkItem::light, bricks, grid_.occupancy, bricks, counts);
         std::vector<uint32_t> firsts = counts.read();
         firsts.push_back(0);

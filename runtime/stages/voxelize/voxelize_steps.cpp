@@ -83,7 +83,7 @@ void list_primitives(VoxelizeJob& job, const Program& exact) {
     const uint32_t count = job.bins.stored;
     job.grid.primitive_first = allocate_list_starts(job.device, "primitive starts", count);
     Buffer<uint32_t> totals(job.device, "primitive totals", count);
-    exact.kernel("count_primitives")
+    exact.kernel("count_brick_primitives")
         .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles, job.bins,
                 job.grid.primitive_first, totals);
     std::vector<uint32_t> bases = totals.read();

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels that there are, and what devices have launched of them, for callers.
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
+#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/self_test.hpp"
+#include "runtime/voxelume_verify.hpp"
+
+namespace voxelume::v1 {
+namespace {
+
+constexpr std::string_view kBegin = "\nkernel void ";
+
+void add_kernels(const std::string& file, std::string_view text, std::vector<KernelName>& names) {
+    for (size_t at = text.find(kBegin); at != text.npos; at = text.find(kBegin, at + 1)) {
+        const size_t first = at + kBegin.size();
+        names.push_back({std::string(text.substr(first, text.find('(', first) - first)), file});
+    }
+}
+
+}  // namespace
+
+std::vector<KernelName> kernel_names() {
+    std::vector<KernelName> names;
+    for (const auto& [file, text] : embedded_kernels()) add_kernels(file, text, names);
+    return names;
+}
+
+std::map<std::string, uint64_t> launches_of(const Device& device) {
+    return api::guarded([&] {
+        const voxelume::Device& inside = api::inside(device);
+        const auto locked = inside.lock();
+        return inside.counters().launches;
+    });
+}
+
+std::string fault_of_known_bits(const Device& device) {
+    return api::guarded([&] { return find_fault(api::inside(device)); });
+}
+
+}  // namespace voxelume::v1
