@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -60,6 +61,17 @@ void handle(int number) {
     sigaction(number, &action, nullptr);
 }
 
+/// PoCL aborts the program where its linker, a process of its own in the program's group, was ended
+/// by the signal that interrupts the program. So the thread that aborts waits for the other to end
+/// the program in order. The system's own action follows if the program isn't interrupted.
+void await_interruption(int number) {
+    constexpr int kSteps = 30;
+    constexpr timespec kStep{0, 10'000'000};
+    for (int i = 0; i < kSteps && signal_number == 0; ++i) nanosleep(&kStep, nullptr);
+    while (signal_number != 0) pause();
+    std::signal(number, SIG_DFL);
+}
+
 /// What the program says when it ends in the middle of something.
 void tell() {
     tell_interruption([] {
@@ -93,6 +105,7 @@ void handle_interrupts() {
     stop_source();
     handle(SIGINT);
     handle(SIGTERM);
+    std::signal(SIGABRT, await_interruption);
     std::thread(wait_for_signal).detach();  // ignores what the first thread ignores
 }
 

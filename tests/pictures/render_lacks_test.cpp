@@ -52,10 +52,11 @@ TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
     if (device.is_cpu()) expected.insert("VXL_NATIVE_DIVIDE");
     for (const auto& [name, value] : features.defines(device))
         EXPECT_EQ(value != 0, expected.contains(name)) << name;
-    EXPECT_THAT(names(r.counters.launches),
-                ElementsAre("cast_sight", "classify_bricks", "clear_bricks", "mark_near_leaves",
-                            "mark_voxels", "occupy_solid", "paint_cubes", "resolve_pixels",
-                            "shade_surface", "trace_closest", "write_voxels"));
+    EXPECT_THAT(
+        names(r.counters.launches),
+        ElementsAre("cast_sight", "classify_bricks", "classify_solid_bricks", "clear_bricks",
+                    "mark_near_leaves", "mark_voxels", "occupy_solid", "paint_cubes",
+                    "resolve_pixels", "shade_surface", "trace_closest", "write_voxels"));
     EXPECT_THAT(
         names(r.counters.allocated_bytes),
         ElementsAre("brick records", "brick states", "cleared bricks", "coordinates",

@@ -111,10 +111,12 @@ inline const Kernels kJoin = all_of({kTrace,
 // Where something lets light through, rays continue, and shadow rays lose light where they are
 // traced.
 inline const Kernels kPaths = {
-    "absorb_sight",   "add_light",         "append_bricks", "append_copies",
-    "append_numbers", "append_primitives", "append_words",  "begin_paths",
-    "cast_sight",     "find_surface",      "list_emissive", "pass_layer",
-    "resolve_pixels", "shade_surface",     "trace_closest", "trace_shadows"};
+    "absorb_sight",          "add_light",      "append_bricks",
+    "append_copies",         "append_numbers", "append_instance_primitives",
+    "append_instance_words", "begin_paths",    "cast_sight",
+    "find_surface",          "list_emissive",  "pass_layer",
+    "resolve_pixels",        "shade_surface",  "trace_closest",
+    "trace_shadows"};
 // Unites the fields of smooth objects with the other voxels.
 inline const Kernels kUnite =
     all_of({kJoin, {"append_masks", "unite_marks", "write_fields", "write_united"}});
@@ -122,12 +124,14 @@ inline const Kernels kUnite =
 inline const Kernels kEmpty = all_of(
     {kUnite,
      {"classify_bricks", "count_primitives", "sum_counts", "start_lists", "set_solid_attributes"}});
-inline const Kernels kCubes = all_of({kEmpty, {"clear_bricks", "paint_cubes"}});
+inline const Kernels kCubes =
+    all_of({kEmpty, {"append_primitives", "append_words", "clear_bricks", "paint_cubes"}});
 // Builds the field of one object.
 inline const Kernels kSmooth = all_of(
     {kUnite,
      {"classify_bricks", "clear_bricks", "close_distances", "mark_voxels", "paint_distances"}});
-inline const Kernels kNewCubes = all_of({kCubes, {"occupy_solid", "mark_near_leaves"}});
+inline const Kernels kNewCubes =
+    all_of({kCubes, {"classify_solid_bricks", "occupy_solid", "mark_near_leaves"}});
 inline const Kernels kNewExact = all_of({kNewCubes, {"count_solid_voxels", "number_voxels"}});
 inline const Kernels kNewSmooth = all_of({kSmooth, {"mark_near_leaves"}});
 inline const Kernels kNewMesh =

@@ -159,7 +159,8 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"SmoothTurn", "objects.gem.turn", "[0, 0, 0]", "[90, 0, 0]", kSmooth,
                WorldChange::built, false, 0, 8},
         Change{"SmoothScale", "objects.ball.scale", "1", "0.5",
-               all_of({kNewSmooth, {"sample_solid"}}), WorldChange::built, false, 1, 8},
+               all_of({kNewSmooth, {"classify_solid_bricks", "sample_solid"}}), WorldChange::built,
+               false, 1, 8},
         Change{"SmoothScaleALittle", "objects.ball.scale", "0.95", "0.9", kSmooth,
                WorldChange::built, false, 0, 8},
         Change{"Lamp", "objects.lamp.position", "[0.8, 0, -0.8]", "[1.6, 0, -0.8]", kSmooth,
@@ -175,7 +176,8 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"Material", "objects.ball.material", "\"red\"", "\"blue\"", kSmooth,
                WorldChange::built, false, 0, 8},
         Change{"ModelSwap", "objects.ball.model", "\"ball\"", "\"small\"",
-               all_of({kNewSmooth, {"sample_solid"}}), WorldChange::built, false, 1, 8},
+               all_of({kNewSmooth, {"classify_solid_bricks", "sample_solid"}}), WorldChange::built,
+               false, 1, 8},
         Change{"Measure", "models.block.size", "[0.4, 0.3, 0.2]", "[0.3, 0.3, 0.2]", kNewCubes,
                WorldChange::built, false, 1, 1},
         Change{"ExactMeasure", "models.stone.radii", "[0.3, 0.2, 0.25]", "[0.2, 0.2, 0.25]",
@@ -217,8 +219,8 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"EmissionAgain0", "materials.fog.emission", "[1, 2, 1]", "[0, 0, 0]", kShade,
                WorldChange::none, true, 0, 0, 0, kRedBall, kFogBall},
         Change{"Cut", "models.drilled.cut[0].radius", "0.1", "0.12",
-               all_of({kNewSmooth, {"sample_solid", "join_distances"}}), WorldChange::built, false,
-               1, 8}),
+               all_of({kNewSmooth, {"classify_solid_bricks", "sample_solid", "join_distances"}}),
+               WorldChange::built, false, 1, 8}),
     [](const auto& change) { return std::string(change.param.name); });
 
 }  // namespace
