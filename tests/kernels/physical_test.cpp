@@ -40,11 +40,7 @@ static PhysicalView view_at(global const float* materials, lane_float cosine) {
     const Vector out = {exact_sqrt(1.0f - cosine * cosine), (lane_float)0.0f, cosine};
     const Colors none = {0, 0, (lane_uint)0};
     return view_physical(materials, (lane_int)-1, (lane_uint)0, (lane_uint)0, none, n,
-<<<<<<< ours
-                         out_of_frame(&f, out));
-=======
                          out_of_frame(&f, out), (lane_int)0);
->>>>>>> theirs
 }
 kernel void value_surface(global const float* materials, uint count, global const float* outs,
                           global const float* ins, uint stride, global float* values) {
