@@ -82,11 +82,14 @@ std::vector<std::string> shipped_scenes() {
 class ShippedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedScene, TakesWhatIsPromised) {
-    const Scene scene = small_scene(GetParam(), {96, 72}, 128);
-    if (moves(scene))
+    Scene scene = small_scene(GetParam(), {96, 72}, 128);
+    if (moves(scene)) {
+        // A frame takes longer to render than the next one's world to form, so that they overlap.
+        scene.render.size = {240, 180};
         expect_frames_kept(GetParam(), scene, {1, 2, 3});
-    else
+    } else {
         expect_image_kept(GetParam(), scene);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::ValuesIn(shipped_scenes()),
