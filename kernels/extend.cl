@@ -6,8 +6,8 @@
 // into. Emission is found in both ways, which share it: lib/light/emission_share.h.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
-#include "lib/light/emitters.h"
 #include "lib/light/layer.h"
+#include "lib/light/light_rays.h"
 #include "lib/light/lobes.h"
 #include "lib/light/next_rays.h"
 #include "lib/light/path_samples.h"
@@ -79,18 +79,16 @@ static inline void return_physically(const ScatterPoint* p, const PhysicalView* 
     }
 }
 
-/// Fills rays from surfaces to emitters, but for their state and target. Their throughput is
-/// that of the path for light from there, times the share of it that falls to these rays.
-/// Returns the mask of rays to send.
+/// Fills rays from surfaces to emitters or the sky, but for their state and target. Their
+/// throughput is that of the path for light from there, times the share of it that falls to these
+/// rays. Returns the mask of rays to send.
 static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings* around,
                                          const ScatterPoint* p, const RayBatch* batch, uint first,
                                          const Lobes* lobes, const lane_float* throughput,
                                          lane_float chance, const PathSamples* samples,
-                                         const Emitters* emitters, const PhysicalView* view,
-                                         NewRays* r) {
+                                         const Emitters* emitters, const SkyMap* sky,
+                                         const PhysicalView* view, NewRays* r) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    const SquareBits choice = path_bits(samples, VXL_DECISION_EMITTER);
-    const SquarePoint place = path_point(samples, VXL_DECISION_EMITTER_POINT);
     Choice way;
     way.diffuse = p->hit & LANE_MASK(largest(lobes->diffuse) > 0.0f);
     way.reflected = way.refracted = way.straight = (lane_int)0;
@@ -98,7 +96,7 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
     way.chance = zero;
     const ScatteredWay nowhere = no_scattered_way(p);
     *r = next_rays_of(shape, around, p, batch, first, &way, &nowhere);
-    const EmitterRays s = choose_emitter(emitters, r->origin, shape.edge, choice, place);
+    const EmitterRays s = choose_light(emitters, sky, samples, r->origin, shape.edge);
     lane_int above;
     const lane_float cosine = cosine_at(p, batch, first, s.direction, &above) * 0.318309886f;
     lane_float likely = cosine, returned[3] = {cosine, cosine, cosine};
@@ -106,7 +104,8 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
         return_physically(p, view, s.direction, &likely, returned, &above);
     const lane_int wanted = way.diffuse & s.found & above;
     lane_float density = s.density;
-    if (VXL_EMITTERS == VXL_EMITTERS_BOTH) density += chance * likely;
+    if ((VXL_EMITTERS == VXL_EMITTERS_BOTH) | (VXL_SKY_RAYS == VXL_EMITTERS_BOTH))
+        density += chance * likely;
     const lane_float safe = LANES_SELECT(wanted, density, one);
     for (int c = 0; c < 3; ++c)
         r->throughput[c] = LANES_SELECT(
@@ -115,7 +114,9 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
     set_out_child(r, shape,
                   offset_origin(shape, p->position, p->normal, batch->hits, batch->stride, first),
                   p->normal, ahead);
-    r->t_end = LANES_SELECT(wanted, t_after(s.metres, r->direction, shape.edge), r->t_end);
+    const lane_int ends = wanted & LANE_MASK(s.number != VXL_EMITTER_IS_SKY);
+    const lane_float metres = LANES_SELECT(ends, s.metres, one);
+    r->t_end = LANES_SELECT(ends, t_after(metres, r->direction, shape.edge), r->t_end);
     r->emitter = s.number;
     r->clear = zero;
     return wanted;
@@ -149,11 +150,11 @@ static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_
 /// and sends each path on along one way, unless it ends, and a ray to an emitter. `entries` of the
 /// batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
 /// emitters may be entries, too.
-kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
-                         global const uint* restrict colors, PathSampling sampling, uint is_first,
-                         VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
-                         global uint* restrict counters, VXL_QUEUE_PARAMETERS,
-                         VXL_EMITTER_PARAMETERS VXL_EMITTER_QUEUE_PARAMETERS) {
+kernel void extend_paths(
+    PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, global const uint* restrict colors,
+    PathSampling sampling, uint is_first, VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
+    global uint* restrict counters, VXL_QUEUE_PARAMETERS,
+    VXL_EMITTER_PARAMETERS VXL_SOUGHT_SKY_PARAMETERS VXL_EMITTER_QUEUE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -190,12 +191,14 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
 
     // Misses, last bounces and the rays sent themselves scatter nothing.
     const Emitters table = VXL_EMITTER_TABLE;
-    if (VXL_EMITTERS && table.count && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
+    const SkyMap sky = VXL_SOUGHT_SKY;
+    const bool finds_light = VXL_SKY_RAYS ? true : table.count > 0u;
+    if (VXL_LOOKS && finds_light && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
         const lane_int wanted =
             look_for_emitters(shape, &around, &p, &batch, first, &lobes, throughput, way.chance,
-                              &samples, &table, &view, &ray);
+                              &samples, &table, &sky, &view, &ray);
         send_to_emitters(&sent, wanted, target, state, sampling.bounces, &ray, counters);
     }
 
@@ -206,6 +209,11 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
         matt = scatter_by(&p, &batch, first, &view, path_point(&samples, VXL_DECISION_DIRECTION),
                           layer);
         if (VXL_PHYSICAL) way.diffuse &= ~matt.is | matt.lives;
+        if (VXL_ROUGH_GLASS) {
+            matt.through &= way.diffuse;
+            way.refracted |= matt.through;
+            way.diffuse &= ~matt.through;
+        }
     }
     const lane_int scattered = way.diffuse | way.reflected | way.refracted;
     const lane_int goes_on = scattered | way.straight;
@@ -214,7 +222,7 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     ray.target = target;
     ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
     ray.state = state_after(&way, scattered, state);
-    if (VXL_EMITTERS)
+    if (VXL_LOOKS)
         ray.emitter = LANES_SELECT(scattered, ray.emitter,
                                    LANES_LOAD(paths, VXL_PATH_EMITTER * stride + first));
     const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);

@@ -128,7 +128,7 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
     depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
     lane_float shows = (lane_float)1.0f;  // the medium's own light
-    if (VXL_EMITTERS) {
+    if (VXL_LOOKS) {
         const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
         shows =
             LANES_SELECT(LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u), (lane_float)0.0f, shows);
@@ -143,7 +143,7 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
         lane_float shown = (lane_float)color[channel];
-        if (VXL_EMITTERS) shown *= shows;
+        if (VXL_LOOKS) shown *= shows;
         if (VXL_TRANSMISSION && lanes_any(in_object)) {
             const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
             const lane_uint from =

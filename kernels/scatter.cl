@@ -42,8 +42,7 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
                 VXL_PATH_TARGET * batch.stride + first);
     for (uint c = 0; c < 3; ++c)
         LANES_STORE(one, batch.paths, (VXL_PATH_THROUGHPUT + c) * batch.stride + first);
-    if (VXL_EMITTERS)
-        LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_EMITTER * batch.stride + first);
+    if (VXL_LOOKS) LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_EMITTER * batch.stride + first);
     if (VXL_TRAVELS)
         LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_TRAVELLED * batch.stride + first);
     if (!VXL_TRANSMISSION) return;

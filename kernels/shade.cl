@@ -170,7 +170,7 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
 
 /// Starts the radiance of the rays.
 static inline void store_own_light(const WorldView* world, const ShadedHit* h,
-                                   Environment environment, global const SkyRecord* restrict sky,
+                                   Environment environment, const SkyView* sky, uint from_observer,
                                    const Emitters* emitters, Vector position, lane_float opacity,
                                    lane_uint material, global const float* restrict materials,
                                    Colors colors, const RayBatch* batch, uint first) {
@@ -180,11 +180,12 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                             (lane_float)environment.background.y,
                             (lane_float)environment.background.z};
     if (VXL_SKY != VXL_SKY_NONE && lanes_any(~h->hit))
-        see_sky(h->hit, h->world_way, world->shape.edge, sky, batch, first, around);
+        see_sky(h->hit, h->world_way, world->shape.edge, sky, batch, first, from_observer, around);
     lane_float counts = (lane_float)1.0f;
-    lane_int looks = (lane_int)0;
+    lane_int looks = (lane_int)0, to_sky = (lane_int)0;
+    if (VXL_LOOKS) looks = looks_for_emitter(batch, first);
+    if (VXL_SKY_RAYS) to_sky = looks & goes_to_sky(batch, first);
     if (VXL_EMITTERS) {
-        looks = looks_for_emitter(batch, first);
         counts = emission_share(emitters, h, world->shape.edge, batch, first,
                                 looks | (h->hit & emits_light(materials, material)));
     }
@@ -193,10 +194,10 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
         const lane_float color = surface_color(materials, place, colors, channel);
         lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
-        if (VXL_EMITTERS) {
-            emission *= counts;
-            around[channel] = LANES_SELECT(looks, (lane_float)0.0f, around[channel]);
-        }
+        if (VXL_EMITTERS) emission *= counts;
+        if (VXL_SKY_RAYS) emission = LANES_SELECT(to_sky, (lane_float)0.0f, emission);
+        if (VXL_LOOKS)
+            around[channel] = LANES_SELECT(looks & ~to_sky, (lane_float)0.0f, around[channel]);
         const lane_float own = fma(color * diffuse, ambient[channel], emission) * opacity;
         LANES_STORE(LANES_SELECT(h->hit, own, around[channel]), batch->radiance,
                     (uint)channel * batch->stride + first);
@@ -205,10 +206,10 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 
 /// Writes what is asked for of every hit: its point, normal, packed attributes and `sides`, and in
 /// `radiance` its ambient light and emission, or what is around the world.
-kernel void shade_surface(
-    VXL_WORLD_PARAMETERS, Environment environment, global const SkyRecord* restrict sky,
-    VXL_EMITTER_PARAMETERS VXL_FOOTPRINT_PARAMETER global const float* restrict materials,
-    global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
+kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
+                          VXL_SKY_PARAMETERS VXL_SKY_DEPTH_PARAMETER VXL_EMITTER_PARAMETERS
+                              VXL_FOOTPRINT_PARAMETER global const float* restrict materials,
+                          global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const WorldView world = VXL_WORLD;
@@ -240,6 +241,7 @@ kernel void shade_surface(
     }
     if (VXL_PATHS) LANES_STORE(side, sides, first);
     const Emitters table = VXL_EMITTER_TABLE;
-    store_own_light(&world, &h, environment, sky, &table, position, opacity, material, materials,
-                    own, &batch, first);
+    const SkyView around = VXL_SKY_VIEW;
+    store_own_light(&world, &h, environment, &around, VXL_FROM_OBSERVER, &table, position, opacity,
+                    material, materials, own, &batch, first);
 }

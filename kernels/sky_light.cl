@@ -5,23 +5,55 @@
 #include "lib/light/directions.h"
 #include "lib/light/sky.h"
 
+/// A number that is the same for the same points, in every image.
+static inline lane_uint seed_of_place(Vector position) {
+    const lane_uint place =
+        mixed_bits(mixed_bits(LANES_AS_UINT(position.x)) + LANES_AS_UINT(position.y));
+    return decision_seed(place, LANES_AS_UINT(position.z));
+}
+
+/// Of a map, a direction as probable as bright, or one as dense as the cosine with the normal, by
+/// turns; sets its `weight` over the number of directions, by which both ways share all light.
+static inline Vector direction_to_map(const SkyMap* map, Vector normal, uint number,
+                                      uint directions, lane_uint seed, lane_float* weight) {
+    const float to_map = (float)(directions / 2), evenly = (float)(directions - directions / 2);
+    Vector way;
+    lane_float density;
+    if (number & 1u) {
+        way = choose_sky_direction(map, sobol_bits((lane_uint)(number / 2), ~seed), &density);
+    } else {
+        way = cosine_direction(normal, sobol_point((lane_uint)(number / 2), seed));
+        density = sky_map_density(map, way);
+    }
+    const lane_float cosine = fmax(dot_product(normal, way), 0.0f) * 0.318309886f;
+    const lane_float all = fma((lane_float)evenly, cosine, to_map * density);
+    const lane_int some = LANE_MASK(all > 0.0f) & LANE_MASK(cosine > 0.0f);
+    *weight = LANES_SELECT(some, exact_divide(cosine, LANES_SELECT(some, all, (lane_float)1.0f)),
+                           (lane_float)0.0f);
+    return way;
+}
+
 /// Adds the sky's light from direction `number` of `directions` above each surface point. They are
-/// as dense as the cosine with the normal; the place of the point chooses them, so the same point
-/// has the same light in every image.
-kernel void add_sky_light(VXL_WORLD_PARAMETERS, global const SkyRecord* restrict sky, uint number,
-                          uint directions, global const float* restrict materials,
-                          VXL_SHADOW_QUEUE_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
+/// as dense as the cosine with the normal, half of those to a map as dense as it is bright; the
+/// place of the point chooses them, so the same point has the same light in every image.
+kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, uint directions,
+                          global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
+                          VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const WorldView world = VXL_WORLD;
     const RayBatch batch = VXL_BATCH;
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
+    const SkyView around = VXL_SKY_VIEW;
     LitPoints p;
     if (!load_lit_points(&world, &batch, first, &p)) return;
-    const lane_uint place =
-        mixed_bits(mixed_bits(LANES_AS_UINT(p.position.x)) + LANES_AS_UINT(p.position.y));
-    const lane_uint seed = decision_seed(place, LANES_AS_UINT(p.position.z));
-    const Vector way = cosine_direction(p.shading_normal, sobol_point((lane_uint)number, seed));
+    const lane_uint seed = seed_of_place(p.position);
+    lane_float weight = (lane_float)(1.0f / (float)directions);
+    Vector way;
+    if (VXL_SKY == VXL_SKY_MAP)
+        way = direction_to_map(&around.map, p.shading_normal, number, directions, seed, &weight);
+    else
+        way = cosine_direction(p.shading_normal, sobol_point((lane_uint)number, seed));
     LightRecord light;
     light.kind = VXL_LIGHT_DIRECTIONAL;
     Incidence incidence;
@@ -33,10 +65,9 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, global const SkyRecord* restrict
     LitRays r;
     aim_at_light(shape, light, &incidence, p.start, p.normal, &r);
     lane_float from_sky[3];
-    sky_light(sky, way, from_sky);
+    sky_light(&around, way, from_sky);
     const lane_float scale = LANES_GATHER_FLOAT(materials, p.material + VXL_MATERIAL_DIFFUSE) *
-                             surface_opacity(materials, p.material, p.colors) *
-                             (1.0f / (float)directions);
+                             surface_opacity(materials, p.material, p.colors) * weight;
     const lane_uint color_at =
         color_offset(materials, p.material, p.position.x, p.position.y, p.position.z);
     lane_int some = (lane_int)0;

@@ -51,6 +51,7 @@ typedef char EmitterFrameHas32Words[sizeof(EmitterFrame) == VXL_FRAME_WORDS * 4 
 // Emitters are found by their voxel in a table of `slots` numbers, a power of two. Each is in the
 // first free place from that of its hash on.
 #define VXL_NO_EMITTER 0xFFFFFFFFu
+#define VXL_EMITTER_IS_SKY 0xFFFFFFFEu  // of rays to a sky that is a map
 
 static inline unsigned int emitter_hash(unsigned int voxel, unsigned int instance) {
     unsigned int v = voxel * 0x9E3779B1u + instance * 0x85EBCA77u;

@@ -45,8 +45,9 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 #define VXL_STATE_BOUNCES 0xFFu
 #define VXL_STATE_DIFFUSE 0x1000000u
 #define VXL_STATE_TO_EMITTER 0x2000000u
-// VXL_PATH_EMITTER, behind the set of media in the arrays of paths:
-//   of rays that look for an emitter, its number
+// VXL_PATH_EMITTER, behind the set of media in the arrays of paths, where paths send rays to
+// emitters or to the sky:
+//   of rays that look for an emitter, its number, or VXL_EMITTER_IS_SKY
 //   of other rays, float: the probability of their direction, per solid angle; 0 if no ray to an
 //   emitter could have had it, as behind mirrors
 // VXL_PATH_TRAVELLED: float, as the ray's t: how far before its origin the path was scattered last.
@@ -55,6 +56,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // The decisions at a surface that a path meets, each with a point of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of diffuse light
+#define VXL_DECISION_SKY 0xFFFBu            // whether a ray is sent to the sky or to an emitter
 #define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter
 #define VXL_DECISION_LENS 0xFFFDu           // where on the lens a sight ray starts
 #define VXL_DECISION_EMITTER 0xFFFEu        // which emitter a ray is sent to

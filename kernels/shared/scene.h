@@ -119,6 +119,25 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_ALBEDO_MISSING 0
 #define VXL_ALBEDO_BY_ANGLE 1
 
+// Physically based materials that let light through have VXL_MATERIAL_REFRACTION, the share of the
+// surface that does, and here the number of the first value of their block, 0 for none:
+#define VXL_MATERIAL_GLASS VXL_MATERIAL_SHININESS
+// A block is in the array of materials as well, and of two numbers side by side the first is that
+// of the outside, the second that of the inside:
+//   VXL_GLASS_IOR          the index of refraction over that of the outside
+//   VXL_GLASS_BACK         2: the part of light that facets don't return at once which comes back
+//   VXL_GLASS_PER_MISSING  2: 1 over the mean share of that light, by the cosine
+//   VXL_GLASS_TABLE        VXL_GLASS_ENTRIES times 2: the share of that light. The angles of
+//   entries
+//                          are evenly spaced in the mean of their cosine, as total reflection
+//                          begins at a steep one, and of the u of VXL_ALBEDO_MISSING
+#define VXL_GLASS_ENTRIES 128
+#define VXL_GLASS_IOR 0
+#define VXL_GLASS_BACK 1
+#define VXL_GLASS_PER_MISSING 3
+#define VXL_GLASS_TABLE 8
+#define VXL_GLASS_FLOATS 288
+
 // Values of LightRecord::kind.
 #define VXL_LIGHT_POINT 0
 #define VXL_LIGHT_SPOT 1

@@ -14,6 +14,10 @@ namespace voxelume {
 #define VXL_SKY_NONE 0
 #define VXL_SKY_GRADIENT 1
 #define VXL_SKY_SUN 2
+#define VXL_SKY_MAP 3
+
+// Values of the build constant VXL_SKY_RAYS, how paths find the light of a map, are those of
+// VXL_EMITTERS.
 
 typedef struct SkyRecord {
     float4 zenith, horizon;  // gradient: radiance at both; w unused
@@ -26,6 +30,22 @@ typedef struct SkyRecord {
     float4 base;  // the three at the zenith, over what the formula gives there; w unused
 } SkyRecord;
 VXL_SIZE_IS(SkyRecord, 160);
+
+// The picture of a map, and the cells by whose light directions are chosen, each as large as the
+// others on the picture. Their table holds, one behind the other, as 32-bit fractions where the
+// part of [0, 1) begins that chooses each row; for each row, likewise, those of its cells; and for
+// each cell, as a float, the density of its directions per solid angle, times the sine of their
+// angle from the zenith.
+typedef struct SkyMapRecord {
+    int width, height;    // texels
+    int columns, rows;    // cells
+    float turn;           // of the whole circle, counterclockwise as seen from above; in [0, 1)
+    float strength;       // multiplies the radiance
+    float chance;         // that a ray that paths send to light goes to the sky
+    unsigned int unused;  // 0
+} SkyMapRecord;
+VXL_SIZE_IS(SkyMapRecord, 32);
+#define VXL_SKY_MAX_CELLS 2048  // along each side; a power of two
 
 #ifdef __cplusplus
 }  // namespace voxelume

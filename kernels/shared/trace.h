@@ -92,7 +92,7 @@
 //   VXL_PATH_CLEAR   float: what the surfaces passed leave uncovered
 //   VXL_PATH_THROUGHPUT  3 floats: what is left of the light on its way to the node
 //   VXL_PATH_INSIDE  VXL_MEDIUM_SET_SIZE packed attributes: the objects that the ray is inside of
-// The last exist where paths look for emitters, see shared/paths.h; behind all others:
+// The last exist where paths look for emitters or the sky, see shared/paths.h; behind all others:
 //   VXL_PATH_EMITTER
 //   VXL_PATH_TRAVELLED  in scenes with instances and transmitting objects only
 // This one exists where surfaces wear textures, behind those:
@@ -109,6 +109,8 @@
 #define VXL_PATH_THROUGHPUT 7
 #define VXL_PATH_INSTANCE 10
 #define VXL_PATH_INSIDE 11
+
+#define VXL_LOOKS ((VXL_EMITTERS | VXL_SKY_RAYS) != 0)
 
 #define VXL_PATH_ON_SURFACE 1u     // begins on a surface
 #define VXL_PATH_WITHIN_SOURCE 2u  // and travels on inside of it

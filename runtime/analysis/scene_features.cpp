@@ -66,6 +66,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         opacity |= (effects & kIsSeenThrough) != 0;
         reflection |= (effects & kReflects) != 0;
         features.physical |= features.global && (effects & kIsPhysical) != 0;
+        features.rough_glass |= features.global && follows && glass_share(*m) > 0;
         fresnel |= (effects & kHasReflectance) != 0 && (effects & (kReflects | kRefracts)) != 0;
         absorption |= (effects & kAbsorbs) != 0 && (transmits(*m) || features.voxel_opacity);
     }
@@ -98,12 +99,21 @@ bool lights_surfaces(const Scene& scene, const Pyramid& world) {
             has_sky_samples(scene) || has_emissive_samples(scene, world));
 }
 
+/// Adds the features of a sky.
+void add_sky(const Scene& scene, const Pyramid& world, Features& features) {
+    const Sky& sky = *scene.world.sky;
+    features.sky = sky_feature(sky);
+    features.sky_hidden = !sky.visible;
+    const bool is_sought = sky.strength > 0 && !shown_objects(scene, world).empty();
+    if (sky.kind == SkyKind::map && is_sought) features.sky_rays = emitter_feature(scene.render);
+}
+
 /// Adds the features that depend on light, and on where rays continue.
 void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit;
     features.global = scene.render.light == LightMode::global;
-    features.sky = scene.world.sky ? sky_feature(*scene.world.sky) : VXL_SKY_NONE;
+    if (scene.world.sky) add_sky(scene, world, features);
     features.area_samples =
         lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
                 std::ranges::any_of(scene.lights, [](const Light& light) {

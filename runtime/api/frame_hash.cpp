@@ -42,6 +42,7 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
     }
     if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
         hashes.add_voxels(grid->file);
+    if (scene.world.sky && !scene.world.sky->file.empty()) hashes.add_voxels(scene.world.sky->file);
 }
 
 /// The hash of a mesh's file and of the libraries, textures and buffers that it leads to; empty for

@@ -58,10 +58,15 @@ void add_kind(const v1::SunSky& sky, ObjectTree& object) {
     object.add("turbidity", sky.turbidity).add("ground", sky.ground);
 }
 
+void add_kind(const v1::MapSky& sky, ObjectTree& object) {
+    object.add("kind", "map").add("file", sky.file.string()).add("rotation", sky.rotation);
+}
+
 JsonValue tree_of_sky(const v1::Sky& sky) {
     ObjectTree object;
     std::visit([&object](const auto& kind) { add_kind(kind, object); }, sky.kind);
-    return object.add("strength", sky.strength).add("samples", sky.samples).take();
+    object.add("strength", sky.strength).add("samples", sky.samples);
+    return object.add("visible", sky.visible).take();
 }
 
 void add_source(const v1::PointLight& light, ObjectTree& object) {
@@ -183,10 +188,11 @@ JsonValue tree(const v1::World& world) {
 
 JsonValue tree(const v1::Material& material) {
     ObjectTree object;
-    if (material.base_color || material.metallic || material.roughness) {
+    if (material.base_color || material.metallic || material.roughness || material.transmission) {
         object.add("base_color", material.base_color.value_or(material.color));
         if (material.metallic) object.add("metallic", *material.metallic);
         if (material.roughness) object.add("roughness", *material.roughness);
+        if (material.transmission) object.add("transmission", *material.transmission);
     } else {
         object.add("color", material.color).add("diffuse", material.diffuse);
         object.add("specular", material.specular).add("shininess", material.shininess);

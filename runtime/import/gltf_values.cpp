@@ -66,15 +66,11 @@ std::string ior_member(const GltfValue& material) {
 }
 
 /// Members of a body of glass. What has no volume is a pane, through which light goes straight on.
-std::string glass_members(const GltfValue& material, double transmission) {
+std::string glass_members(const GltfValue& material, const Looks& s, double transmission) {
     if (!has_volume(material))
         return fmt::format(", \"opacity\": {}", rounded(std::max(1 - transmission, 0.05), 3));
-    const double ior = material.extension("KHR_materials_ior").number("ior", 1.5);
-    std::string text = fmt::format(
-        ", \"diffuse\": {}, \"specular\": 0.5, \"reflection\": 1, \"refraction\": {}, \"fresnel\": "
-        "true, \"ior\": {}",
-        rounded(1 - transmission, 3), rounded(transmission, 3),
-        rounded(std::clamp(ior, 1.0, 10.0), 4));
+    std::string text = fmt::format(", {}, \"transmission\": {}{}", metal_members(s.metal, s.rough),
+                                   rounded(transmission, 3), ior_member(material));
     const GltfValue volume = material.extension("KHR_materials_volume");
     const double distance = volume.number("attenuationDistance", 0);
     if (!volume.has("attenuationColor") || !(distance > 0)) return text;
@@ -103,7 +99,7 @@ std::string gltf_values(const GltfValue& material) {
     const double transmission = transmission_of(material);
     std::string text = fmt::format("\"color\": {}", json_list(rounded(s.color, 4)));
     if (transmission > 0) {
-        text += glass_members(material, transmission);
+        text += glass_members(material, s, transmission);
     } else if (material.has_extension("KHR_materials_unlit")) {
         // It shows its colour in whatever light.
     } else {

@@ -10,6 +10,7 @@
 #include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
+#include "runtime/stages/light/sky_map.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -80,6 +81,14 @@ void count_emitters(const Device& device, const Scene& scene, const Pyramid& wor
     memory.emitter_host_bytes = emitter_host_bytes(shining, world.records());
 }
 
+/// The picture of a sky.
+void count_sky(const Device& device, const Sky& sky, ImageMemory& memory) {
+    const SkyMapBytes bytes = sky_map_bytes(sky);
+    memory.sky_texels = {device, "sky", size_t(bytes.texels)};
+    memory.sky_table = {device, "sky", size_t(bytes.table)};
+    memory.sky_host_bytes = bytes.host;
+}
+
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth) {
     if (scene.render.channels.has_passes() && !scene.render.channels.color) {
@@ -98,6 +107,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     memory.rays = allocate_rays(device, features, counts);
     memory.tables = count_tables(device, scene);
     if (features.emitters != VXL_EMITTERS_NONE) count_emitters(device, scene, world, memory);
+    if (features.sky == VXL_SKY_MAP) count_sky(device, *scene.world.sky, memory);
     if (const auto of = dilation_that_pays(features, world, rays, pixel)) {
         memory.dilated_occupancy = count_dilated_occupancy(device, world, *of);
         memory.beams = allocate_beams(device, counts.rays);

@@ -21,6 +21,8 @@ struct ImageMemory {
     Buffer<uint8_t> tables;  ///< of materials, objects and samples
     Buffer<uint8_t> emitters;
     double emitter_host_bytes = 0;  ///< of main memory while they are listed
+    Buffer<uint8_t> sky_texels, sky_table;
+    double sky_host_bytes = 0;  ///< of main memory for the sky's picture
     ImageArrays image;
     std::vector<MatteArrays> mattes;
 };

@@ -17,12 +17,12 @@ struct FrameMemory {
     std::vector<CountedGrid> grids;  ///< freed
     WorldCounts world;
     double voxelize = 0, place = 0, index = 0, image = 0;
-    double volume = 0;              ///< for the display's volumetric image instead of the image
-    double pyramid = 0;             ///< part of `image` and `volume`
-    double dilated_occupancy = 0;   ///< part of `image`
-    double emitter_host_bytes = 0;  ///< of main memory
-    RayBytes rays;                  ///< all that they may need
-    std::string largest_buffer;     ///< of placing and indexing
+    double volume = 0;             ///< for the display's volumetric image instead of the image
+    double pyramid = 0;            ///< part of `image` and `volume`
+    double dilated_occupancy = 0;  ///< part of `image`
+    double light_host_bytes = 0;   ///< of main memory, for emitters and the sky
+    RayBytes rays;                 ///< all that they may need
+    std::string largest_buffer;    ///< of placing and indexing
     double largest_bytes = 0;
 
     double built() const;  ///< the maximum while the world is built

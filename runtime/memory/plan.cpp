@@ -111,7 +111,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     plan.min_with_next = minimum.place + minimum.index + minimum.image;
     plan.following_bytes = kUncounted * walk_following(scene, meshes, objects, plan.medium);
     plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
-    plan.host_bytes = host_bytes(scene, plan) + expected.emitter_host_bytes;
+    plan.host_bytes = host_bytes(scene, plan) + expected.light_host_bytes;
     return plan;
 }
 

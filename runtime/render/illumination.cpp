@@ -124,6 +124,10 @@ Illumination::Illumination(const Device& device, const Features& features, const
         emitters_ = build_emitters(device, features, scene, world);
         shade_.set_emitters(emitters_);
     }
+    if (features.sky_rays != VXL_EMITTERS_NONE) {
+        if (emitters_.count > 0) shade_.set_sky_chance(1 - kEmittersBesideSky);
+        extend_->set_sky(shade_.sky().map);
+    }
     if (features.observer_in_medium) {
         hollow_ = hollow_objects(scene);
         hollow_flags_ =
@@ -161,7 +165,7 @@ void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& s
     if (features_.global && features_.radiance) return trace_paths(batch, count, hits_are_known);
     if (!features_.paths || !features_.radiance) {
         if (!hits_are_known) trace_.closest(world_, batch, count);
-        return direct(batch, count);
+        return direct(batch, count, true);
     }
     reserve_depth(0, batch.stride);
     follow(0, batch, count, hits_are_known, sink);
@@ -183,8 +187,8 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
 }
 
 /// Lights the surfaces that the rays met: blocks 4 and 5.
-void Illumination::direct(RayBatch& entries, uint32_t count) {
-    shade_.surface(world_, entries, count);
+void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer) {
+    shade_.surface(world_, entries, count, from_observer);
     for (size_t i = 0; i < lights_.size(); ++i) {
         const PathLight& light = lights_[i];
         if (light.area)
@@ -216,7 +220,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
     RayBatch* entries = &first;
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, number > 0);
-        direct(*entries, count);
+        direct(*entries, count, number == 0);
         uint32_t on = 0;
         if (features_.transmission)
             on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,

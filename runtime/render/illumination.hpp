@@ -83,7 +83,7 @@ class Illumination {
   private:
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
     void begin_paths(RayBatch& batch, uint32_t count);
-    void direct(RayBatch& entries, uint32_t count);
+    void direct(RayBatch& entries, uint32_t count, bool from_observer);
     void bring_light(RayBatch& entries, uint32_t count);
     void trace_to_emitters(PathDepth& depth, uint32_t count);
     void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);

@@ -12,7 +12,7 @@ void Illumination::trace_to_emitters(PathDepth& depth, uint32_t count) {
         secondary_rays_ += count;
         std::swap(static_cast<RayQueue&>(depth.to_emitters), depth.next_to_emitters);
         trace_.closest(world_, depth.to_emitters, count, true);
-        shade_.surface(world_, depth.to_emitters, count);
+        shade_.surface(world_, depth.to_emitters, count, false);
         if (medium_) medium_->sight(world_, depth.to_emitters, count);
         RayQueue none;
         count = extend_
@@ -30,7 +30,7 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     RayBatch* entries = &batch;
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
-        direct(*entries, count);
+        direct(*entries, count, is_first);
         const NextRays sent =
             extend_->paths(world_, sampling_, emitters_, *entries, count, is_first, depth.nodes,
                            depth.next, depth.next_to_emitters);

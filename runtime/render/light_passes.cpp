@@ -50,6 +50,7 @@ void make_matt(Scene& scene) {
         m.base_color.reset();
         m.metallic.reset();
         m.roughness.reset();
+        m.transmission.reset();
         m.diffuse = 1;
         m.specular = m.reflection = m.refraction = 0;
         m.fresnel = false;

@@ -41,7 +41,9 @@ Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
     features.filter = features.filtered_refraction = features.physical = false;
-    features.sky = 0;
+    features.rough_glass = false;
+    features.sky = features.sky_rays = 0;
+    features.sky_hidden = false;
     return features;
 }
 

@@ -8,7 +8,7 @@ namespace voxelume {
 
 std::span<const ValueRow<Material>> material_rows() {
     using M = Material;
-    static constexpr std::array<ValueRow<Material>, 14> rows = {{
+    static constexpr std::array<ValueRow<Material>, 15> rows = {{
         {"color", &M::color, kRatio},
         {"diffuse", &M::diffuse, kRatio},
         {"specular", &M::specular, kRatio},
@@ -23,6 +23,7 @@ std::span<const ValueRow<Material>> material_rows() {
         {"base_color", &M::base_color, kRatio, false, true, kIsPhysical},
         {"metallic", &M::metallic, kRatio, false, true, kIsPhysical},
         {"roughness", &M::roughness, kRatio, false, true, kIsPhysical},
+        {"transmission", &M::transmission, kRatio, false, true, kIsPhysical},
     }};
     return rows;
 }
@@ -43,11 +44,16 @@ uint32_t effects_of(const Material& material) {
         if (row.effect != 0 && !row.is_equal(material, plain)) effects |= row.effect;
     if ((effects & kIsPhysical) != 0 && whitted_material(material).reflection > 0)
         effects |= kReflects;
+    if (glass_share(material) > 0) effects |= kRefracts | kHasReflectance;
     return effects;
 }
 
 bool is_physical(const Material& material) {
-    return material.base_color || material.metallic || material.roughness;
+    return material.base_color || material.metallic || material.roughness || material.transmission;
+}
+
+double glass_share(const Material& material) {
+    return material.transmission.value_or(0) * (1 - material.metallic.value_or(0));
 }
 
 glm::vec3 color_of(const Material& material) {
@@ -65,10 +71,17 @@ Material whitted_material(const Material& material) {
     m.base_color.reset();
     m.metallic.reset();
     m.roughness.reset();
+    m.transmission.reset();
     m.diffuse = float(1 - 0.5 * metal * smooth);
     m.specular = float(0.6 * metal + kGlint * (1 - metal) * (1 - rough));
     m.shininess = float(std::clamp(2 / (width * width) - 2, 2.0, 1000.0));
     m.reflection = float(0.65 * metal * smooth);
+    const double glass = glass_share(material);
+    if (glass == 0) return m;
+    m.diffuse *= float(1 - glass);
+    m.reflection += float(glass);
+    m.refraction = float(glass);
+    m.fresnel = true;
     return m;
 }
 

@@ -43,6 +43,7 @@ struct Material {
     std::optional<glm::dvec3> base_color;  ///< 0..1; otherwise `color`
     std::optional<double> metallic;        ///< 0..1; otherwise 0
     std::optional<double> roughness;       ///< 0..1; otherwise 0.5
+    std::optional<double> transmission;    ///< of what isn't metal, the share of glass, 0..1
 
     friend bool operator==(const Material&, const Material&) = default;
 };
@@ -67,6 +68,9 @@ std::span<const ValueRow<Checker>> checker_rows();
 uint32_t effects_of(const Material& material);
 
 bool is_physical(const Material& material);
+
+/// The share of a physically based surface that is glass.
+double glass_share(const Material& material);
 
 /// The surface's own colour, whichever of the two keys names it.
 glm::vec3 color_of(const Material& material);

@@ -6,20 +6,22 @@
 namespace voxelume {
 
 std::span<const SkyType> sky_types() {
-    static constexpr KindKey constant[] = {{"color", true}, {"strength"}, {"samples"}};
-    static constexpr KindKey gradient[] = {
-        {"zenith"}, {"horizon"}, {"ground"}, {"strength"}, {"samples"}};
+    static constexpr KindKey constant[] = {{"color", true}, {"strength"}, {"samples"}, {"visible"}};
+    static constexpr KindKey gradient[] = {{"zenith"},   {"horizon"}, {"ground"},
+                                           {"strength"}, {"samples"}, {"visible"}};
     static constexpr KindKey sun[] = {
         {"direction", true}, {"angle"},     {"color", false, kNotNegative},
         {"intensity"},       {"turbidity"}, {"ground"},
-        {"strength"},        {"samples"}};
-    static constexpr std::array<SkyType, 3> types = {
-        {{"constant", constant}, {"gradient", gradient}, {"sun", sun}}};
+        {"strength"},        {"samples"},   {"visible"}};
+    static constexpr KindKey map[] = {
+        {"file", true}, {"rotation"}, {"strength"}, {"samples"}, {"visible"}};
+    static constexpr std::array<SkyType, 4> types = {
+        {{"constant", constant}, {"gradient", gradient}, {"sun", sun}, {"map", map}}};
     return types;
 }
 
 std::span<const ValueRow<Sky>> sky_rows() {
-    static constexpr std::array<ValueRow<Sky>, 10> rows = {{
+    static constexpr std::array<ValueRow<Sky>, 12> rows = {{
         {"color", &Sky::color, kNotNegative},
         {"zenith", &Sky::zenith, kNotNegative},
         {"horizon", &Sky::horizon, kNotNegative},
@@ -30,6 +32,8 @@ std::span<const ValueRow<Sky>> sky_rows() {
         {"angle", &Sky::angle, {0, 90, true}},
         {"intensity", &Sky::intensity, kNotNegative},
         {"turbidity", &Sky::turbidity, {2, 10}},
+        {"visible", &Sky::visible},
+        {"rotation", &Sky::rotation, kDegrees},
     }};
     return rows;
 }

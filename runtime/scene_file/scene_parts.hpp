@@ -63,7 +63,7 @@ class ObjectReader {
 
 /// Bounds, and a voxel size with them, that are left out stay 0.
 World read_world(const SceneValue& value, const AssetSearch& search);
-Sky read_sky(const SceneValue& value);
+Sky read_sky(const SceneValue& value, const AssetSearch& search);
 Medium read_medium(const SceneValue& value, const AssetSearch& search);
 Material read_material(const std::string& name, const SceneValue& value);
 std::vector<Material> read_materials(const SceneValue& value);

@@ -29,7 +29,7 @@ Bounds read_bounds(const SceneValue& value) {
 
 /// Refuses values of Whitted's model that a physically based material has others for.
 void refuse_both_models(const SceneFields& fields) {
-    for (const char* key : {"base_color", "metallic", "roughness"}) {
+    for (const char* key : {"base_color", "metallic", "roughness", "transmission"}) {
         if (!fields.has(key)) continue;
         for (const std::string_view other : whitted_keys())
             if (const auto value = fields.find(other))
@@ -77,7 +77,7 @@ World read_world(const SceneValue& value, const AssetSearch& search) {
         count_voxels(world);
     }
     fields.read_rows(world_rows(), world);
-    if (const auto sky = fields.find("sky")) world.sky = read_sky(*sky);
+    if (const auto sky = fields.find("sky")) world.sky = read_sky(*sky, search);
     if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
     return world;
 }

@@ -38,9 +38,12 @@ struct Features {
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
     bool physical = false;             ///< ... and some material is physically based
+    bool rough_glass = false;          ///< ... and lets light through
     bool lens = false;                 ///< sight rays start all over a lens
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
+    int sky_rays = 0;                  ///< VXL_EMITTERS_*: how paths find the light of a map
+    bool sky_hidden = false;           ///< observers don't see the sky
     int media = 0;                     ///< size of the sets of transmitting objects that rays are
                                        ///< inside of
     bool medium_set_capped = false;    ///< ... and this size may not be enough
@@ -54,6 +57,8 @@ struct Features {
     friend bool operator==(const Features&, const Features&) = default;
 
     bool exact() const { return triangles || solids; }
+    /// Whether paths send rays to emitters or to the sky.
+    bool looks() const { return emitters != 0 || sky_rays != 0; }
     /// Whether light falls by normals that aren't those of the surfaces that rays meet.
     bool shading_normals() const { return corner_normals || voxel_normals; }
     /// Whether rays must know on which of a voxel's surfaces they begin.
@@ -91,9 +96,12 @@ struct Features {
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
                 {"VXL_GLOBAL", global},
                 {"VXL_PHYSICAL", physical},
+                {"VXL_ROUGH_GLASS", rough_glass},
                 {"VXL_LENS", lens},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},
+                {"VXL_SKY_RAYS", sky_rays},
+                {"VXL_SKY_HIDDEN", sky_hidden},
                 {"VXL_MEDIA", media},
                 {"VXL_MEDIUM_SET_CAPPED", medium_set_capped},
                 {"VXL_INSTANCES", instances},

@@ -73,11 +73,18 @@ struct SunSky {
     Color ground{0.25, 0.23, 0.21};  ///< radiance from below the horizon
 };
 
+/// A picture of everything around, as a latitude-longitude map.
+struct MapSky {
+    std::filesystem::path file{};  ///< .exr, .hdr or .png, as seen from the scene's folder
+    double rotation = 0;           ///< degrees, counterclockwise as seen from above
+};
+
 /// What rays see that leave the world, and what lights surfaces from there.
 struct Sky {
-    std::variant<ConstantSky, GradientSky, SunSky> kind{};  ///< what it looks like
+    std::variant<ConstantSky, GradientSky, SunSky, MapSky> kind{};  ///< what it looks like
     double strength = 1;  ///< multiplies its radiance, but for the sun's disc
     int samples = 16;     ///< directions that a point in local light looks to, 0..1024
+    bool visible = true;  ///< to observers, who otherwise see the background
 };
 
 /// The lattice S that all objects are placed in, and the space around it.
@@ -119,9 +126,10 @@ struct Material {
     std::optional<Checker> checker{};  ///< a second colour in every other block
     /// One of these makes the material physically based: then `color` and the values from `diffuse`
     /// to `refraction` and `fresnel` say nothing. scenes/README.md tells what is shown.
-    std::optional<Color> base_color{};  ///< 0..1; otherwise `color`
-    std::optional<double> metallic{};   ///< share of metal, 0..1; otherwise 0
-    std::optional<double> roughness{};  ///< 0 polished to 1 dull; otherwise 0.5
+    std::optional<Color> base_color{};     ///< 0..1; otherwise `color`
+    std::optional<double> metallic{};      ///< share of metal, 0..1; otherwise 0
+    std::optional<double> roughness{};     ///< 0 polished to 1 dull; otherwise 0.5
+    std::optional<double> transmission{};  ///< share of glass, of what isn't metal, 0..1
 };
 
 }  // namespace voxelume::v1

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "kernels/shared/emitters.h"
+#include "kernels/shared/sky.h"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program.hpp"
@@ -102,6 +103,10 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/surface/packed_normal.h",
                                         "lib/light/shading_point.h",
                                         "lib/light/sky.h",
+                                        "lib/light/sky_map.h",
+                                        "lib/light/rough_glass.h",
+                                        "lib/light/light_rays.h",
+                                        "lib/lanes/exact_angle.h",
                                         "lib/light/sobol.h",
                                         "lib/light/directions.h",
                                         "lib/light/emitters.h",
@@ -151,7 +156,7 @@ TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
     features.paths = features.global = features.area_samples = true;
     features.emitters = VXL_EMITTERS_BOTH;
     const std::set<std::string> removed = {"lib/light/ggx.h", "lib/light/physical.h",
-                                           "lib/light/physical_light.h"};
+                                           "lib/light/physical_light.h", "lib/light/rough_glass.h"};
     for (const auto& [file, kernel] : {std::pair("extend.cl", "extend_paths"),
                                        {"light.cl", "add_light"},
                                        {"area_light.cl", "add_area_light"}}) {
@@ -172,12 +177,16 @@ TEST(AbsentFeatures, TakeNoArgumentsOfKernels) {
     with.paths = with.global = true;
     const Features without = with;
     with.emitters = VXL_EMITTERS_BOTH;
-    constexpr int kEmitterParameters = 6;
+    Features with_map = without;
+    with_map.sky = VXL_SKY_MAP;
+    with_map.sky_rays = VXL_EMITTERS_BOTH;
+    constexpr int kEmitterParameters = 6, kMapParameters = 3;
     for (const auto& [file, kernel] :
          {std::pair("shade.cl", "shade_surface"), std::pair("extend.cl", "extend_paths")}) {
         const int fewer = parameters_of(file, kernel, without);
         EXPECT_GT(fewer, 20) << kernel;
         EXPECT_EQ(parameters_of(file, kernel, with), fewer + kEmitterParameters) << kernel;
+        EXPECT_EQ(parameters_of(file, kernel, with_map), fewer + kMapParameters) << kernel;
     }
 }
 

@@ -76,14 +76,15 @@ TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
     EXPECT_THAT(with_material({{"extensions", {{"KHR_materials_transmission", transmission}}}}),
                 HasSubstr("\"opacity\": 0.05"));
     const std::string glass =
-        with_material({{"extensions",
+        with_material({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.25}}},
+                       {"extensions",
                         {{"KHR_materials_transmission", transmission},
                          {"KHR_materials_ior", {{"ior", 1.75}}},
                          {"KHR_materials_volume",
                           {{"thicknessFactor", 1},
                            {"attenuationDistance", 2},
                            {"attenuationColor", {1, 0.36787944117144233, 0.1353352832366127}}}}}}});
-    EXPECT_THAT(glass, HasSubstr("\"refraction\": 1, \"fresnel\": true, \"ior\": 1.75, "
+    EXPECT_THAT(glass, HasSubstr("\"roughness\": 0.25, \"transmission\": 1, \"ior\": 1.75, "
                                  "\"absorption\": [0, 0.5, 1]"));
     EXPECT_THAT(glass, HasSubstr("\"shadow\": \"filtered\""));
     const Json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};

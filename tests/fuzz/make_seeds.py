@@ -123,13 +123,19 @@ def vox():
     return b"VOX " + struct.pack("<i", 150) + b"MAIN" + struct.pack("<2i", 0, len(body)) + body
 
 
+def hdr(rows):
+    return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + rows
+
+
+FLAT = b"-Y 1 +X 5\n" + bytes([2, 3, 4, 136, 1, 1, 1, 4])
+PLANES = b"+Y 1 +X 8\n" + bytes([2, 2, 0, 8, 136, 7, 136, 6, 4, 1, 2, 3, 4, 132, 9, 136, 136])
 MTL = b"newmtl a b\nKd 0.5 0.25 1\nKs 1 1 1\nNs 30\nd 0.5\nillum 7\nNi 1.5\nmap_Kd -s 2 2 t.png\n"
 
 SEEDS = {
     "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip")],
     "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
-    "1.png": [png(5, 3)],
+    "1.png": [png(5, 3)], "hdr": [hdr(FLAT), hdr(PLANES)],
     "schem": [schem(), schematic(), litematic(), gzip.compress(schem(), mtime=0)],
 }
 

@@ -40,7 +40,7 @@ static PhysicalView view_at(global const float* materials, lane_float cosine) {
     const Vector out = {exact_sqrt(1.0f - cosine * cosine), (lane_float)0.0f, cosine};
     const Colors none = {0, 0, (lane_uint)0};
     return view_physical(materials, (lane_int)-1, (lane_uint)0, (lane_uint)0, none, n,
-                         out_of_frame(&f, out));
+                         out_of_frame(&f, out), (lane_int)0);
 }
 kernel void value_surface(global const float* materials, uint count, global const float* outs,
                           global const float* ins, uint stride, global float* values) {
@@ -63,7 +63,8 @@ kernel void scatter_surface(global const float* materials, uint count, float out
     const SquarePoint at = sobol_point(number, decision_seed((lane_uint)seed, (lane_uint)0));
     const lane_float layer =
         sobol_point(number, decision_seed((lane_uint)seed, (lane_uint)1)).x;
-    const Vector way = physical_direction(&s, at, layer);
+    lane_int down;
+    const Vector way = physical_direction(&s, at, layer, &down);
     store_vector(into_frame(&s.frame, way), ways, stride, first);
     lane_float value[3], density;
     const lane_int above = physical_value(&s, way, value, &density);

@@ -55,6 +55,8 @@
 #define SKY_RECORD_FIELDS \
     V(zenith) V(horizon) V(ground) V(sun_direction) V(sun_radiance) V(luminance) \
     V(chromaticity_x) V(chromaticity_y) V(last) V(base)
+#define SKY_MAP_RECORD_FIELDS \
+    I(width) I(height) I(columns) I(rows) F(turn) F(strength) F(chance) I(unused)
 #define DENSITY_SHAPE_FIELDS \
     I(bricks_x) I(bricks_y) I(shift_x) I(shift_y) I(shift_z) IA(unused, 3)
 #define INSTANCE_RECORD_FIELDS \
@@ -91,6 +93,7 @@ constexpr const char* kPathSamplingText = TEXT_OF(PATH_SAMPLING_FIELDS);
 constexpr const char* kLightAreaRecordText = TEXT_OF(LIGHT_AREA_RECORD_FIELDS);
 constexpr const char* kFootprintText = TEXT_OF(FOOTPRINT_FIELDS);
 constexpr const char* kSkyRecordText = TEXT_OF(SKY_RECORD_FIELDS);
+constexpr const char* kSkyMapRecordText = TEXT_OF(SKY_MAP_RECORD_FIELDS);
 constexpr const char* kInstanceRecordText = TEXT_OF(INSTANCE_RECORD_FIELDS);
 constexpr const char* kEmitterRecordText = TEXT_OF(EMITTER_RECORD_FIELDS);
 constexpr const char* kEmitterFrameText = TEXT_OF(EMITTER_FRAME_FIELDS);
@@ -171,6 +174,7 @@ CROSSES(PathSampling, PATH_SAMPLING_FIELDS, kPathSamplingText)
 CROSSES(LightAreaRecord, LIGHT_AREA_RECORD_FIELDS, kLightAreaRecordText)
 CROSSES(Footprint, FOOTPRINT_FIELDS, kFootprintText)
 CROSSES(SkyRecord, SKY_RECORD_FIELDS, kSkyRecordText)
+CROSSES(SkyMapRecord, SKY_MAP_RECORD_FIELDS, kSkyMapRecordText)
 CROSSES(InstanceRecord, INSTANCE_RECORD_FIELDS, kInstanceRecordText)
 CROSSES(EmitterRecord, EMITTER_RECORD_FIELDS, kEmitterRecordText)
 CROSSES(EmitterFrame, EMITTER_FRAME_FIELDS, kEmitterFrameText)

@@ -56,7 +56,8 @@ class SceneSchema : public FileTest {
   protected:
     void SetUp() override {
         FileTest::SetUp();
-        for (const char* file : {"bunny.obj", "m.obj", "m.glb", "smoke.vdb", "s.1.vdb", "s.2.vdb"})
+        for (const char* file :
+             {"bunny.obj", "m.obj", "m.glb", "around.hdr", "smoke.vdb", "s.1.vdb", "s.2.vdb"})
             put_bytes(folder / file, "v 0 0 0\n");
     }
 

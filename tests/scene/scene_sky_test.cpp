@@ -55,6 +55,35 @@ TEST(SceneSky, HasTheValuesOfItsKeys) {
     EXPECT_EQ(sun.color, glm::vec3(1.0f, 0.95f, 0.88f));
 }
 
+class SceneSkyMap : public FileTest {
+  protected:
+    Sky map_of(const std::string& keys) {
+        return parse_scene(R"({"voxelume": 1, "world": {"voxel_size": 0.1,
+"bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}, "sky": {"kind": "map", )" +
+                               keys + R"(}},
+"observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2}}})",
+                           folder / "sky.json", {})
+            .world.sky.value();
+    }
+};
+
+TEST_F(SceneSkyMap, HasAFileAndWhereItIsTurned) {
+    put_bytes(folder / "around.hdr", "");
+    const Sky map = map_of(R"("file": "around.hdr", "rotation": -30, "visible": false)");
+    EXPECT_EQ(map.kind, SkyKind::map);
+    EXPECT_EQ(map.file, std::filesystem::canonical(folder / "around.hdr"));
+    EXPECT_EQ(map.rotation, -30);
+    EXPECT_FALSE(map.visible);
+    EXPECT_TRUE(map.map.room);
+    EXPECT_EQ(map, map_of(R"("file": "around.hdr", "rotation": -30, "visible": false)"));
+}
+
+TEST_F(SceneSkyMap, ObjectsToAFileThatIsMissing) {
+    EXPECT_THAT(error_of([&] { map_of(R"("rotation": 1)"); }).what(), HasSubstr("file"));
+    EXPECT_THAT(error_of([&] { map_of(R"("file": "around.hdr")"); }).what(),
+                HasSubstr("world.sky.file: there is no file \"around.hdr\""));
+}
+
 TEST(SceneSky, ObjectsToWhatNoSkyHas) {
     EXPECT_THAT(objection(R"({"kind": "cloudy"})"), HasSubstr("\"cloudy\""));
     EXPECT_THAT(objection(R"({"kind": "constant"})"), HasSubstr("color"));

@@ -16,6 +16,12 @@ static inline lane_int looks_for_emitter(const RayBatch* batch, uint first) {
     return LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u);
 }
 
+/// Mask: those of them that go to the sky.
+static inline lane_int goes_to_sky(const RayBatch* batch, uint first) {
+    const lane_uint word = LANES_LOAD(batch->paths, VXL_PATH_EMITTER * batch->stride + first);
+    return LANE_MASK(word == VXL_EMITTER_IS_SKY);
+}
+
 /// Mask: materials with emission.
 static inline lane_int emits_light(global const float* restrict materials, lane_uint material) {
     lane_int emits = (lane_int)0;

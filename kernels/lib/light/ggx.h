@@ -51,9 +51,9 @@ static inline lane_float facet_density(Vector h, lane_float width) {
     return 0.318309886f * ratio * ratio;
 }
 
-/// The mirrored directions of `out` at facets that are seen from there, each as probable as it is
-/// visible (Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
-static inline Vector mirrored_by_facet(Vector out, lane_float width, SquarePoint p) {
+/// Unit normals of facets that are seen from `out`, each as probable as it is visible (Dupuy &
+/// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
+static inline Vector visible_facet(Vector out, lane_float width, SquarePoint p) {
     const Vector stretched = {out.x * width, out.y * width, out.z};
     const Vector view = unit(stretched);
     const lane_float z = fma(1.0f - p.x, 1.0f + view.z, -view.z);
@@ -62,7 +62,12 @@ static inline Vector mirrored_by_facet(Vector out, lane_float width, SquarePoint
     exact_sincos(p.y * 6.28318531f, &sine, &cosine);
     const Vector facet = {fma(radius, cosine, view.x) * width, fma(radius, sine, view.y) * width,
                           z + view.z};
-    const Vector h = unit(facet);
+    return unit(facet);
+}
+
+/// The mirrored directions of `out` at facets that are seen from there.
+static inline Vector mirrored_by_facet(Vector out, lane_float width, SquarePoint p) {
+    const Vector h = visible_facet(out, width, p);
     const lane_float twice = 2.0f * dot_product(out, h);
     const Vector in = {fma(twice, h.x, -out.x), fma(twice, h.y, -out.y), fma(twice, h.z, -out.z)};
     return in;

@@ -20,7 +20,8 @@ typedef struct {
 
 /// Surface points that light may reach. Their shadow rays begin at `start`.
 typedef struct {
-    lane_int lit;  // mask
+    lane_int lit;      // mask
+    lane_int leaving;  // mask: met from inside; only of scenes with rough glass
     lane_uint material;
     Colors colors;
     Vector position, normal, shading_normal, start;
@@ -35,6 +36,9 @@ static inline bool load_lit_points(const WorldView* world, const RayBatch* batch
     if (VXL_TRANSMISSION)
         p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
     if (!lanes_any(p->lit)) return false;
+    p->leaving = (lane_int)0;
+    if (VXL_ROUGH_GLASS)
+        p->leaving = LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_LEAVING) != 0u);
     p->colors =
         colors_of_hits(world->surface.colors, number & LANES_AS_UINT(p->lit), batch->paint, first);
     p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);

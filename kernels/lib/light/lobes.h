@@ -33,7 +33,7 @@ static inline PhysicalView view_of_paths(const Surroundings* around,
         color_offset(around->materials, p->material, p->position.x, p->position.y, p->position.z);
     const Colors own = colors_of_hits(colors, number & LANES_AS_UINT(p->hit), batch->paint, first);
     return view_physical(around->materials, p->hit, p->material, color, own, p->shading,
-                         opposite(p->way));
+                         opposite(p->way), p->leaving);
 }
 
 /// What the surfaces return. Those that a path meets after its last scattering only let it pass.
@@ -59,6 +59,10 @@ static inline Lobes lobes_of(const Surroundings* around, global const uint* rest
             l.diffuse[c] = LANES_SELECT(view->is, covered * view->albedo[c], l.diffuse[c]);
     l.reflected = covered * reflected.returned;
     l.refracted = covered * refracted.returned;
+    if (VXL_ROUGH_GLASS) {
+        l.reflected = LANES_SELECT(view->is, zero, l.reflected);
+        l.refracted = LANES_SELECT(view->is, zero, l.refracted);
+    }
     l.straight = zero;
     return l;
 }

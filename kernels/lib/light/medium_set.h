@@ -19,7 +19,7 @@
 #define VXL_PATH_TRAVELLED (VXL_PATH_EMITTER + 1)
 #define VXL_TRAVELS (VXL_EMITTERS && VXL_INSTANCES && VXL_TRANSMISSION)
 /// That of VXL_PATH_WIDTH, behind those that there are, and whether there is one.
-#define VXL_PATH_WIDTH (VXL_PATH_EMITTER + (VXL_EMITTERS ? 1 : 0) + (VXL_TRAVELS ? 1 : 0))
+#define VXL_PATH_WIDTH (VXL_PATH_EMITTER + (VXL_LOOKS ? 1 : 0) + (VXL_TRAVELS ? 1 : 0))
 #define VXL_WIDENS (VXL_TEXTURES && VXL_PATHS && VXL_RADIANCE)
 
 /// Packed attributes of the objects, VXL_NO_MEDIUM for none.

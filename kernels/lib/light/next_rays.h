@@ -31,7 +31,8 @@ typedef struct {
     Vector ahead;    // a unit vector
     lane_int moved;  // mask: up to the least cosine
     // Of physically based surfaces alone:
-    lane_int is, lives;    // masks: such a surface; the way is above it
+    lane_int is, lives;    // masks: such a surface; the way is above it, or through it
+    lane_int through;      // mask: the latter
     lane_float density;    // of the direction, per solid angle
     lane_float weight[3];  // what comes from there over the mean of all directions
 } ScatteredWay;
@@ -40,7 +41,7 @@ typedef struct {
 static inline ScatteredWay no_scattered_way(const ScatterPoint* p) {
     ScatteredWay s;
     s.ahead = p->normal;
-    s.moved = s.is = s.lives = (lane_int)0;
+    s.moved = s.is = s.lives = s.through = (lane_int)0;
     s.density = (lane_float)0.0f;
     for (int c = 0; c < 3; ++c) s.weight[c] = (lane_float)1.0f;
     return s;
@@ -48,12 +49,21 @@ static inline ScatteredWay no_scattered_way(const ScatterPoint* p) {
 
 /// Turns ways from physically based surfaces to where these scatter light. `layer` chooses the part
 /// of the surface.
-static inline void scatter_physically(const PhysicalView* view, SquarePoint at, lane_float layer,
-                                      ScatteredWay* s) {
+static inline void scatter_physically(const PhysicalView* view, Vector normal, SquarePoint at,
+                                      lane_float layer, ScatteredWay* s) {
     lane_float value[3];
-    const Vector ahead = physical_direction(view, at, layer);
+    lane_int down;
+    const Vector ahead = physical_direction(view, at, layer, &down);
     s->is = view->is;
     s->lives = physical_value(view, ahead, value, &s->density);
+    if (VXL_ROUGH_GLASS) {
+        lane_float beyond[3], density;
+        s->through = down & physical_through(view, ahead, beyond, &density) &
+                     LANE_MASK(dot_product(ahead, normal) < 0.0f);
+        s->lives = (s->lives & ~down) | s->through;
+        s->density = LANES_SELECT(s->through, density, s->density);
+        for (int c = 0; c < 3; ++c) value[c] = LANES_SELECT(s->through, beyond[c], value[c]);
+    }
     s->lives &= LANE_MASK(s->density > 0.0f);
     s->ahead = select_vector(s->is, ahead, s->ahead);
     for (int c = 0; c < 3; ++c) {
@@ -72,10 +82,10 @@ static inline ScatteredWay scatter_by(const ScatterPoint* p, const RayBatch* bat
     Vector normal = p->normal;
     if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
     s.ahead = cosine_direction(normal, at);
-    if (VXL_PHYSICAL && lanes_any(view->is)) scatter_physically(view, at, layer, &s);
+    if (VXL_PHYSICAL && lanes_any(view->is)) scatter_physically(view, p->normal, at, layer, &s);
     if (VXL_SHADING_NORMALS) {
         const lane_float least = least_cosine(p);
-        s.moved = p->curved & LANE_MASK(dot_product(s.ahead, p->normal) < least);
+        s.moved = p->curved & ~s.through & LANE_MASK(dot_product(s.ahead, p->normal) < least);
         s.ahead = select_vector(s.moved, keep_on_side(s.ahead, p->normal, least), s.ahead);
     }
     return s;
@@ -105,24 +115,25 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
         const Vector into = opposite(p->normal);
         ahead = select_vector(way->refracted, bent_direction(p, into), ahead);
         side = select_vector(way->refracted, into, side);
+        if (VXL_ROUGH_GLASS) ahead = select_vector(scattered->through, scattered->ahead, ahead);
     }
     set_out_child(r, shape,
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
-    if (VXL_EMITTERS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
+    if (VXL_LOOKS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
-/// those that go on along the ray that met the surface.
+/// those that go on along the ray that met the surface. Rough glass has `bent` some.
 static inline void enter_media(PyramidShape shape, const Surroundings* around,
                                const ScatterPoint* p, const RayBatch* batch, uint first,
-                               const Choice* way, NewRays* r) {
+                               const Choice* way, lane_int bent, NewRays* r) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     const lane_int across = way->refracted | way->straight;
     const lane_int of_instance = are_of_instances(batch, first);
     const lane_int same =
-        way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~of_instance);
+        way->straight | (way->refracted & LANE_MASK(p->eta == 1.0f) & ~(of_instance | bent));
     MediumSet passed = load_medium_set(batch->paths, stride, first, p->valid);
     const lane_int bodies = way->straight & bodies_of(around, batch, first, p->packed, p->hit);
     passed = cross_counted(passed, p->packed, p->leaving, bodies, around->medium_overflows);
@@ -165,12 +176,12 @@ static inline NewRays next_rays_of(PyramidShape shape, const Surroundings* aroun
               (LANES_AS_UINT(way->refracted) & VXL_PATH_REFRACTED);
     r.medium = (lane_uint)0;
     set_out_ways(shape, p, batch, first, way, scattered, &r);
-    if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, &r);
+    if (VXL_TRANSMISSION) enter_media(shape, around, p, batch, first, way, scattered->through, &r);
     for (int c = 0; c < 3; ++c) {
         r.throughput[c] = way->throughput[c];
         if (VXL_PHYSICAL)
-            r.throughput[c] *=
-                LANES_SELECT(way->diffuse & scattered->is, scattered->weight[c], (lane_float)1.0f);
+            r.throughput[c] *= LANES_SELECT((way->diffuse & scattered->is) | scattered->through,
+                                            scattered->weight[c], (lane_float)1.0f);
     }
     return r;
 }

@@ -9,6 +9,7 @@
 #define VXL_PHYSICAL_H
 
 #include "lib/light/ggx.h"
+#include "lib/light/rough_glass.h"
 #include "lib/surface/surface_color.h"
 
 /// What facets return at some angles: the share of all light that they miss, and what they return
@@ -31,7 +32,9 @@ typedef struct {
     Albedo seen;        // at its angle
     lane_float passed;  // the share of light that gets through the facets there
     lane_float albedo[3];
-    lane_float gloss;  // how probably paths are mirrored by facets
+    lane_float gloss;    // how probably paths are mirrored by facets
+    GlassView glass;     // the part of the surfaces that lets light through
+    lane_float tint[3];  // what that multiplies light by on its way
 } PhysicalView;
 
 /// One of the two rows of the surfaces' tables, `at` a place between the first entry, 0, and the
@@ -97,13 +100,18 @@ static inline void set_layers(lane_uint material, const lane_float* base, Physic
         glossy = fmax(glossy, first), rest = fmax(rest, other);
     }
     s->gloss = exact_divide(glossy, LANES_SELECT(s->is, glossy + rest, one));
+    for (int c = 0; VXL_ROUGH_GLASS && c < 3; ++c) {
+        const lane_float through = fma(base[c], (lane_float)0.5f, (lane_float)0.5f);
+        s->albedo[c] = fma(s->glass.share, through - s->albedo[c], s->albedo[c]);
+        s->tint[c] = base[c];
+    }
 }
 
-/// The surfaces of `material` that are seen from the unit vector `out`, by their `normal`. `color`
-/// is what color_offset tells.
+/// The surfaces of `material` that are seen from the unit vector `out`, by their `normal`, by the
+/// `leaving` lanes from inside. `color` is what color_offset tells.
 static inline PhysicalView view_physical(global const float* restrict materials, lane_int met,
                                          lane_uint material, lane_uint color, Colors colors,
-                                         Vector normal, Vector out) {
+                                         Vector normal, Vector out, lane_int leaving) {
     PhysicalView s;
     s.materials = materials;
     s.width = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_WIDTH);
@@ -114,6 +122,7 @@ static inline PhysicalView view_physical(global const float* restrict materials,
     s.frame = frame_around(normal);
     s.out = into_frame(&s.frame, out);
     s.out.z = clamp(s.out.z, 0.0f, 1.0f);
+    if (VXL_ROUGH_GLASS) s.glass = view_glass(materials, s.is, material, leaving, s.out.z, s.width);
     lane_float base[3];
     for (int c = 0; c < 3; ++c) base[c] = surface_color(materials, color, colors, c);
     set_layers(material, base, &s);
@@ -149,17 +158,59 @@ static inline lane_int physical_value(const PhysicalView* s, Vector in, lane_flo
     const lane_float mirrored =
         exact_divide(0.5f * facets, LANES_SELECT(s->is & LANE_MASK(seen > 0.0f), seen, one));
     const lane_float evenly = cosine * 0.318309886f;
-    *density = LANES_SELECT(above, fma(s->gloss, mirrored - evenly, evenly), zero);
+    lane_float likely = fma(s->gloss, mirrored - evenly, evenly);
+    if (VXL_ROUGH_GLASS) {
+        lane_float of_glass;
+        const lane_float returned =
+            glass_value(&s->glass, s->width, cosine, lobe, meets, mirrored, &of_glass);
+        likely = fma(s->glass.share, of_glass - likely, likely);
+        for (int c = 0; c < 3; ++c)
+            value[c] =
+                LANES_SELECT(above, fma(s->glass.share, returned - value[c], value[c]), zero);
+    }
+    *density = LANES_SELECT(above, likely, zero);
     return above;
 }
 
+/// The same of the light from `in` on the other side of the surfaces. Returns the mask of surfaces
+/// that let some of it through.
+static inline lane_int physical_through(const PhysicalView* s, Vector in, lane_float* value,
+                                        lane_float* density) {
+    const lane_float zero = (lane_float)0.0f;
+    const Vector i = into_frame(&s->frame, in);
+    lane_float likely;
+    const lane_int some = s->is & LANE_MASK(s->glass.share > 0.0f) & LANE_MASK(i.z < 0.0f);
+    const lane_float all = s->glass.share * glass_through(&s->glass, s->width, s->out, i, &likely);
+    for (int c = 0; c < 3; ++c) value[c] = LANES_SELECT(some, all * s->tint[c], zero);
+    *density = LANES_SELECT(some, s->glass.share * likely, zero);
+    return some;
+}
+
 /// Directions, as unit vectors in the world, in which paths go on, some of them into the surfaces.
-/// Where `layer` is below `gloss` facets mirror them.
-static inline Vector physical_direction(const PhysicalView* s, SquarePoint at, lane_float layer) {
+/// Where `layer`, spread over what isn't glass, is below `gloss` facets mirror them. `down` becomes
+/// the mask of those meant to get through glass.
+static inline Vector physical_direction(const PhysicalView* s, SquarePoint at, lane_float layer,
+                                        lane_int* down) {
+    const lane_float one = (lane_float)1.0f;
+    lane_int in_glass = (lane_int)0;
+    lane_float choice = layer;
+    *down = (lane_int)0;
+    if (VXL_ROUGH_GLASS) {
+        const lane_float glass = s->glass.share;
+        in_glass = LANE_MASK(layer < glass);
+        choice = exact_divide(layer, LANES_SELECT(in_glass, glass, one));
+        layer = exact_divide(layer - glass, LANES_SELECT(in_glass, one, one - glass));
+    }
     const SquarePoint d = disk_point(at);
     const Vector evenly = {d.x, d.y, exact_sqrt(1.0f - at.x)};
     const Vector mirrored = mirrored_by_facet(s->out, s->width, at);
-    const Vector in = select_vector(LANE_MASK(layer < s->gloss), mirrored, evenly);
+    Vector in = select_vector(LANE_MASK(layer < s->gloss), mirrored, evenly);
+    if (VXL_ROUGH_GLASS) {
+        lane_int through;
+        const Vector way = glass_direction(&s->glass, s->width, s->out, at, choice, &through);
+        in = select_vector(in_glass, way, in);
+        *down = in_glass & through;
+    }
     return unit(out_of_frame(&s->frame, in));
 }
 

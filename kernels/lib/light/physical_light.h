@@ -21,8 +21,8 @@ static inline lane_int find_physical_shares(LightRecord light, const Incidence* 
                                reflecting_normal(way, normal, p->shading_normal), normal);
     const lane_uint color =
         color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
-    const PhysicalView view =
-        view_physical(materials, p->lit, p->material, color, p->colors, normal, opposite(way));
+    const PhysicalView view = view_physical(materials, p->lit, p->material, color, p->colors,
+                                            normal, opposite(way), p->leaving);
     if (!lanes_any(view.is)) return some;
     lane_float value[3], density;
     const lane_int above = physical_value(&view, i->l, value, &density);

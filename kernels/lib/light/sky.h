@@ -5,7 +5,10 @@
 
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/vector.h"
+#include "lib/light/medium_set.h"
+#include "lib/light/sky_map.h"
 #include "lib/traverse/ray_batch.h"
+#include "shared/emitters.h"
 #include "shared/paths.h"
 #include "shared/sky.h"
 
@@ -51,8 +54,35 @@ static inline void daylight(global const SkyRecord* sky, Vector way, lane_float*
     light[0] = fmax(red, 0.0f), light[1] = fmax(green, 0.0f), light[2] = fmax(blue, 0.0f);
 }
 
+/// The parameters that `bind` of a SkyView sets, in its order. A comma ends them.
+#define VXL_SKY_PARAMETERS global const SkyRecord *restrict sky, VXL_SKY_MAP_PARAMETERS
+
+/// A sky; `map` is empty unless it is one.
+typedef struct {
+    global const SkyRecord* restrict record;
+    SkyMap map;
+} SkyView;
+
+/// Of hidden skies, whether the rays come from an observer. A comma ends it.
+#if VXL_SKY_HIDDEN
+#define VXL_SKY_DEPTH_PARAMETER uint from_observer,
+#define VXL_FROM_OBSERVER from_observer
+#else
+#define VXL_SKY_DEPTH_PARAMETER
+#define VXL_FROM_OBSERVER 0u
+#endif
+
+/// The value of SkyView in a kernel with these parameters.
+#define VXL_SKY_VIEW \
+    { sky, VXL_SKY_MAP_VIEW }
+
 /// The radiance of the sky along `way`, without the sun's disc.
-static inline void sky_light(global const SkyRecord* sky, Vector way, lane_float* light) {
+static inline void sky_light(const SkyView* view, Vector way, lane_float* light) {
+    if (VXL_SKY == VXL_SKY_MAP) {
+        sky_map_light(&view->map, way, light);
+        return;
+    }
+    global const SkyRecord* sky = view->record;
     const float zenith[3] = {sky->zenith.x, sky->zenith.y, sky->zenith.z};
     const float horizon[3] = {sky->horizon.x, sky->horizon.y, sky->horizon.z};
     const float ground[3] = {sky->ground.x, sky->ground.y, sky->ground.z};
@@ -79,19 +109,56 @@ static inline void add_sun_disc(global const SkyRecord* sky, Vector way, lane_in
     for (int c = 0; c < 3; ++c) light[c] = fma((lane_float)radiance[c], scale, light[c]);
 }
 
+/// Multiplies the light of a map by the share that rays count for which ran into it, where other
+/// rays are sent to it: the two ways to find it share it (Veach & Guibas 1995).
+static inline void share_sky_light(const SkyMap* map, Vector way, const RayBatch* batch, uint first,
+                                   lane_float* light) {
+    const uint stride = batch->stride;
+    const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
+    const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * stride + first);
+    const lane_uint word = LANES_LOAD(batch->paths, VXL_PATH_EMITTER * stride + first);
+    const lane_int sent = LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u);
+    const lane_int ran_in = ~sent & LANE_MASK(word != 0u);
+    const lane_float own = LANES_AS_FLOAT(word);
+    const lane_float other = sky_map_density(map, way) * map->of.chance;
+    const lane_float all = LANES_SELECT(ran_in, own + other, one);
+    lane_float share = LANES_SELECT(LANE_MASK(other > 0.0f), zero, one);
+    if (VXL_SKY_RAYS == VXL_EMITTERS_BOTH)
+        share = exact_divide(LANES_SELECT(ran_in, own, one), all);
+    share = LANES_SELECT(ran_in, share, one);
+    share = LANES_SELECT(sent & LANE_MASK(word != VXL_EMITTER_IS_SKY), zero, share);
+    for (int c = 0; c < 3; ++c) light[c] *= share;
+}
+
+/// Mask: rays whose observer doesn't see the sky.
+static inline lane_int sees_background(const RayBatch* batch, uint first, uint from_observer) {
+    if (!VXL_GLOBAL) return (lane_int)(from_observer ? -1 : 0);
+    const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first);
+    return LANE_MASK(((state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES) == 0u);
+}
+
 /// The radiance that rays along `way`, in voxels with this edge, see of the sky. The sun's disc is
 /// seen by those that no matt surface has scattered, which samples it as a light.
-static inline void see_sky(lane_int hit, Vector way, float4 edge, global const SkyRecord* sky,
-                           const RayBatch* batch, uint first, lane_float* light) {
+static inline void see_sky(lane_int hit, Vector way, float4 edge, const SkyView* sky,
+                           const RayBatch* batch, uint first, uint from_observer,
+                           lane_float* light) {
     way = unit(scaled(way, edge));
-    sky_light(sky, way, light);
-    if (VXL_SKY != VXL_SKY_SUN) return;
-    lane_int sees = ~hit;
-    if (VXL_GLOBAL) {
-        const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first);
-        sees &= LANE_MASK((state & VXL_STATE_DIFFUSE) == 0u);
+    lane_float seen[3];
+    sky_light(sky, way, seen);
+    if (VXL_SKY_RAYS) share_sky_light(&sky->map, way, batch, first, seen);
+    if (VXL_SKY == VXL_SKY_SUN) {
+        lane_int sees = ~hit;
+        if (VXL_GLOBAL) {
+            const lane_uint state =
+                LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first);
+            sees &= LANE_MASK((state & VXL_STATE_DIFFUSE) == 0u);
+        }
+        add_sun_disc(sky->record, way, sees, seen);
     }
-    add_sun_disc(sky, way, sees, light);
+    lane_int behind = (lane_int)0;
+    if (VXL_SKY_HIDDEN) behind = sees_background(batch, first, from_observer);
+    for (int c = 0; c < 3; ++c)
+        light[c] = VXL_SKY_HIDDEN ? LANES_SELECT(behind, light[c], seen[c]) : seen[c];
 }
 
 #endif

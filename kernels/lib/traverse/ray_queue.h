@@ -99,7 +99,7 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, const Slots* sl
     put_uint(q->paths + VXL_PATH_TARGET * n, r->target, slots);
     for (uint c = 0; c < 3; ++c)
         put_uint(q->paths + (VXL_PATH_THROUGHPUT + c) * n, LANES_AS_UINT(r->throughput[c]), slots);
-    if (VXL_EMITTERS) put_uint(q->paths + VXL_PATH_EMITTER * n, r->emitter, slots);
+    if (VXL_LOOKS) put_uint(q->paths + VXL_PATH_EMITTER * n, r->emitter, slots);
     if (VXL_TRAVELS)
         put_uint(q->paths + VXL_PATH_TRAVELLED * n, LANES_AS_UINT(r->travelled), slots);
     if (!VXL_TRANSMISSION) return;

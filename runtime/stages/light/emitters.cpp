@@ -109,7 +109,8 @@ void limit_emitters(std::vector<WeightedEmitter>& emitters) {
     std::ranges::sort(emitters, matters_more);
 }
 
-std::vector<EmitterRecord> records_of(const std::vector<WeightedEmitter>& emitters) {
+/// `share` is that of rays to light which go to emitters.
+std::vector<EmitterRecord> records_of(const std::vector<WeightedEmitter>& emitters, double share) {
     std::vector<double> weights;
     double sum = 0;
     for (const WeightedEmitter& emitter : emitters) {
@@ -120,7 +121,7 @@ std::vector<EmitterRecord> records_of(const std::vector<WeightedEmitter>& emitte
     std::vector<EmitterRecord> records;
     for (size_t i = 0; i < emitters.size(); ++i) {
         EmitterRecord record = emitters[i].record;
-        record.probability = float(weights[i] / sum);
+        record.probability = float(share * weights[i] / sum);
         record.own_share = float(slots[i].own_share);
         record.alias = slots[i].alias;
         records.push_back(record);
@@ -217,7 +218,8 @@ EmitterTable build_emitters(const Device& device, const Features& features, cons
     std::vector<WeightedEmitter> emitters = emitters_of(device, features, scene, world);
     if (emitters.empty()) return table;
     limit_emitters(emitters);
-    const std::vector<EmitterRecord> records = records_of(emitters);
+    const double share = features.sky_rays != VXL_EMITTERS_NONE ? kEmittersBesideSky : 1;
+    const std::vector<EmitterRecord> records = records_of(emitters, share);
     const std::vector<uint32_t> places = hash_table(records);
     table.count = uint32_t(records.size());
     table.slots = uint32_t(places.size());

@@ -16,6 +16,9 @@ namespace voxelume {
 /// those that a hash chooses all over the scene; paths find the others by running into them.
 inline constexpr size_t kMaxEmitters = size_t{1} << 20;
 
+/// The share of rays to light that go to emitters where others go to a sky.
+inline constexpr float kEmittersBesideSky = 0.5f;
+
 /// The main memory that listing so many voxels takes, of sources that have `listed` together.
 double emitter_host_bytes(size_t voxels, size_t listed);
 

@@ -11,6 +11,7 @@
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/light/footprint.hpp"
 #include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/sky_map.hpp"
 
 namespace voxelume {
 
@@ -27,16 +28,19 @@ class ShadeStage {
                const GridFrame& world);
 
     /// Finds the points, normals and packed attributes of hits 0 .. count-1, and starts their
-    /// radiance.
-    void surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
+    /// radiance. `from_observer` says that the rays come from there, without a reflection.
+    void surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count,
+                 bool from_observer = true);
 
     /// Says which emitters paths look for. Needed for features with `emitters` only.
     void set_emitters(EmitterTable emitters) { emitters_ = std::move(emitters); }
 
+    /// Says how probably a ray to light goes to a sky that is a map.
+    void set_sky_chance(float chance) { sky_.map.record.chance = chance; }
+
     const Environment& environment() const { return environment_; }
     const Buffer<MaterialRecord>& materials() const { return materials_; }
-    /// One record; empty in a world without a sky.
-    const Buffer<SkyRecord>& sky() const { return sky_; }
+    const SkyView& sky() const { return sky_; }
     /// Each object's rank by priority; empty in scenes without paths.
     const Buffer<uint32_t>& ranks() const { return ranks_; }
 
@@ -44,7 +48,8 @@ class ShadeStage {
     Environment environment_;
     Buffer<MaterialRecord> materials_;
     Buffer<uint32_t> ranks_;
-    Buffer<SkyRecord> sky_;
+    SkyView sky_;
+    bool sky_is_hidden_;
     EmitterTable emitters_;
     FootprintArgument footprint_;
     Program program_;

@@ -82,6 +82,7 @@ double disc_tangent(const Sky& sky) {
 }  // namespace
 
 int sky_feature(const Sky& sky) {
+    if (sky.kind == SkyKind::map) return VXL_SKY_MAP;
     return sky.kind == SkyKind::sun ? VXL_SKY_SUN : VXL_SKY_GRADIENT;
 }
 
@@ -124,7 +125,7 @@ LightAreaRecord sun_area_record(const Sky& sky, const GridFrame& world) {
 }
 
 SkyLightStage::SkyLightStage(const Device& device, const Features& features,
-                             const Buffer<MaterialRecord>& materials, const Buffer<SkyRecord>& sky)
+                             const Buffer<MaterialRecord>& materials, const SkyView& sky)
     : materials_(materials),
       sky_(sky),
       program_(device, "sky_light.cl", features.defines(device)),

@@ -10,6 +10,7 @@
 #include "runtime/scene/sky.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/sky_map.hpp"
 
 namespace voxelume {
 
@@ -28,7 +29,7 @@ LightAreaRecord sun_area_record(const Sky& sky, const GridFrame& world);
 class SkyLightStage {
   public:
     SkyLightStage(const Device& device, const Features& features,
-                  const Buffer<MaterialRecord>& materials, const Buffer<SkyRecord>& sky);
+                  const Buffer<MaterialRecord>& materials, const SkyView& sky);
 
     /// Adds the light from direction `number` of `directions` to surface points 0 .. count-1, as
     /// LightStage adds a light.
@@ -37,7 +38,7 @@ class SkyLightStage {
 
   private:
     Buffer<MaterialRecord> materials_;
-    Buffer<SkyRecord> sky_;
+    SkyView sky_;
     Program program_;
     Kernel add_;
 };

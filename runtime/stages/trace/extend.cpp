@@ -18,7 +18,7 @@ NextRays ExtendStage::paths(const Pyramid& pyramid, const PathSampling& sampling
     counters_.fill(0);
     extend_.launch_packets(count, shape_of(pyramid), surroundings_, pyramid.colors, sampling,
                            uint32_t(is_first), entries, count, nodes, counters_, next, emitters,
-                           to_emitters);
+                           sky_, to_emitters);
     const std::vector<uint32_t> counts = counters_.read();
     return {counts[kCountChildren], counts[kCountToEmitters]};
 }

@@ -8,6 +8,7 @@
 #include "runtime/stages/emitter_table.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/sky_map.hpp"
 #include "runtime/stages/trace/scatter.hpp"
 #include "runtime/stages/trace/trace.hpp"
 
@@ -23,16 +24,21 @@ class ExtendStage {
   public:
     ExtendStage(const Device& device, const Features& features, Surroundings surroundings);
 
+    /// Says which sky paths send rays to. Needed for features with `sky_rays` only.
+    void set_sky(SkyMap sky) { sky_ = std::move(sky); }
+
     /// Adds the light of entries 0 .. count-1 to the nodes of their sight rays, whose sums the
     /// first surfaces begin, and writes the next rays of their paths to `next`, which has room for
     /// as many.
-    /// Where paths look for emitters, rays to these go to `to_emitters`, which has as much room.
+    /// Where paths look for emitters or the sky, rays to these go to `to_emitters`, which has as
+    /// much room.
     NextRays paths(const Pyramid& pyramid, const PathSampling& sampling,
                    const EmitterTable& emitters, RayBatch& entries, uint32_t count, bool is_first,
                    NodeLight& nodes, RayQueue& next, RayQueue& to_emitters);
 
   private:
     Surroundings surroundings_;
+    SkyMap sky_;
     Buffer<uint32_t> counters_;
     Program program_;
     Kernel extend_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "kernels/shared/emitters.h"
 #include "kernels/shared/texture.h"
 
 namespace voxelume {
@@ -33,8 +32,8 @@ class ArrayMaker {
 };
 
 size_t path_components(const Features& features) {
-    const size_t emitter = features.emitters != VXL_EMITTERS_NONE ? 1 : 0;
-    const size_t travelled = features.instances ? emitter : 0;
+    const size_t emitter = features.looks() ? 1 : 0;
+    const size_t travelled = features.instances && features.emitters != 0 ? 1 : 0;
     const size_t width = features.textures && features.radiance ? 1 : 0;
     if (features.transmission)
         return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter + travelled + width;
@@ -89,7 +88,7 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
         make_queue(features, maker, depth.next);
         maker.make(depth.nodes.radiance, "node light", 3);
     }
-    if (features.emitters != VXL_EMITTERS_NONE) {
+    if (features.looks()) {
         make_batch(features, maker, depth.to_emitters);
         make_queue(features, maker, depth.next_to_emitters);
     }

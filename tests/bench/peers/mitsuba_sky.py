@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the light of a sky that is a picture against Mitsuba 3's.
+
+Usage: mitsuba_sky.py VOXELUME [SAMPLES]
+
+Renders a matt ball over a matt floor under a latitude-longitude map with a bright sun, in global light
+here and by Mitsuba's path integrator (envmap, diffuse), and compares squares of 8 x 8 pixels. Fails
+where the mean differs by 0.2 % or squares by 2 % (RMS). Where Mitsuba isn't installed (pip install
+mitsuba) it says so and ends with 77, as tests do that are skipped.
+"""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SIZE, SQUARE, BOUNCES = 96, 8, 3
+WIDTH, HEIGHT = 1024, 512
+MAX_MEAN, MAX_SQUARES = 0.002, 0.02
+SKIPPED = 77
+EYE, TARGET, ANGLE = [0.4, 1.1, -2.2], [0, 0.3, 0], 45.0
+SUN, SUN_WIDTH = (0.5, 0.6, -0.62), 0.06
+
+
+def find_mitsuba():
+    """Mitsuba with a variant of colours, and numpy; None without them."""
+    try:
+        import mitsuba
+        import numpy
+    except ImportError:
+        return None
+    mitsuba.set_variant("scalar_rgb")
+    return mitsuba, numpy
+
+
+def sky(np, rows):
+    """The picture, with its rows at these shares of the way from the zenith down."""
+    u = (np.arange(WIDTH) + 0.5) / WIDTH
+    longitude = 2 * math.pi * (0.5 - u)[None, :]
+    theta = math.pi * np.asarray(rows)[:, None]
+    x, z = np.sin(theta) * np.sin(longitude), np.sin(theta) * np.cos(longitude)
+    y = np.cos(theta) + 0 * x
+    sun = np.array(SUN) / np.linalg.norm(SUN)
+    cosine = x * sun[0] + y * sun[1] + z * sun[2]
+    glow = 80 * np.exp((cosine - 1) / SUN_WIDTH ** 2 * 2)
+    return np.stack([0.3 + 0.2 * y + glow, 0.4 + 0.1 * x + 0.8 * glow, 0.6 + 0.2 * z + 0.6 * glow],
+                    axis=-1).astype(np.float32)
+
+
+def our_image(mi, np, voxelume, samples):
+    """The scene in this program."""
+    scene = {
+        "voxelume": 1,
+        "world": {"voxel_size": 0.05, "bounds": {"min": [-1.2, -0.2, -1.2], "max": [1.2, 1, 1.2]},
+                  "sky": {"kind": "map", "file": "sky.exr"}},
+        "materials": {"floor": {"color": [0.6, 0.5, 0.4]}, "ball": {"color": [0.3, 0.6, 0.8]}},
+        "models": {"floor": {"shape": "box", "size": [2, 0.1, 2], "surface": "exact"},
+                   "ball": {"shape": "sphere", "radius": 0.4, "surface": "exact"}},
+        "objects": [{"model": "floor", "material": "floor", "position": [0, -0.05, 0]},
+                    {"model": "ball", "material": "ball", "position": [0, 0.45, 0]}],
+        "observer": {"position": EYE, "look_at": TARGET,
+                     "display": {"shape": "pyramid", "angle": ANGLE}},
+        "render": {"size": [SIZE, SIZE], "samples": samples, "light": "global", "bounces": BOUNCES},
+    }
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        mi.Bitmap(sky(np, (np.arange(HEIGHT) + 0.5) / HEIGHT)).write(str(folder / "sky.exr"))
+        (folder / "scene.json").write_text(json.dumps(scene))
+        subprocess.run([voxelume, "render", str(folder / "scene.json"), "-o",
+                        str(folder / "ours.exr"), "--channels", "RGBA", "-q"], check=True)
+        bitmap = mi.Bitmap(str(folder / "ours.exr"))
+        names = [field.name for field in bitmap.struct_()]
+        values = np.array(bitmap).astype(float)
+        return np.stack([values[:, :, names.index(c)] for c in "RGB"], axis=-1)
+
+
+def mitsuba_image(mi, np, samples):
+    """The scene in Mitsuba, whose pictures have their first and last rows at the poles."""
+    place = mi.ScalarTransform4f
+
+    def matt(color):
+        return {"type": "diffuse", "reflectance": {"type": "rgb", "value": color}}
+    scene = {
+        "type": "scene",
+        "integrator": {"type": "path", "max_depth": BOUNCES + 2, "rr_depth": 1000},
+        "sky": {"type": "envmap", "bitmap": mi.Bitmap(sky(np, np.arange(HEIGHT) / (HEIGHT - 1)))},
+        "floor": {"type": "cube", "bsdf": matt([0.6, 0.5, 0.4]),
+                  "to_world": place().translate([0, -0.05, 0]) @ place().scale([1, 0.05, 1])},
+        "ball": {"type": "sphere", "radius": 0.4, "center": [0, 0.45, 0],
+                 "bsdf": matt([0.3, 0.6, 0.8])},
+        "sensor": {"type": "perspective", "fov": ANGLE,
+                   "to_world": place().look_at(origin=EYE, target=TARGET, up=[0, 1, 0]),
+                   "sampler": {"type": "independent", "sample_count": samples},
+                   "film": {"type": "hdrfilm", "width": SIZE, "height": SIZE,
+                            "rfilter": {"type": "box"}}},
+    }
+    return np.array(mi.render(mi.load_dict(scene))).astype(float)[:, :, :3]
+
+
+def squares(np, image):
+    """The means of the picture's squares."""
+    parts = SIZE // SQUARE
+    return image.reshape(parts, SQUARE, parts, SQUARE, 3).mean(axis=(1, 3))
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    found = find_mitsuba()
+    if not found:
+        print("Mitsuba isn't installed: pip install mitsuba")
+        sys.exit(SKIPPED)
+    mi, np = found
+    samples = int(sys.argv[2]) if len(sys.argv) == 3 else 256
+    ours = squares(np, our_image(mi, np, sys.argv[1], samples))
+    theirs = squares(np, mitsuba_image(mi, np, samples))
+    mean = float(ours.mean() / theirs.mean() - 1)
+    each = np.abs(ours / theirs - 1)
+    rms = float(np.sqrt((each ** 2).mean()))
+    print(f"sky map, {samples} samples: mean {mean:+.4f}, squares RMS {rms:.4f}, "
+          f"largest {each.max():.4f}")
+    sys.exit(0 if abs(mean) < MAX_MEAN and rms < MAX_SQUARES else 1)
+
+
+if __name__ == "__main__":
+    main()
