@@ -187,7 +187,7 @@ SkyMapBytes sky_map_bytes(const Sky& sky) {
     const glm::dvec2 size =
         with_place(sky, [&] { return sky_picture_size(sky.file, kMaxSkyPixels); });
     const double columns = std::min(size.x, double(VXL_SKY_MAX_CELLS));
-    const double rows = std::min(size.y, double(VXL_SKY_MAX_CELLS / 2));
+    const double rows = std::min(size.y, VXL_SKY_MAX_CELLS / 2.0);
     SkyMapBytes bytes;
     bytes.texels = 12 * size.x * size.y;
     bytes.table = 4 * (rows + 2 * columns * rows);
