@@ -25,7 +25,7 @@ constexpr const char* kMatt = R"({"voxelume": 1,
 "lights": [{"type": "directional", "direction": [1, -1, 1], "group": "key"}],
 "observer": {"position": [0.1, 0.3, -3], "look_at": [0, 0, 0],
              "display": {"shape": "pyramid", "angle": 40}},
-"render": {"size": [28, 18], "samples": 2}})";
+"render": {"size": [28, 18], "samples": 2, "adaptive": 0.05}})";
 
 // Glass around the observer, mirrors, a lamp and a light with an area.
 constexpr const char* kLocal = R"({"voxelume": 1,
@@ -164,7 +164,7 @@ std::vector<KnownFile> known_files() {
 
 std::vector<KnownPicture> known_pictures() {
     return {
-        {"matt", kMatt, false, "ad9720e7ffb503cf"},
+        {"matt", kMatt, false, "105c18b0f243990d"},
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "5177d8b338a1e18f"},
         {"global light", with(kLocal, {{"LIGHT", "global"}}), false, "1580ec99b3ef267d"},
         {"meshes", kMeshes, false, "fda3a749a3b575ab"},

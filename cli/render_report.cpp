@@ -71,8 +71,10 @@ void print_summary(const Statistics& statistics) {
             ? fmt::format(", {} secondary rays ({} paths ended early)",
                           count_text(rays.secondary_rays), count_text(rays.ended_paths))
             : "";
-    const std::string noise =
-        rays.noise ? fmt::format(", noise {:.3f}", *rays.noise) : std::string();
+    std::string quality;
+    if (rays.noise) quality = fmt::format(", noise {:.3f}", *rays.noise);
+    if (rays.contrasting_pixels > 0)
+        quality = fmt::format(", {} contrasting pixels", count_text(rays.contrasting_pixels));
     fmt::print(
         stderr,
         "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}{}; "
@@ -80,7 +82,7 @@ void print_summary(const Statistics& statistics) {
         "write {:.0f}\n",
         size_text(statistics), statistics.total_seconds, names_of(statistics),
         reuse_text(statistics.frames), count_text(statistics.voxels), count_text(rays.sight_rays),
-        count_text(rays.shadow_rays), secondary, noise, statistics.open_seconds * 1e3,
+        count_text(rays.shadow_rays), secondary, quality, statistics.open_seconds * 1e3,
         seconds.load * 1e3, seconds.voxelize * 1e3, seconds.place * 1e3, seconds.index * 1e3,
         seconds.image * 1e3, statistics.write_seconds * 1e3);
 }

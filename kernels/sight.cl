@@ -16,22 +16,26 @@ static inline lane_float along(float ax, float ay, float az, Vector v) {
     return fma(v.x, ax, fma(v.y, ay, v.z * az));
 }
 
-/// Writes the rays of one packet. `offsets` holds x and y in [0, 1) of each sample in its pixel.
-kernel void cast_sight(Camera camera, PyramidShape shape, global const float* restrict offsets,
-                       uint first_tile, uint count, uint stride, global float* restrict rays) {
-    const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
-    const uint group = first / 16u;
-    const uint tile = first_tile + group / (uint)camera.samples;
-    const uint sample = group % (uint)camera.samples;
-    const uint tiles_x = ((uint)camera.width + 3u) / 4u;
-    const lane_int pixel = LANES_NUMBERS + (int)(first % 16u);
-    const lane_int column = (int)(tile % tiles_x * 4u) + (pixel & 3);
-    const lane_int row = (int)(tile / tiles_x * 4u) + (pixel >> 2);
+/// What packets of sight rays have in common. `offsets` holds x and y in [0, 1) of each sample in
+/// its pixel.
+typedef struct {
+    Camera camera;
+    PyramidShape shape;
+    global const float* offsets;
+    uint stride;
+} SightCast;
+
+/// Writes the rays of one packet, from ray `first` on: of a sample of the pixels in these columns
+/// and rows. There is none where they are outside of the image.
+static inline void cast_packet(const SightCast* cast, lane_int column, lane_int row, uint sample,
+                               uint first, global float* restrict rays) {
+    const Camera camera = cast->camera;
+    const PyramidShape shape = cast->shape;
+    const uint stride = cast->stride;
     lane_int seen = LANE_MASK(column < camera.width) & LANE_MASK(row < camera.height);
 
-    const lane_float px = LANES_FLOAT(column + camera.first_column) + offsets[2u * sample];
-    const lane_float py = LANES_FLOAT(row + camera.first_row) + offsets[2u * sample + 1u];
+    const lane_float px = LANES_FLOAT(column + camera.first_column) + cast->offsets[2u * sample];
+    const lane_float py = LANES_FLOAT(row + camera.first_row) + cast->offsets[2u * sample + 1u];
     const lane_float u = exact_divide(2.0f * px, (lane_float)(float)camera.frame_width) - 1.0f;
     const lane_float v = exact_divide(2.0f * py, (lane_float)(float)camera.frame_height) - 1.0f;
     SightRay ray = sight_ray(&camera, u, v, &seen);
@@ -77,6 +81,39 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     // The ray ends at the far surface. Where it leaves the world, the walk finds out exactly.
     const lane_float t_end = LANES_SELECT(seen, t_far - t_first, (lane_float)-1.0f);
     LANES_STORE(t_end, rays, VXL_RAY_END * stride + first);
+}
+
+/// Casts the sight rays of tiles from `first_tile` on.
+kernel void cast_sight(Camera camera, PyramidShape shape, global const float* restrict offsets,
+                       uint first_tile, uint count, uint stride, global float* restrict rays) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const uint group = first / 16u;
+    const uint tile = first_tile + group / (uint)camera.samples;
+    const uint tiles_x = ((uint)camera.width + 3u) / 4u;
+    const lane_int pixel = LANES_NUMBERS + (int)(first % 16u);
+    const lane_int column = (int)(tile % tiles_x * 4u) + (pixel & 3);
+    const lane_int row = (int)(tile / tiles_x * 4u) + (pixel >> 2);
+    const SightCast cast = {camera, shape, offsets, stride};
+    cast_packet(&cast, column, row, group % (uint)camera.samples, first, rays);
+}
+
+/// Casts those of the pixels that a list names, 16 a tile: by their numbers along the image's rows,
+/// or VXL_NO_PIXEL.
+kernel void cast_listed(Camera camera, PyramidShape shape, global const float* restrict offsets,
+                        global const uint* restrict pixels, uint first_tile, uint count,
+                        uint stride, global float* restrict rays) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const uint group = first / 16u;
+    const uint tile = first_tile + group / (uint)camera.samples;
+    const lane_uint pixel = LANES_LOAD(pixels, tile * (size_t)16 + first % 16u);
+    const lane_uint row = pixel / (uint)camera.width;
+    const lane_uint column = pixel - row * (uint)camera.width;
+    const SightCast cast = {camera, shape, offsets, stride};
+    const lane_int known = LANE_MASK(pixel != VXL_NO_PIXEL);
+    cast_packet(&cast, LANES_SELECT(known, LANES_AS_INT(column), (lane_int)camera.width),
+                LANES_AS_INT(row), group % (uint)camera.samples, first, rays);
 }
 
 /// Groups of 16 rays, one a lane, and the beam of each. A beam's s is the coordinate along its main

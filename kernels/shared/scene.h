@@ -62,6 +62,9 @@ typedef struct Camera {
 } Camera;
 VXL_SIZE_IS(Camera, 160);
 
+// In a list of pixels: none.
+#define VXL_NO_PIXEL 0xFFFFFFFFu
+
 typedef struct MaterialRecord {
     float color[3];
     float diffuse;

@@ -29,6 +29,7 @@ v1::RayCounts rays_of(const RenderReport& report) {
             .clear_beams = report.clear_beams,
             .display_lines = report.display_lines,
             .clear_display_lines = report.clear_display_lines,
+            .contrasting_pixels = report.contrasting_pixels,
             .shadow_rays = report.shadow_rays,
             .light_beams = report.light_beams,
             .secondary_rays = report.secondary_rays,

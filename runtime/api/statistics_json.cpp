@@ -51,6 +51,7 @@ void add_rays(const RayCounts& rays, Json& json) {
     json["clear_beams"] = rays.clear_beams;
     json["display_lines"] = rays.display_lines;
     json["clear_display_lines"] = rays.clear_display_lines;
+    json["contrasting_pixels"] = rays.contrasting_pixels;
     json["shadow_rays"] = rays.shadow_rays;
     json["light_beams"] = rays.light_beams;
     json["secondary_rays"] = rays.secondary_rays;

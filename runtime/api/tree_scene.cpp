@@ -249,6 +249,7 @@ const char* name_of(v1::LampSearch lamps) {
 JsonValue tree(const v1::RenderSettings& render) {
     ObjectTree object;
     object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
+    object.add("adaptive", render.adaptive);
     object.add("shadows", render.shadows);
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
     object.add("light", render.light == v1::LightMode::global ? "global" : "local");

@@ -16,6 +16,7 @@
 #include "runtime/batch/run_warnings.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -54,8 +55,9 @@ class Batch {
         const auto start = std::chrono::steady_clock::now();
         check();
         const std::chrono::duration<double> checked = std::chrono::steady_clock::now() - start;
-        const bool shares_image =
-            devices_.size() > 1 && options_.frames.size() == 1 && !options_.volume;
+        // The pixels of an adaptive image depend on their neighbours, which others would render.
+        const bool shares_image = devices_.size() > 1 && options_.frames.size() == 1 &&
+                                  !options_.volume && !is_adaptive(scene_.render);
         BatchOutcome outcome = shares_image ? run_image_parts() : run_whole_frames();
         for (const Device& device : devices_) device.finish();
         outcome.is_cancelled = outcome.frames_done < options_.frames.size();

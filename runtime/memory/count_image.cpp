@@ -6,6 +6,7 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/sector_table.hpp"
+#include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
@@ -89,6 +90,17 @@ void count_sky(const Device& device, const Sky& sky, ImageMemory& memory) {
     memory.sky_host_bytes = bytes.host;
 }
 
+/// The image of an adaptive image's first samples. That of the others may be as large.
+void count_first_samples(const Device& device, const Scene& scene, ImageMemory& memory) {
+    const RenderSettings first = first_samples_of(scene).render;
+    memory.first_image = allocate_image(device, first.size, first.channels);
+    memory.first_mattes = allocate_mattes(device, first.size, first.channels);
+    const size_t places = (size_t(scene.render.size.x) * size_t(scene.render.size.y) + 15) / 16;
+    memory.image = allocate_image(device, {4 * int(places), 4}, first.channels);
+    memory.mattes = allocate_mattes(device, {4 * int(places), 4}, first.channels);
+    memory.chosen_pixels = {device, "chosen pixels", 16 * places};
+}
+
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth) {
     if (scene.render.channels.has_passes() && !scene.render.channels.color) {
@@ -119,6 +131,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     if (features.medium_grid) memory.density = allocate_density(device, medium.size);
     memory.image = allocate_image(device, scene.render.size, scene.render.channels);
     memory.mattes = allocate_mattes(device, scene.render.size, scene.render.channels);
+    if (is_adaptive(scene.render)) count_first_samples(device, scene, memory);
     return memory;
 }
 

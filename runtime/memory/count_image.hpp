@@ -25,6 +25,9 @@ struct ImageMemory {
     double sky_host_bytes = 0;  ///< of main memory for the sky's picture
     ImageArrays image;
     std::vector<MatteArrays> mattes;
+    ImageArrays first_image;  ///< of the first samples of an adaptive image
+    std::vector<MatteArrays> first_mattes;
+    Buffer<uint32_t> chosen_pixels;  ///< of its other samples
 };
 
 /// All that Renderer's image of a world takes, without the world. `depth` is that of the arrays for

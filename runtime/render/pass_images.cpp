@@ -56,7 +56,7 @@ bool Renderer::lends_hits(const View& view, uint32_t max_tiles) const {
 /// Adds the channels that show parts of the light, of the tiles that were rendered, with as many
 /// samples.
 void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
-                          const Tiles& tiles, std::vector<int>& samples, RenderReport& report,
+                          const Tiles& tiles, Sampled& sampled, RenderReport& report,
                           Image& image) const {
     for (const LightPass& pass : passes) {
         RenderReport of_pass;
@@ -67,7 +67,7 @@ void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld
         if (has_passes_) renderer.lender_ = this;
         renderer.dilated_occupancy_ = dilated_occupancy_;
         Image light = renderer.sampled_image(pass.scene, world, of_pass,
-                                             {share, taken, tiles.weight}, samples);
+                                             {share, taken, tiles.weight}, sampled);
         of_pass.noise = {};
         for (const char* color : {"R", "G", "B"})
             image.planes[fmt::format("{}.{}", pass.name, color)] =

@@ -19,6 +19,7 @@ namespace voxelume {
 
 void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.sight_rays += report.sight_rays;
+    sum.contrasting_pixels += report.contrasting_pixels;
     sum.beams += report.beams;
     sum.clear_beams += report.clear_beams;
     sum.display_lines += report.display_lines;
@@ -145,12 +146,12 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         if (adds_color) shown.render.channels.color = true;
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());
-        std::vector<int> samples;
+        Sampled sampled;
         const Tiles weighted{tiles.share, tiles.taken, 1.0 / double(1 + passes.size())};
         tiles.share.set_weight(first_weight(shown, weighted.weight));
         has_passes_ = !passes.empty() && !shown.render.noise.is_given();
-        Image image = sampled_image(shown, world, report, weighted, samples);
-        add_passes(passes, world, weighted, samples, report, image);
+        Image image = sampled_image(shown, world, report, weighted, sampled);
+        add_passes(passes, world, weighted, sampled, report, image);
         if (!follows_) hits_.clear();
         if (!passes.empty()) finish_passes(shown, image);
         if (adds_color)
@@ -202,6 +203,12 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         dilation_that_pays(features, world, rays, pixel);
     build_programs(device_, features, scene, world, true, dilated_occupancy.has_value());
     SightStage sight(device_, features, observer);
+    Camera shown = observer;
+    if (!tiles.pixels.empty()) {
+        sight.choose(device_, tiles.pixels);
+        shown.width = 4 * int(all_tiles);
+        shown.height = 4;
+    }
     std::optional<BeamStage> beams;
     if (!report.hits_are_kept && dilated_occupancy)
         beams.emplace(device_, features, world,
@@ -211,8 +218,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         const uint32_t max = light_beams_that_pay(world.frame, rays, observer.samples, pixel);
         send_light_beams(dilated_occupancy_of(built, *dilated_occupancy), max, illumination);
     }
-    ResolveStage resolve(device_, features, observer, scene.render.channels);
-    MatteStage mattes(device_, features, observer, scene);
+    ResolveStage resolve(device_, features, shown, scene.render.channels);
+    MatteStage mattes(device_, features, shown, scene);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
         const uint32_t first = range->first, now = range->count;
         illumination.set_sampling(path_sampling(scene, observer, first));

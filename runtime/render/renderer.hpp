@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/image/image.hpp"
@@ -28,7 +29,8 @@ struct RenderReport {
     uint64_t voxels = 0;       ///< surface voxels in the world's pyramid
     uint64_t world_bytes = 0;  ///< bytes of the pyramid on the device
     uint64_t sight_rays = 0;
-    uint64_t beams = 0;          ///< each sent along 16 sight rays; 0 if they don't pay
+    uint64_t contrasting_pixels = 0;  ///< of an adaptive image: those that got all samples
+    uint64_t beams = 0;               ///< each sent along 16 sight rays; 0 if they don't pay
     uint64_t clear_beams = 0;    ///< number of those that meet nothing: their rays ended at once
     uint64_t display_lines = 0;  ///< probe lines along a display's lattice
     uint64_t clear_display_lines = 0;  ///< lines not sent because they miss all objects
@@ -70,6 +72,8 @@ class Renderer {
         TileShare& share;
         std::vector<TileRange>& taken;  ///< the tiles that it rendered
         double weight = 1;              ///< of this image's work, in what the share tells
+        /// The pixels that tiles consist of, 16 each; empty: those of squares.
+        std::span<const uint32_t> pixels{};
     };
 
     /// Renders those tiles of the image that are left in `tiles`; the others are undefined.
@@ -93,6 +97,12 @@ class Renderer {
         Buffer<uint32_t> hits;
     };
 
+    /// Where an image got more samples: what its passes do likewise.
+    struct Sampled {
+        std::vector<int> tiles;  ///< the samples of each; empty: as many as they need
+        std::optional<std::vector<uint32_t>> pixels;  ///< those that contrast; none: not known yet
+    };
+
     struct WorldDilation {
         uint64_t world = 0;
         DilatedOccupancy dilated_occupancy;
@@ -108,12 +118,13 @@ class Renderer {
     void note_done(const TileRange& range, const Tiles& tiles) const;
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
     Image sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
-                        const Tiles& tiles, std::vector<int>& samples);
+                        const Tiles& tiles, Sampled& sampled);
+    Image adaptive_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
+                         const Tiles& tiles, Sampled& sampled);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
     void add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
-                    const Tiles& tiles, std::vector<int>& samples, RenderReport& report,
-                    Image& image) const;
+                    const Tiles& tiles, Sampled& sampled, RenderReport& report, Image& image) const;
 
     Device device_;
     bool follows_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene/first_samples.hpp"
 
 namespace voxelume {
 namespace {
@@ -89,10 +90,11 @@ double Renderer::first_weight(const Scene& scene, double weight) {
     return weight * std::min(kFirstSamples, scene.render.samples) / scene.render.samples;
 }
 
-/// An image with the samples of each tile that are given, or, if none are, with those that it
-/// needs, which it gives.
+/// An image with the samples of each tile, or of each pixel, that are given, or, if none are, with
+/// those that it needs, which it gives.
 Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
-                              const Tiles& tiles, std::vector<int>& samples) {
+                              const Tiles& tiles, Sampled& sampled) {
+    if (is_adaptive(scene.render)) return adaptive_image(scene, world, report, tiles, sampled);
     const NoiseTarget target = scene.render.noise;
     if (!target.is_given()) return image_of_tiles(scene, world, report, tiles);
     const auto start = Clock::now();
@@ -101,6 +103,7 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
     part.render.samples = std::min(kFirstSamples, scene.render.samples);
     Image image = image_of_tiles(part, world, report, tiles);
     if (!is_sampled_again(scene)) return image;
+    std::vector<int>& samples = sampled.tiles;
     const bool is_measured = samples.empty();
     if (is_measured) samples.assign(tiles.share.tiles(), part.render.samples);
     const auto has_more = [&](uint32_t tile) {
@@ -124,15 +127,15 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
         const Image more = renderer.image_of_tiles(part, world, of_more, {share, taken});
         if (tiles.share.is_closed()) break;
         reached = 2 * done;
-        const std::vector<TileRange> sampled = std::exchange(left, {});
-        left = tiles_where(sampled, [&](uint32_t tile) {
+        const std::vector<TileRange> again = std::exchange(left, {});
+        left = tiles_where(again, [&](uint32_t tile) {
             const auto [error, is_dark] = average_tile(tile, more, image);
             errors[tile] = float(error);
             if (!is_measured) return samples[tile] > 2 * done;
             samples[tile] = 2 * done;
             return error > target.error || (is_dark && 2 * done < kDarkSamples);
         });
-        work.end(sampled, left, reached);
+        work.end(again, left, reached);
         add_counts(of_more, report);
         report.image_seconds += of_more.image_seconds;
     }

@@ -38,6 +38,15 @@ class TileShare {
           whole_(&whole),
           ranges_(std::move(ranges)) {}
 
+    /// Hands out tiles of its own for a part of another's work, which ends it when it is closed.
+    /// Each is `weight` of a tile of the whole.
+    TileShare(TileShare& whole, uint32_t tiles, double weight)
+        : tiles_(tiles),
+          maximum_(UINT32_MAX),
+          weight_(weight),
+          whole_(&whole),
+          ranges_({{0, tiles}}) {}
+
     /// The next tiles, at most `count`; empty if all were handed out.
     std::optional<TileRange> take(uint32_t count);
     /// Reports to the progress callback that these tiles are done, with the weight of their work.

@@ -86,8 +86,11 @@ struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
     ImageCrop crop;             ///< not in scene files
     int samples = 1;            ///< per pixel, 1..4096; at most so many where `noise` is given
-    int first_sample = 0;       ///< of the sequence of samples; not in scene files
-    int depth = 5;              ///< reflections and refractions in a row, 0..64
+    /// Of local light: pixels whose neighbours differ by more than this contrast get all samples,
+    /// others one, 0..1; 0: all pixels get all.
+    double adaptive = 0;
+    int first_sample = 0;  ///< of the sequence of samples; not in scene files
+    int depth = 5;         ///< reflections and refractions in a row, 0..64
     bool shadows = true;
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
     double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end

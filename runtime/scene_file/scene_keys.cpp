@@ -80,8 +80,8 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"track", {"target", "keys", "interpolation"}});
     tables.push_back({"key", {"frame", "time", "value", "in", "out"}});
     tables.push_back({"render",
-                      {"size", "samples", "depth", "shadows", "shadow", "least_weight", "light",
-                       "bounces", "lamps"}});
+                      {"size", "samples", "adaptive", "depth", "shadows", "shadow", "least_weight",
+                       "light", "bounces", "lamps"}});
     return tables;
 }
 

@@ -112,6 +112,7 @@ RenderSettings read_render(const SceneValue& value) {
         render.size = {parts[0].integer(1, kMaxImageSide), parts[1].integer(1, kMaxImageSide)};
     }
     render.samples = fields.integer("samples", 1, 4096, render.samples);
+    render.adaptive = fields.number("adaptive", kRatio, render.adaptive);
     render.depth = fields.integer("depth", 0, 64, render.depth);
     if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
     if (const auto shadow = fields.find("shadow"))

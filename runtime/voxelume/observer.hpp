@@ -101,6 +101,7 @@ enum class LampSearch {
 struct RenderSettings {
     Size size{640, 480};                  ///< pixels, 1..kMaxImageSide each
     int samples = 1;                      ///< sight rays a pixel, 1..4096
+    double adaptive = 0;                  ///< local light: contrast of pixels that get all, 0..1
     int depth = 5;                        ///< reflections and refractions in a row, 0..64
     bool shadows = true;                  ///< whether lights cast shadows
     bool filtered_shadows = false;        ///< refracting objects tint light instead of hiding it

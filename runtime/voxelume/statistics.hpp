@@ -48,6 +48,7 @@ struct RayCounts {
     uint64_t clear_beams = 0;          ///< of these, those that see nothing
     uint64_t display_lines = 0;        ///< probe lines along a display's lattice
     uint64_t clear_display_lines = 0;  ///< not sent, as they pass all objects by
+    uint64_t contrasting_pixels = 0;   ///< of adaptive images: those with all samples
     uint64_t shadow_rays = 0;          ///< rays to lights
     uint64_t light_beams = 0;          ///< beams from lights, where shadow rays end
     uint64_t secondary_rays = 0;       ///< reflected, refracted, and gone on through surfaces

@@ -102,11 +102,20 @@ SightStage::SightStage(const Device& device, const Features& features, const Cam
       program_(device, "sight.cl", features.defines(device)),
       cast_(program_.kernel("cast_sight")) {}
 
+void SightStage::choose(const Device& device, std::span<const uint32_t> pixels) {
+    pixels_.emplace(device, "chosen pixels", pixels);
+    cast_ = program_.kernel("cast_listed");
+}
+
 uint32_t SightStage::cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles,
                           RayBatch& batch) {
     const uint32_t count = tiles * 16u * uint32_t(camera_.samples);
-    cast_.launch_packets(count, camera_, world, offsets_, first_tile, count, batch.stride,
-                         batch.rays);
+    if (pixels_)
+        cast_.launch_packets(count, camera_, world, offsets_, *pixels_, first_tile, count,
+                             batch.stride, batch.rays);
+    else
+        cast_.launch_packets(count, camera_, world, offsets_, first_tile, count, batch.stride,
+                             batch.rays);
     return count;
 }
 

@@ -2,6 +2,10 @@
 // observer -> rays: one sight ray for every sample of every pixel.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid_frame.hpp"
 #include "runtime/opencl/program.hpp"
@@ -33,6 +37,10 @@ class SightStage {
     /// Sets another observer's camera for the rays from here on; the number of samples stays.
     void look(const Camera& camera) { camera_ = camera; }
 
+    /// From here on tiles are of those pixels that a list names, 16 each: by their numbers along
+    /// the image's rows, or VXL_NO_PIXEL.
+    void choose(const Device& device, std::span<const uint32_t> pixels);
+
     /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each. Returns their
     /// number.
     uint32_t cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles, RayBatch& batch);
@@ -40,6 +48,7 @@ class SightStage {
   private:
     Camera camera_;
     Buffer<float> offsets_;
+    std::optional<Buffer<uint32_t>> pixels_;  ///< only those are seen
     Program program_;
     Kernel cast_;
 };
