@@ -88,7 +88,7 @@ TEST(ShippedPlacements, LookAlikeInTheWorldAndAsInstances) {
 TEST(ShippedPlacements, OfWallsOnTheWorldsBoundsLookAlike) {
     const auto picture = [](Placement placement) {
         Scene scene = placed_scene("cornell", placement);
-        scene.render.light = LightMethod::direct;
+        scene.render.light = LightMode::local;
         scene.render.samples = 1;
         RenderReport report;
         return render(shared_device(), scene, report);
