@@ -14,16 +14,18 @@
 #include "lib/light/scatter_point.h"
 #include "lib/solid/solid_hit.h"
 #include "lib/surface/surface_color.h"
+#include "lib/traverse/bounds_slack.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/ray_queue.h"
 #include "shared/scene.h"
 
 /// Makes each ray from an observer the entry of a node of its own. `bodies` are the solids that
-/// transmit light, in which a ray may begin.
-kernel void begin_paths(global const SolidShape* restrict solids, uint body_count,
-                        global const uint* restrict bodies, VXL_SURROUNDINGS_PARAMETERS,
-                        VXL_BATCH_PARAMETERS, uint count) {
+/// transmit light, in which a ray may begin. A ray that comes into the world through a face on its
+/// side begins in front of this face.
+kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict solids,
+                        uint body_count, global const uint* restrict bodies,
+                        VXL_SURROUNDINGS_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -58,8 +60,10 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
         const lane_int valid =
             below(first, count) &
             LANE_MASK(LANES_LOAD(batch.rays, VXL_RAY_END * batch.stride + first) >= 0.0f);
+        const lane_float t_first =
+            -slack_of_entry(o, d, shape.size_x, shape.size_y, shape.size_z) * shape.plane_bound;
         for (uint i = 0; i < body_count; ++i) {
-            const SolidEvent event = event_at(solids, bodies[i], &ray, (lane_float)0.0f);
+            const SolidEvent event = event_at(solids, bodies[i], &ray, t_first);
             in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0,
                                event.after & valid, around.medium_overflows);
         }

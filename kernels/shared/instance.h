@@ -31,7 +31,7 @@ typedef struct InstanceRecord {
     unsigned int first_sector;    // where the model's table starts
     unsigned int aligned;         // 1: the map only turns by quarters, mirrors and moves by whole
                                   // voxels of the world's size, so rays are carried exactly
-    unsigned int unused[1];       // 0
+    float bounds_rounding;        // world voxels: how far rounding moves its faces
     unsigned int object;          // its number in the scene
     unsigned int first_material;  // where the materials of its groups start, the last of them for
     unsigned int material_count;  // all further groups

@@ -83,6 +83,27 @@ TEST(ShippedPlacements, LookAlikeInTheWorldAndAsInstances) {
     }
 }
 
+/// The scene of cornell.json in direct light, whose walls' outer faces lie on the world's bounds.
+/// Where walls cross, both faces are at one depth, and either may be seen.
+TEST(ShippedPlacements, OfWallsOnTheWorldsBoundsLookAlike) {
+    const auto picture = [](Placement placement) {
+        Scene scene = placed_scene("cornell", placement);
+        scene.render.light = LightMode::local;
+        scene.render.samples = 1;
+        RenderReport report;
+        return render(shared_device(), scene, report);
+    };
+    const Image world = picture(Placement::world), instances = picture(Placement::instance);
+    for (size_t i = 0; i < world.planes.at("Z").size(); ++i) {
+        const float depth = world.planes.at("Z")[i];
+        if (std::isinf(depth)) {
+            EXPECT_TRUE(std::isinf(instances.planes.at("Z")[i])) << i;
+            continue;
+        }
+        EXPECT_NEAR(instances.planes.at("Z")[i], depth, 1e-5) << i;
+    }
+}
+
 // A rough surface of glass bends rays so much that the least difference of normals leads them
 // elsewhere. Pixels differ, and their mean doesn't.
 TEST(ShippedPlacements, OfGlassInASmoothMeshHaveTheSameLightOnAverage) {

@@ -62,7 +62,7 @@
 #define INSTANCE_RECORD_FIELDS \
     FA(object_from_world, 9) FA(center, 3) FA(image, 3) FA(low, 3) FA(high, 3) F(near_squared) \
     F(plane_bound) F(fixed_point) IA(size, 3) I(sectors_x) I(sectors_y) I(first_sector) I(aligned) \
-    IA(unused, 1) I(object) I(first_material) I(material_count) I(padding)
+    F(bounds_rounding) I(object) I(first_material) I(material_count) I(padding)
 #define INSTANCE_NODE_FIELDS \
     F(low[0][0]) F(low[0][1]) F(low[0][2]) F(low[1][0]) F(low[1][1]) F(low[1][2]) F(high[0][0]) \
     F(high[0][1]) F(high[0][2]) F(high[1][0]) F(high[1][1]) F(high[1][2]) IA(child, 2) IA(unused, 2)

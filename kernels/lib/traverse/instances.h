@@ -9,6 +9,7 @@
 #ifndef VXL_INSTANCES_H
 #define VXL_INSTANCES_H
 
+#include "lib/traverse/bounds_slack.h"
 #include "lib/traverse/packet.h"
 #include "lib/traverse/transformed_ray.h"
 
@@ -133,14 +134,27 @@ static inline RayState ray_state_in(const RayState* ray_state, lane_uint number,
     return t;
 }
 
+/// The axis of an aligned instance's space that lies along one of the world's; 3 for none.
+static inline lane_int object_axis(global const InstanceRecord* r, lane_int world_axis) {
+    lane_int axis = (lane_int)3;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            if (r->object_from_world[3 * row + column] != 0.0f)
+                axis = LANES_SELECT(LANE_MASK(world_axis == column), (lane_int)row, axis);
+    return axis;
+}
+
 /// Replaces what lanes have found by closer hits of their rays on instance `number`.
 static inline lane_int meet_instance(const PyramidView* world, const SurfaceView* s,
                                      const InstanceView* v, uint number, const Walk* ray,
                                      lane_float inverse_squared, lane_float t_last, lane_int active,
-                                     const RayState* ray_state, SurfaceHit* best, Walk* at) {
+                                     const BoundsSlack* slack, const RayState* ray_state,
+                                     SurfaceHit* best, Walk* at) {
     global const InstanceRecord* r = v->records + number;
     const Vector o = {ray->ox, ray->oy, ray->oz}, d = {ray->dx, ray->dy, ray->dz};
-    const BoxPassage way = pass_box(r, o, d, inverse_squared, ray_state->t_first);
+    const lane_float t_first = first_of_faces(slack, ray_state->t_first, r->bounds_rounding);
+    t_last = last_of_faces(slack, t_last, r->bounds_rounding);
+    const BoxPassage way = pass_box(r, o, d, inverse_squared, t_first);
     active &= way.met & LANE_MASK(way.base + way.from <= t_last);
     if (!lanes_any(active)) return active;
     const TransformedRay c = transform_ray(r, &way);
@@ -148,9 +162,9 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
     Walk w =
         begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
     w.axis = r->aligned ? (lane_int)3 : way.axis;
-    if (r->aligned) enter_box(&p, r, ray_state->t_first, &w);
+    if (r->aligned) enter_box(&p, r, t_first, &w);
     RayState outside = *ray_state;
-    if (!r->aligned) outside.t_first = (lane_float)0.0f;
+    outside.t_first = r->aligned ? t_first : (lane_float)0.0f;
     RayState inside = ray_state_in(&outside, (lane_uint)number, r->object, LANE_MASK(w.axis == 3));
     if (VXL_SOLIDS) {
         const lane_int asked = active & inside.asks_side & LANE_MASK(w.axis == 3) &
@@ -166,7 +180,7 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
     // their t in the world.
     const lane_float t_end = transformed_t(&c, fma(t_last, 0x1p-20f, t_last));
     const SurfaceHit found = find_first(&p, s, &w, t_end, active, &inside);
-    const lane_float t = world_t(&c, fmax(found.t, 0.0f));
+    const lane_float t = fmax(world_t(&c, fmax(found.t, 0.0f)), 0.0f);
     const lane_int closer =
         found.hit & active & LANE_MASK(t <= t_last) &
         (~best->hit | LANE_MASK(t < best->t) |
@@ -181,15 +195,17 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
     at->x = LANES_SELECT(closer, w.x, at->x);
     at->y = LANES_SELECT(closer, w.y, at->y);
     at->z = LANES_SELECT(closer, w.z, at->z);
-    at->axis = LANES_SELECT(closer, w.axis, at->axis);
+    const lane_int on_side = LANE_MASK(slack->in > 0.0f) & LANE_MASK(w.t == 0.0f);
+    const lane_int side = r->aligned ? object_axis(r, ray->axis) : w.axis;
+    at->axis = LANES_SELECT(closer, LANES_SELECT(on_side, side, w.axis), at->axis);
     return closer;
 }
 
 /// Replaces what lanes have found by closer hits on instances. Lanes that look for `any` are done
 /// with the first.
 static INLINED void meet_instances(const PyramidView* world, const SurfaceView* s,
-                                   const InstanceView* v, const Walk* ray, lane_float t_end,
-                                   lane_int active, bool any, const RayState* ray_state,
+                                   const InstanceView* v, const Walk* ray, lane_int active,
+                                   bool any, const BoundsSlack* slack, const RayState* ray_state,
                                    SurfaceHit* best, Walk* at) {
     const SlabRay slab = slab_ray(ray);
     const Vector d = {ray->dx, ray->dy, ray->dz};
@@ -199,12 +215,12 @@ static INLINED void meet_instances(const PyramidView* world, const SurfaceView* 
     lane_float times[VXL_INSTANCE_DEPTH];
     int waiting = 0;
     uint node = 0;
-    lane_float t_last = LANES_SELECT(best->hit, fmin(best->t, t_end), t_end);
+    lane_float t_last = LANES_SELECT(best->hit, fmin(best->t, slack->t_out), slack->t_out);
     while (true) {
         if (node & VXL_INSTANCE_LEAF) {
             const lane_int met =
                 meet_instance(world, s, v, node & ~VXL_INSTANCE_LEAF, ray, inverse_squared, t_last,
-                              active, ray_state, best, at);
+                              active, slack, ray_state, best, at);
             t_last = LANES_SELECT(met, best->t, t_last);
             active = (lane_int)0;
         } else {
@@ -272,8 +288,10 @@ static INLINED SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_flo
     const Vector o = {ray.ox, ray.oy, ray.oz}, d = {ray.dx, ray.dy, ray.dz};
     clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
     if (any) active &= ~found.hit;
-    if (lanes_any(active))
-        meet_instances(p, s, &world->instances, &ray, t_out, active, any, ray_state, &found, w);
+    if (!lanes_any(active)) return found;
+    const BoundsSlack slack =
+        bounds_slack(p, &ray, ~(ray_state->on_surface | ray_state->goes_on), t_out, t_end);
+    meet_instances(p, s, &world->instances, &ray, active, any, &slack, ray_state, &found, w);
     return found;
 }
 

@@ -145,6 +145,7 @@ Placed place_instance(const Instance& instance, const InstanceModel& model,
     const double uneven = std::max({e.x, e.y, e.z}) / std::min({e.x, e.y, e.z});
     placed.origin_offset = std::sqrt(3.0) * uneven *
                            (world.plane_bound + 2 * row_sum(world_from_voxels) * shape.plane_bound);
+    record.bounds_rounding = float(placed.origin_offset);
     return placed;
 }
 

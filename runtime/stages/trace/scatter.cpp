@@ -24,8 +24,8 @@ ScatterStage::ScatterStage(const Device& device, const Features& features,
       gather_(program_.kernel("gather_light")) {}
 
 void ScatterStage::begin(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    begin_.launch_packets(count, pyramid.solids, uint32_t(bodies_.size()), bodies_, surroundings_,
-                          batch, count);
+    begin_.launch_packets(count, shape_of(pyramid), pyramid.solids, uint32_t(bodies_.size()),
+                          bodies_, surroundings_, batch, count);
 }
 
 uint32_t ScatterStage::take(uint32_t counter) {
