@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `voxelume`: finds the command in its table, reads the options, runs it and turns
 // failures into exit codes.
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -108,6 +110,16 @@ void flush_stdout() {
                     fmt::format("can't write to standard output: {}", std::strerror(errno)));
 }
 
+/// Opens standard streams that the caller has closed, so that no file or pipe gets their numbers:
+/// `-` would read from the program itself, and messages would go into images. Reading from and
+/// writing to those that are opened here fails.
+void open_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF &&
+            ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) == -1)
+            return;
+}
+
 }  // namespace
 
 /// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
@@ -130,6 +142,7 @@ int main(int count, char** arguments) {
     namespace cli = voxelume::cli;
     // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
+    cli::open_closed_streams();
     cli::keep_freed_memory();
     try {
         const int fault = cli::load_settings_for(count > 1 ? arguments[1] : "");
