@@ -103,11 +103,14 @@ int load_settings_for(const std::string& command) try {
     return command == "config" ? code : 0;
 }
 
+std::string stdout_failure() {
+    return fmt::format("can't write to standard output: {}", std::strerror(errno));
+}
+
 /// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
 void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw Error(ErrorKind::output,
-                    fmt::format("can't write to standard output: {}", std::strerror(errno)));
+        throw Error(ErrorKind::output, stdout_failure());
 }
 
 /// Opens standard streams that the caller has closed, so that no file or pipe gets their numbers:
@@ -163,6 +166,8 @@ int main(int count, char** arguments) {
         return cli::complain("out of memory: use fewer or larger voxels, or a smaller picture",
                              ErrorKind::limit);
     } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0)
+            return cli::complain(cli::stdout_failure(), ErrorKind::output);
         return cli::complain(error.what(), ErrorKind::render);
     }
 }
