@@ -62,7 +62,7 @@ TEST_F(CliStreamTest, StreamsThatAreClosedAreNoFilesOfTheProgram) {
 
 TEST_F(CliStreamTest, ARunDoesNotEndForWantOfAPlaceForItsMessages) {
     EXPECT_EQ(pipe("voxelume render scene.json -v -o a.png 2>/dev/full").exit_code, 0);
-    EXPECT_EQ(pipe("voxelume render nothing.json -o b.png 2>/dev/full").exit_code, 3);
+    EXPECT_EQ(pipe("voxelume render nothing.json -o b.png 2>/dev/full").exit_code, 4);
     EXPECT_EQ(read_png(folder / "a.png").width, 20);
     const ProgramResult full = pipe("voxelume man >/dev/full");  // more than fits a buffer
     EXPECT_EQ(full.exit_code, 5);
