@@ -10,6 +10,7 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/tell.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
@@ -39,8 +40,8 @@ int run(const BenchCommand& command) {
         report = run_bench(device, options, [&bar](size_t, size_t) { bar.advance(); });
     }
     if (!command.quiet)
-        fmt::print(stderr, "\"{}\", {} lanes, driver {}; {}\n", report.device, report.lanes,
-                   report.driver, report.machine);
+        tell("\"{}\", {} lanes, driver {}; {}\n", report.device, report.lanes, report.driver,
+             report.machine);
     fmt::print("{}", report.text);
     write_text(command.page, report.page);
     write_text(command.csv, report.csv);

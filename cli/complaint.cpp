@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "cli/tell.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
@@ -19,7 +20,7 @@ int complain(const std::string& sentence, ErrorKind kind) {
         lines.push_back(sentence);
     }
     for (std::string& line : lines) line = harmless_line(std::move(line));
-    fmt::print(stderr, "voxelume: {}\n", fmt::join(lines, "\n"));
+    tell("voxelume: {}\n", fmt::join(lines, "\n"));
     return static_cast<int>(kind);
 }
 

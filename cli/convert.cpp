@@ -6,6 +6,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/tell.hpp"
 
 namespace voxelume::cli {
 
@@ -27,7 +28,7 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
 int run(const ConvertCommand& command) {
     if (command.format.empty() && can_convert_voxels(command.from, command.to)) {
         for (const std::string& note : convert_voxels(command.from, command.to))
-            fmt::print(stderr, "note: {}\n", note);
+            tell("note: {}\n", note);
         return 0;
     }
     VolumeFileOptions options = command.options;

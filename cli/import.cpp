@@ -8,6 +8,7 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/import_options.hpp"
+#include "cli/tell.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -36,8 +37,7 @@ int run(const ImportCommand& command) {
     const auto inside =
         home.lexically_relative(std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
     if (!command.quiet && (inside.empty() || *inside.begin() == ".."))
-        fmt::print(stderr, "the file lies elsewhere: render the scene with --assets {}\n",
-                   quote(home.string()));
+        tell("the file lies elsewhere: render the scene with --assets {}\n", quote(home.string()));
     return 0;
 }
 

@@ -18,6 +18,8 @@
 
 #include "runtime/voxelume.hpp"
 
+#include "cli/tell.hpp"
+
 namespace voxelume::cli {
 namespace {
 
@@ -73,11 +75,9 @@ void await_interruption(int number) {
 }
 
 /// What the program says when it ends in the middle of something.
-void tell() {
-    tell_interruption([] {
-        fmt::print(stderr, "\nvoxelume: {}\n",
-                   signal_number == SIGTERM ? "terminated" : "interrupted");
-    });
+void tell_end() {
+    tell_interruption(
+        [] { tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted"); });
 }
 
 void wait_for_signal() {
@@ -93,7 +93,7 @@ void wait_for_signal() {
         std::signal(SIGTERM, SIG_DFL);
         std::this_thread::sleep_for(kGrace - kTogether);
     }
-    tell();
+    tell_end();
     remove_unfinished_files();
     _exit(interrupted_code());
 }

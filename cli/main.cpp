@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `voxelume`: finds the command in its table, reads the options, runs it and turns
 // failures into exit codes.
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -101,11 +103,24 @@ int load_settings_for(const std::string& command) try {
     return command == "config" ? code : 0;
 }
 
+std::string stdout_failure() {
+    return fmt::format("can't write to standard output: {}", std::strerror(errno));
+}
+
 /// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
 void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw Error(ErrorKind::output,
-                    fmt::format("can't write to standard output: {}", std::strerror(errno)));
+        throw Error(ErrorKind::output, stdout_failure());
+}
+
+/// Opens standard streams that the caller has closed, so that no file or pipe gets their numbers:
+/// `-` would read from the program itself, and messages would go into images. Reading from and
+/// writing to those that are opened here fails.
+void open_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF &&
+            ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) == -1)
+            return;
 }
 
 }  // namespace
@@ -130,6 +145,7 @@ int main(int count, char** arguments) {
     namespace cli = voxelume::cli;
     // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
+    cli::open_closed_streams();
     cli::keep_freed_memory();
     try {
         const int fault = cli::load_settings_for(count > 1 ? arguments[1] : "");
@@ -150,6 +166,8 @@ int main(int count, char** arguments) {
         return cli::complain("out of memory: use fewer or larger voxels, or a smaller picture",
                              ErrorKind::limit);
     } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0)
+            return cli::complain(cli::stdout_failure(), ErrorKind::output);
         return cli::complain(error.what(), ErrorKind::render);
     }
 }

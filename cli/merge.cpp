@@ -15,6 +15,7 @@
 #include "cli/commands.hpp"
 #include "cli/complaint.hpp"
 #include "cli/shard_manifest.hpp"
+#include "cli/tell.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -136,7 +137,7 @@ void merge_run(std::vector<Part> parts, bool is_quiet) {
     check_numbers(parts);
     std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.number; });
     const auto say = [&](const std::string& what) {
-        if (!is_quiet) fmt::print(stderr, "{} of {} parts\n", what, parts.size());
+        if (!is_quiet) tell("{} of {} parts\n", what, parts.size());
     };
     if (parts.front().manifest.rows) {
         for (const fs::path& file : merge_rows(parts)) say(file.string());
@@ -179,8 +180,7 @@ int run(const MergeCommand& command) {
             kind = failed++ == 0 || kind == error.kind() ? error.kind() : ErrorKind::render;
         }
     }
-    if (!command.quiet)
-        fmt::print(stderr, "{} of {} runs merged\n", runs.size() - failed, runs.size());
+    if (!command.quiet) tell("{} of {} runs merged\n", runs.size() - failed, runs.size());
     return failed == 0 ? 0 : static_cast<int>(kind);
 }
 

@@ -11,6 +11,7 @@
 #include "cli/complaint.hpp"
 #include "cli/render_job.hpp"
 #include "cli/render_jobs.hpp"
+#include "cli/tell.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
@@ -36,8 +37,8 @@ void print_tally(const Tally& tally, double seconds) {
         names += (i == 0 ? "; failed: " : ", ") + tally.failed[i];
     if (tally.failed.size() > kMaxNames)
         names += fmt::format(" and {} more", tally.failed.size() - kMaxNames);
-    fmt::print(stderr, "{} of {} rendered in {:.1f} s{}\n", tally.done,
-               tally.done + tally.failed.size(), seconds, harmless_line(names));
+    tell("{} of {} rendered in {:.1f} s{}\n", tally.done, tally.done + tally.failed.size(), seconds,
+         harmless_line(names));
 }
 
 /// The devices of a run, and those that step in where one of them fails.
@@ -53,7 +54,7 @@ class Devices {
         } catch (const Error& error) {
             if (!has_fallback_ || !may_be_the_device(error.kind())) throw;
             complain(error.what(), error.kind());
-            fmt::print(stderr, "voxelume: the device of --fallback takes over\n");
+            tell("voxelume: the device of --fallback takes over\n");
             // What is too large for a device says nothing of the next scene.
             has_failed_ = error.kind() != ErrorKind::limit;
             render_job(without_finished(command), fallback_, label);
@@ -85,7 +86,7 @@ int run_all(const std::vector<RenderJob>& jobs, Devices& devices) {
     Tally tally;
     for (size_t i = 0; i < jobs.size(); ++i) {
         const std::string label = fmt::format("{} of {}", i + 1, jobs.size());
-        if (!is_quiet) fmt::print(stderr, "{}: {}\n", label, harmless_line(jobs[i].name));
+        if (!is_quiet) tell("{}: {}\n", label, harmless_line(jobs[i].name));
         try {
             devices.render(jobs[i].command, label);
             ++tally.done;
@@ -105,6 +106,7 @@ int run(const RenderCommand& command) {
     const std::vector<RenderJob> jobs = render_jobs(command);
     for (const RenderJob& job : jobs) check_options(job.command);
     set_limits(command.scene, "render");
+    tell_unread_bases(command.quiet);
     Devices devices(command.scene.device, command.fallback);
     if (jobs.size() > 1) return run_all(jobs, devices);
     devices.render(jobs.front().command, "rendering");

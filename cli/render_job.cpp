@@ -14,6 +14,7 @@
 #include "cli/render_progress.hpp"
 #include "cli/render_report.hpp"
 #include "cli/shard_part.hpp"
+#include "cli/tell.hpp"
 #include "cli/view_transforms.hpp"
 #include "cli/warnings.hpp"
 
@@ -37,16 +38,14 @@ ProgressStyle style_of(const RenderCommand& command) {
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
     const size_t count = job.frames.size();
     if (count == 0 && !command.quiet)
-        fmt::print(stderr,
-                   "this part has nothing to render: there are more parts than frames or rows\n");
+        tell("this part has nothing to render: there are more parts than frames or rows\n");
     const std::vector<int> numbers = numbers_of(job.frames);
     const size_t skipped = skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
     if (job.frames.empty() && OutputStream(command.outputs).is_wanted()) {
         job.frames.push_back({numbers.front(), {}, {}});  // its image goes to the stream anyway
         return true;
     }
-    if (skipped > 0 && !command.quiet)
-        fmt::print(stderr, "{} of {} frames are there already\n", skipped, count);
+    if (skipped > 0 && !command.quiet) tell("{} of {} frames are there already\n", skipped, count);
     return !job.frames.empty();
 }
 
@@ -128,10 +127,10 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
         return;
     }
     if (!command.quiet && scene.has_default_light())
-        fmt::print(stderr, "note: {}\n",
-                   harmless_line(fmt::format("{}: has no \"lights\", so one shines from the "
-                                             "observer's upper left; \"lights\": [] is dark",
-                                             scene.file().string())));
+        tell("note: {}\n",
+             harmless_line(fmt::format("{}: has no \"lights\", so one shines from the "
+                                       "observer's upper left; \"lights\": [] is dark",
+                                       scene.file().string())));
     const double open_seconds = seconds();
     const bool is_part = part.has_value() || job.frames.size() < frames;
     Statistics statistics = render_files(scene, devices, {std::move(job), label, is_part}, command);

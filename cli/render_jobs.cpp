@@ -64,7 +64,7 @@ class JobList {
             const auto has_key = [&](const Sweep& sweep) {
                 return last_key(sweep.path) == last_key(path);
             };
-            if (std::ranges::count_if(sweeps_, has_key) == 1)
+            if (std::ranges::count_if(sweeps_, has_key) == 1 && last_key(path) != path)
                 list.emplace_back(last_key(path), text);
         }
         return list;

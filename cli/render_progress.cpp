@@ -8,6 +8,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/settings.hpp"
+#include "cli/tell.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
@@ -30,7 +31,7 @@ double rounded(double value) {
 
 /// Names of files may be in any encoding.
 void print_line(const Json& object) {
-    fmt::print(stderr, "{}\n", object.dump(-1, ' ', false, Json::error_handler_t::replace));
+    tell("{}\n", object.dump(-1, ' ', false, Json::error_handler_t::replace));
     std::fflush(stderr);
 }
 
@@ -85,8 +86,8 @@ void RenderProgress::advance(double done, int frame) {
 
 void RenderProgress::print_plain(double done) {
     const std::optional<double> left = left_.seconds();
-    fmt::print(stderr, "{}: {:.0f} %{}\n", label_, std::floor(done * 100),
-               left && done < 1 ? fmt::format(", {} left", clock_text(*left)) : "");
+    tell("{}: {:.0f} %{}\n", label_, std::floor(done * 100),
+         left && done < 1 ? fmt::format(", {} left", clock_text(*left)) : "");
 }
 
 void RenderProgress::print_json(double done, int frame) {
@@ -112,7 +113,7 @@ void RenderProgress::compiling(int kernel, int known) {
     if (bar_)
         bar_->say(text);
     else if (style_ == ProgressStyle::plain && is_due(now, kPlainInterval))
-        fmt::print(stderr, "{}: {}\n", label_, text);
+        tell("{}: {}\n", label_, text);
     else if (style_ == ProgressStyle::json)
         print_line({{"event", "compiling"},
                     {"job", label_},
@@ -135,7 +136,7 @@ void RenderProgress::written(const FrameFiles& files) {
                             {"frame", files.frame},
                             {"file", path.string()}});
             else
-                fmt::print(stderr, "frame {}: {}\n", files.frame, path.string());
+                tell("frame {}: {}\n", files.frame, path.string());
 }
 
 void RenderProgress::clear() {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "cli/tell.hpp"
+
 namespace voxelume::cli {
 namespace {
 
@@ -48,17 +50,16 @@ std::string reuse_text(const std::vector<FrameStatistics>& frames) {
 /// What memory didn't suffice for.
 void print_lacks(const Statistics& statistics) {
     if (statistics.one_by_one_from)
-        fmt::print(stderr,
-                   "  one frame at a time from frame {} on: memory doesn't suffice for two\n",
-                   *statistics.one_by_one_from);
+        tell("  one frame at a time from frame {} on: memory doesn't suffice for two\n",
+             *statistics.one_by_one_from);
     const std::vector<FrameStatistics>& frames = statistics.frames;
     const auto count = std::ranges::count(frames, true, &FrameStatistics::keeps_nothing);
     if (count == 0) return;
     const auto first = std::ranges::find(frames, true, &FrameStatistics::keeps_nothing);
-    fmt::print(stderr,
-               "  {} of {} frames keep nothing for the next, frame {} the first: memory "
-               "doesn't suffice\n",
-               count, frames.size(), first->frame);
+    tell(
+        "  {} of {} frames keep nothing for the next, frame {} the first: memory "
+        "doesn't suffice\n",
+        count, frames.size(), first->frame);
 }
 
 }  // namespace
@@ -75,8 +76,7 @@ void print_summary(const Statistics& statistics) {
     if (rays.noise) quality = fmt::format(", noise {:.3f}", *rays.noise);
     if (rays.contrasting_pixels > 0)
         quality = fmt::format(", {} contrasting pixels", count_text(rays.contrasting_pixels));
-    fmt::print(
-        stderr,
+    tell(
         "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}{}; "
         "open {:.0f} ms, load {:.0f}, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}, "
         "write {:.0f}\n",
@@ -89,25 +89,23 @@ void print_summary(const Statistics& statistics) {
 
 void print_details(const Statistics& statistics) {
     const DeviceStatistics& device = statistics.devices[0];
-    fmt::print(stderr, "  {} lanes, driver {}; {} triangles; world {:.1f} MB, at most {:.1f} MB\n",
-               device.lanes, device.driver, statistics.triangles,
-               double(statistics.world_bytes) / 1e6, double(statistics.peak_device_bytes) / 1e6);
-    fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
-               statistics.programs_made, statistics.programs_ms, statistics.programs_from_cache);
+    tell("  {} lanes, driver {}; {} triangles; world {:.1f} MB, at most {:.1f} MB\n", device.lanes,
+         device.driver, statistics.triangles, double(statistics.world_bytes) / 1e6,
+         double(statistics.peak_device_bytes) / 1e6);
+    tell("  {} programs in {:.0f} ms, {} of them compiled before\n", statistics.programs_made,
+         statistics.programs_ms, statistics.programs_from_cache);
     if (statistics.culled_objects > 0)
-        fmt::print(stderr, "  {} objects out of every ray's reach, not voxelized\n",
-                   statistics.culled_objects);
+        tell("  {} objects out of every ray's reach, not voxelized\n", statistics.culled_objects);
     print_lacks(statistics);
     if (statistics.frames.size() > 1)
         for (const FrameStatistics& frame : statistics.frames)
-            fmt::print(stderr,
-                       "  frame {:<5} world {}: {} voxelized, {} bricks painted, {} instances "
-                       "moved; image {}\n",
-                       frame.frame, name_of(frame.world), frame.voxelized, frame.painted_bricks,
-                       frame.instances_moved, name_of(frame.image));
+            tell(
+                "  frame {:<5} world {}: {} voxelized, {} bricks painted, {} instances "
+                "moved; image {}\n",
+                frame.frame, name_of(frame.world), frame.voxelized, frame.painted_bricks,
+                frame.instances_moved, name_of(frame.image));
     for (const auto& [kernel, ms] : statistics.kernel_ms)
-        fmt::print(stderr, "  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms,
-                   statistics.launches.at(kernel));
+        tell("  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms, statistics.launches.at(kernel));
 }
 
 }  // namespace voxelume::cli

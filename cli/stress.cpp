@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/stress_again.hpp"
+#include "cli/tell.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
@@ -96,8 +97,7 @@ int run(const StressCommand& command) {
     wait_for_interrupt();
     const Device device = Device::open(command.device);
     if (!command.quiet)
-        fmt::print(stderr, "\"{}\", {} lanes, seed {}\n", device.info().name, device.lanes(),
-                   command.seed);
+        tell("\"{}\", {} lanes, seed {}\n", device.info().name, device.lanes(), command.seed);
     uint64_t cases = 0, mismatches = 0;
     for (const StressTest& test : tests) {
         if (is_interrupted) break;
@@ -106,7 +106,7 @@ int run(const StressCommand& command) {
         mismatches += result.mismatches;
     }
     if (is_interrupted) {
-        fmt::print(stderr, "interrupted after {} cases, {} mismatches\n", cases, mismatches);
+        tell("interrupted after {} cases, {} mismatches\n", cases, mismatches);
         return kInterruptedCode;
     }
     return mismatches == 0 ? 0 : 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/sweep.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include "cli/checks.hpp"
@@ -37,6 +38,13 @@ Sweep parse_sweep(const std::string& text, const char* command) {
                 "{}: --sweep {}: a value is missing beside a comma; give PATH=V1,V2, and lists as "
                 "PATH=[1,2,3],[4,5,6]",
                 command, text);
+    for (size_t i = 0; i < sweep.values.size(); ++i)
+        if (std::find(sweep.values.begin(), sweep.values.begin() + i, sweep.values[i]) !=
+            sweep.values.begin() + i)
+            fail_usage(
+                "{}: --sweep {}: the value {} stands there twice; lists are written in brackets, "
+                "PATH=[1,2,3],[4,5,6]",
+                command, text, sweep.values[i]);
     return sweep;
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/tell.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -60,12 +61,11 @@ int run(const VoxelizeCommand& command) {
     const VoxelizeReport report =
         voxelize(command.mesh, {command.outputs.begin(), command.outputs.end()}, device, options);
     if (!command.quiet)
-        fmt::print(stderr,
-                   "{} triangles to {}x{}x{} voxels of {:.4g} m in {:.2f} s on \"{}\": {} bricks\n",
-                   report.triangles, report.size[0], report.size[1], report.size[2],
-                   report.voxel_size, report.seconds, device.info().name, report.bricks);
+        tell("{} triangles to {}x{}x{} voxels of {:.4g} m in {:.2f} s on \"{}\": {} bricks\n",
+             report.triangles, report.size[0], report.size[1], report.size[2], report.voxel_size,
+             report.seconds, device.info().name, report.bricks);
     if (!command.quiet)
-        for (const std::string& note : report.notes) fmt::print(stderr, "note: {}\n", note);
+        for (const std::string& note : report.notes) tell("note: {}\n", note);
     return 0;
 }
 

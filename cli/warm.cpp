@@ -13,6 +13,7 @@
 #include "cli/complaint.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/tell.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
@@ -54,10 +55,10 @@ void warm_up(const WarmCommand& command, const std::string& input) {
     }
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     if (!command.quiet)
-        fmt::print(stderr, "{}: {} in {:.1f} s\n", harmless_line(input),
-                   compiled > 0 ? fmt::format("{} kernels compiled", compiled)
-                                : std::string("nothing to compile"),
-                   passed.count());
+        tell("{}: {} in {:.1f} s\n", harmless_line(input),
+             compiled > 0 ? fmt::format("{} kernels compiled", compiled)
+                          : std::string("nothing to compile"),
+             passed.count());
 }
 
 int run(const WarmCommand& command) {
@@ -66,6 +67,7 @@ int run(const WarmCommand& command) {
         fail_usage(
             "warm: there is no cache to fill: VOXELUME_CACHE_DIR names no folder to write to");
     set_limits(command.scene, "warm");
+    tell_unread_bases(command.quiet);
     int code = 0;
     for (const std::string& input : command.inputs) {
         try {
@@ -79,7 +81,7 @@ int run(const WarmCommand& command) {
             code = code == 0 || code == failure ? failure : static_cast<int>(ErrorKind::render);
         }
     }
-    if (!command.quiet) fmt::print(stderr, "the cache is {}\n", folder.string());
+    if (!command.quiet) tell("the cache is {}\n", folder.string());
     return code;
 }
 

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
+
+#include "cli/tell.hpp"
 
 namespace voxelume::cli {
 
@@ -14,8 +17,7 @@ std::string harmless_line(std::string text) {
 }
 
 void print_warning(const Warning& warning) {
-    fmt::print(stderr, "warning: {}\n",
-               harmless_line(fmt::format("{}: {}", warning.where, warning.text)));
+    tell("warning: {}\n", harmless_line(fmt::format("{}: {}", warning.where, warning.text)));
 }
 
 std::function<void(const Warning&)> warning_printer(bool strict, std::function<void()> before) {
@@ -33,6 +35,14 @@ void tell_warnings(const std::vector<Warning>& warnings, bool quiet, bool strict
     const std::string more = count > 1 ? fmt::format(" (the first of {} warnings)", count) : "";
     throw Error(ErrorKind::scene,
                 fmt::format("{}: {}{}", warnings[0].where, warnings[0].text, more));
+}
+
+void tell_unread_bases(bool quiet) {
+    if (quiet) return;
+    for (const std::filesystem::path& base : user_cache_bases())
+        if (const std::string refusal = cache_base_refusal(base); !refusal.empty())
+            tell("note: {}\n", harmless_line(fmt::format("{}, a base of the cache, isn't read: {}",
+                                                         base.string(), refusal)));
 }
 
 }  // namespace voxelume::cli

@@ -24,4 +24,8 @@ std::function<void(const Warning&)> warning_printer(bool strict, std::function<v
 /// Error::scene with the first one instead, if there is one, and prints the others.
 void tell_warnings(const std::vector<Warning>& warnings, bool quiet, bool strict);
 
+/// Prints a note for each base of the cache that isn't read, unless `quiet`: what is in it will be
+/// compiled again.
+void tell_unread_bases(bool quiet);
+
 }  // namespace voxelume::cli

@@ -80,6 +80,14 @@ TEST_F(CliLayersTest, TheDoctorTellsWhyABaseIsNotRead) {
               "isn't read: a link in the place of a folder isn't followed");
 }
 
+TEST_F(CliLayersTest, ARunTellsOfABaseThatItDoesNotRead) {
+    const std::string caches = "/none:" + (folder / "top").string();
+    const std::string note =
+        "note: /none, a base of the cache, isn't read: there is no such folder";
+    EXPECT_THAT(run_with(caches, "render scene.json -o a.png").err, HasSubstr(note));
+    EXPECT_THAT(run_with(caches, "render scene.json -o a.png -q").err, testing::IsEmpty());
+}
+
 TEST_F(CliLayersTest, StrictWarmingEndsWithTheFirstWarning) {
     write_scene([](Json& scene) { scene["objects"][0]["position"] = {90, 1, 0.5}; });
     const ProgramResult told = run_with(folder / "base", "warm scene.json");

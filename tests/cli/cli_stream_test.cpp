@@ -51,6 +51,24 @@ TEST_F(CliStreamTest, ASceneIsReadFromStandardInputAndAnImageWrittenToStandardOu
     EXPECT_EQ(pipe("voxelume check - <scene.json").exit_code, 0);
 }
 
+TEST_F(CliStreamTest, StreamsThatAreClosedAreNoFilesOfTheProgram) {
+    const ProgramResult in = pipe("timeout 60 voxelume render - -o a.png <&-");
+    EXPECT_EQ(in.exit_code, 4) << in.err;  // it waited for what it wrote itself
+    const ProgramResult out = pipe("voxelume check scene.json >&-");
+    EXPECT_EQ(out.exit_code, 5) << out.err;
+    EXPECT_EQ(pipe("voxelume render scene.json -o b.png >&- 2>&-").exit_code, 0);
+    EXPECT_EQ(read_png(folder / "b.png").width, 20);
+}
+
+TEST_F(CliStreamTest, ARunDoesNotEndForWantOfAPlaceForItsMessages) {
+    EXPECT_EQ(pipe("voxelume render scene.json -v -o a.png 2>/dev/full").exit_code, 0);
+    EXPECT_EQ(pipe("voxelume render nothing.json -o b.png 2>/dev/full").exit_code, 4);
+    EXPECT_EQ(read_png(folder / "a.png").width, 20);
+    const ProgramResult full = pipe("voxelume man >/dev/full");  // more than fits a buffer
+    EXPECT_EQ(full.exit_code, 5);
+    EXPECT_THAT(full.err, HasSubstr("can't write to standard output: No space left on device"));
+}
+
 TEST_F(CliStreamTest, MistakesInStandardInputHaveTheirLine) {
     const ProgramResult result = pipe("echo \"{\" | voxelume render - -o a.png");
     EXPECT_EQ(result.exit_code, 3);

@@ -47,6 +47,14 @@ TEST(Program, IsMadeOnceWhileTheDeviceIsOpen) {
     EXPECT_EQ(made("kernel void f(global int* x) { *x += VALUE; }\n", 3), 1u);
 }
 
+TEST(Program, WarningsOfTheCompilerAreNotPrinted) {
+    const Device device = test_device();
+    testing::internal::CaptureStderr();
+    const Program program =
+        Program::from_text(device, "#warning told\nkernel void h(global int* x) { *x = 9; }\n");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(Program, ConstantsThatTheSourceDoesNotMentionMakeNoOther) {
     const Device device = test_device();
     const auto made = [&](const Defines& defines) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Messages on stderr.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace voxelume::cli {
+
+/// Prints to stderr. Where that fails, as on a full disk or where stderr is closed, nothing is
+/// told: a run doesn't end for want of a place for its messages.
+template <class... Args>
+void tell(fmt::format_string<Args...> format, Args&&... args) {
+    const std::string text = fmt::format(format, std::forward<Args>(args)...);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace voxelume::cli
