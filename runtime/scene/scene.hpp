@@ -13,6 +13,7 @@
 #include "runtime/scene/material.hpp"
 #include "runtime/scene/object.hpp"
 #include "runtime/scene/observer.hpp"
+#include "runtime/scene/reconstruction_filter.hpp"
 #include "runtime/scene/world.hpp"
 
 namespace voxelume {
@@ -87,6 +88,7 @@ struct RenderSettings {
     ImageCrop crop;             ///< not in scene files
     int samples = 1;            ///< per pixel, 1..4096; at most so many where `noise` is given
     int first_sample = 0;       ///< of the sequence of samples; not in scene files
+    ReconstructionFilter filter;
     int depth = 5;              ///< reflections and refractions in a row, 0..64
     bool shadows = true;
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
