@@ -61,7 +61,10 @@ class RayHull {
   public:
     RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects, double lift) {
         const GridFrame world = world_frame(scene.world);
-        hull_ = hull_of_sight_rays(scene.observer, world);
+        Observer observer = scene.observer;
+        observer.display =
+            with_filter_margin(observer.display, scene.render.filter, frame_size(scene.render));
+        hull_ = hull_of_sight_rays(observer, world);
         if (scene.render.shadows && traces_light(scene))
             add_shadow_rays(scene, emissive_objects, world, hull_);
         const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;

@@ -56,7 +56,8 @@ glm::dvec3 lens_reach(const Observer& observer, const GridFrame& world) {
 /// they enter across the world's sides.
 bool may_begin_in(const VoxelBox& box, const Scene& scene, const GridFrame& world) {
     const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
-    const Display& display = scene.observer.display;
+    const Display display =
+        with_filter_margin(scene.observer.display, scene.render.filter, frame_size(scene.render));
     const glm::dvec3 lens = lens_reach(scene.observer, world);
     const glm::dvec3 reach = shape_row(display).start_radius(display) / world.voxel_edge + lens;
     if (overlap(box, {eye - reach, eye + reach})) return true;

@@ -247,6 +247,7 @@ const char* name_of(v1::LampSearch lamps) {
 }
 
 JsonValue tree(const v1::RenderSettings& render) {
+    constexpr std::array kFilters = {"box", "tent", "gaussian", "blackman-harris"};
     ObjectTree object;
     object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
     object.add("adaptive", render.adaptive);
@@ -254,6 +255,8 @@ JsonValue tree(const v1::RenderSettings& render) {
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
     object.add("light", render.light == v1::LightMode::global ? "global" : "local");
     object.add("bounces", render.bounces).add("lamps", name_of(render.lamps));
+    object.add("filter", kFilters.at(size_t(render.filter)));
+    object.add("filter_width", render.filter_width);
     return object.add("least_weight", render.min_weight).take();
 }
 

@@ -155,6 +155,7 @@ void count_volume(const Device& device, const Scene& scene, const Pyramid& world
     all_channels.render.channels = {};
     all_channels.render.light = LightMode::local;
     all_channels.observer.aperture = 0;
+    all_channels.render.filter = {};
     DisplayCounter(device, all_channels, world, medium, estimate).run();
 }
 

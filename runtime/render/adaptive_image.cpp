@@ -55,7 +55,7 @@ Image Renderer::adaptive_image(const Scene& scene, const BuiltWorld& world, Rend
     tiles.taken.push_back({0, tiles.share.tiles()});
     if (!sampled.pixels) {
         const glm::ivec2 first = asked.crop.first - part.render.crop.first;
-        sampled.pixels = contrasting_pixels(image, asked.adaptive);
+        sampled.pixels = contrasting_pixels(image, asked.adaptive, contrast_reach(asked));
         if (size != asked.size) {
             *sampled.pixels = pixels_in(*sampled.pixels, size.x, first, asked.size);
             image = part_of(std::move(image), first, asked.size);

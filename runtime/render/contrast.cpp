@@ -101,6 +101,18 @@ bool is_light(const std::string& plane) {
     return plane == "R" || plane == "G" || plane == "B" || plane == "A";
 }
 
+/// Adds the neighbours of the pixels that are in a set.
+void widen(int width, int height, std::vector<bool>& pixels) {
+    const std::vector<bool> before = pixels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int row = std::max(y - 1, 0); row <= std::min(y + 1, height - 1); ++row)
+                for (int column = std::max(x - 1, 0); column <= std::min(x + 1, width - 1);
+                     ++column)
+                    if (before[size_t(row) * size_t(width) + size_t(column)])
+                        pixels[size_t(y) * size_t(width) + size_t(x)] = true;
+}
+
 /// Which of the pixels show nothing; of images of colours alone it doesn't matter.
 std::vector<bool> misses(const std::vector<uint32_t>& pixels, const Image& image) {
     std::vector<bool> missed(pixels.size());
@@ -123,7 +135,7 @@ Plane<Value> part_of(const Plane<Value>& plane, int width, glm::ivec2 first, glm
 
 }  // namespace
 
-std::vector<uint32_t> contrasting_pixels(const Image& image, double contrast) {
+std::vector<uint32_t> contrasting_pixels(const Image& image, double contrast, int reach) {
     const PixelContrast pixels(image, contrast);
     std::vector<bool> contrasts(size_t(image.width) * size_t(image.height));
     for (int y = 0; y < image.height; ++y)
@@ -136,6 +148,7 @@ std::vector<uint32_t> contrasting_pixels(const Image& image, double contrast) {
             };
             compare(1, 0), compare(-1, 1), compare(0, 1), compare(1, 1);
         }
+    for (int i = 0; i < reach; ++i) widen(image.width, image.height, contrasts);
     std::vector<uint32_t> numbers;
     for (size_t i = 0; i < contrasts.size(); ++i)
         if (contrasts[i]) numbers.push_back(uint32_t(i));

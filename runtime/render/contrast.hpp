@@ -11,10 +11,11 @@ namespace voxelume {
 
 /// The numbers, along the rows, of the pixels that differ from one of their eight neighbours: in
 /// their object, in the direction of their surface by more than 26 degrees, in their depth by more
-/// than a twentieth of the nearer one, or in the square root of R, G or B by more than `contrast`.
+/// than a twentieth of the nearer one, or in the square root of R, G or B by more than `contrast`;
+/// and of those that lie at most `reach` columns and rows from such a pixel.
 ///
 /// The image has R, G, B, Z, N and objectId.
-std::vector<uint32_t> contrasting_pixels(const Image& image, double contrast);
+std::vector<uint32_t> contrasting_pixels(const Image& image, double contrast, int reach = 0);
 
 /// Averages pixels of an image, which have `samples` samples, with `more_samples` further ones.
 /// Pixel i of the list is pixel i % 16 of tile i / 16 of `more`, whose tiles of 4 x 4 lie in a row.

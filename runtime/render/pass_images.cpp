@@ -36,6 +36,7 @@ RenderSettings of_sight(const RenderSettings& all) {
     settings.crop = all.crop;
     settings.samples = all.samples;
     settings.first_sample = all.first_sample;
+    settings.filter = all.filter;
     return settings;
 }
 

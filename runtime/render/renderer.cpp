@@ -202,7 +202,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     const std::optional<DilationLevel> dilated_occupancy =
         dilation_that_pays(features, world, rays, pixel);
     build_programs(device_, features, scene, world, true, dilated_occupancy.has_value());
-    SightStage sight(device_, features, observer);
+    SightStage sight(device_, features, observer, scene.render.filter);
     Camera shown = observer;
     if (!tiles.pixels.empty()) {
         sight.choose(device_, tiles.pixels);

@@ -24,6 +24,7 @@ namespace {
 Scene with_all_channels(Scene scene) {
     scene.render.light = LightMode::local;
     scene.observer.aperture = 0;
+    scene.render.filter = {};
     scene.render.channels = {};
     return scene;
 }

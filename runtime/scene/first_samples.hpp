@@ -9,6 +9,9 @@ namespace voxelume {
 /// The samples of a pixel before it is compared with others: its middle.
 constexpr int kComparedSamples = 1;
 
+/// How far from pixels that contrast others show a part of them, through the filter: pixels.
+int contrast_reach(const RenderSettings& render);
+
 /// Whether some pixels of flat images get more samples than others, by their contrast.
 bool is_adaptive(const RenderSettings& render);
 

@@ -13,6 +13,7 @@
 #include "runtime/scene/material.hpp"
 #include "runtime/scene/object.hpp"
 #include "runtime/scene/observer.hpp"
+#include "runtime/scene/reconstruction_filter.hpp"
 #include "runtime/scene/world.hpp"
 
 namespace voxelume {
@@ -90,7 +91,8 @@ struct RenderSettings {
     /// others one, 0..1; 0: all pixels get all.
     double adaptive = 0;
     int first_sample = 0;  ///< of the sequence of samples; not in scene files
-    int depth = 5;         ///< reflections and refractions in a row, 0..64
+    ReconstructionFilter filter;
+    int depth = 5;  ///< reflections and refractions in a row, 0..64
     bool shadows = true;
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
     double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end

@@ -87,6 +87,11 @@ std::string observer_text(const Observer& observer) {
         shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far, lens);
 }
 
+std::string filter_text(const ReconstructionFilter& filter) {
+    if (filter.is_pixel()) return "";
+    return fmt::format(", {} filter {:.6g} pixels wide", filter_row(filter).name, filter.width);
+}
+
 }  // namespace
 
 std::string describe(const Scene& scene) {
@@ -110,8 +115,9 @@ std::string describe(const Scene& scene) {
     const std::string light = render.light == LightMode::global
                                   ? fmt::format("global light of {} bounces", render.bounces)
                                   : fmt::format("depth {}", render.depth);
-    text += fmt::format("image: {}x{} pixels, {} samples each, {}, shadows {}\n", render.size.x,
-                        render.size.y, render.samples, light, render.shadows ? "on" : "off");
+    text += fmt::format("image: {}x{} pixels, {} samples each{}, {}, shadows {}\n", render.size.x,
+                        render.size.y, render.samples, filter_text(render.filter), light,
+                        render.shadows ? "on" : "off");
     return text;
 }
 

@@ -81,7 +81,7 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"key", {"frame", "time", "value", "in", "out"}});
     tables.push_back({"render",
                       {"size", "samples", "adaptive", "depth", "shadows", "shadow", "least_weight",
-                       "light", "bounces", "lamps"}});
+                       "light", "bounces", "lamps", "filter", "filter_width"}});
     return tables;
 }
 

@@ -2,6 +2,7 @@
 // The parts of a scene that stand alone: world, materials, animation, render settings.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "runtime/scene/fitted.hpp"
@@ -103,6 +104,21 @@ Animation read_animation(const SceneValue& value) {
     return animation;
 }
 
+namespace {
+
+ReconstructionFilter read_filter(const SceneFields& fields) {
+    ReconstructionFilter filter;
+    if (const auto shape = fields.find("filter")) {
+        std::array<std::string_view, 4> names;
+        std::ranges::transform(filter_rows(), names.begin(), &FilterRow::name);
+        filter.shape = FilterShape(shape->choice(names));
+    }
+    filter.width = fields.number("filter_width", kFilterWidth, filter_row(filter).default_width);
+    return filter;
+}
+
+}  // namespace
+
 RenderSettings read_render(const SceneValue& value) {
     const SceneFields fields(value, "render");
     RenderSettings render;
@@ -113,6 +129,7 @@ RenderSettings read_render(const SceneValue& value) {
     }
     render.samples = fields.integer("samples", 1, 4096, render.samples);
     render.adaptive = fields.number("adaptive", kRatio, render.adaptive);
+    render.filter = read_filter(fields);
     render.depth = fields.integer("depth", 0, 64, render.depth);
     if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
     if (const auto shadow = fields.find("shadow"))

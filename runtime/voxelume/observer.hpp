@@ -97,6 +97,14 @@ enum class LampSearch {
     rays    ///< by rays to them, but for what mirrors and glass show
 };
 
+/// How the samples around the middle of a pixel make its value.
+enum class ReconstructionFilter {
+    box,             ///< their mean
+    tent,            ///< with weights that fall evenly
+    gaussian,        ///< with those of a bell of three standard deviations to each side
+    blackman_harris  ///< with those of Blackman-Harris's window
+};
+
 /// The flat image.
 struct RenderSettings {
     Size size{640, 480};                  ///< pixels, 1..kMaxImageSide each
@@ -109,6 +117,9 @@ struct RenderSettings {
     LightMode light = LightMode::local;   ///< what light reaches surfaces
     int bounces = 8;                      ///< times that a path of global light is scattered, 0..64
     LampSearch lamps = LampSearch::both;  ///< of global light
+    ReconstructionFilter filter = ReconstructionFilter::box;  ///< of samples
+    std::optional<double> filter_width{};  ///< pixels from end to end, at most 16; without it 1 of
+                                           ///< a box, 2 of a tent, 3 of others
 };
 
 }  // namespace voxelume::v1

@@ -60,6 +60,20 @@ TEST(Culling, DoesNotHappenThroughALens) {
     EXPECT_EQ(visible_names(scene), "seen left right behind beyond ");
 }
 
+TEST(Culling, HoldsWhatAWideFilterSeesBesideTheImage) {
+    Scene scene = scene_of();
+    scene.objects[1].world_from_object[3] = {-1.72, 0.1, 0.5, 1};
+    scene.render.size = {8, 6};
+    EXPECT_EQ(visible_names(scene), "seen ");
+    scene.render.samples = 64;
+    scene.render.filter = {FilterShape::box, 16};
+    EXPECT_EQ(visible_names(scene), "seen left right ");
+    expect_same_bits(scene);
+    Scene without = scene;
+    without.objects[1].visible = false;
+    EXPECT_NE(hash_of_all(without), hash_of_all(scene)) << "its edge is seen";
+}
+
 TEST(Culling, HappensUnderASkyThatNoRaysAreSentTo) {
     Scene scene = scene_of();
     scene.world.sky.emplace().samples = 0;

@@ -100,6 +100,8 @@ TEST_F(CliResumeTest, WhatWasMadeFromSomethingElseIsStale) {
     EXPECT_EQ(count_rendered("--resume --set world.ambient=0.4,0.3,0.3"), 8);
     EXPECT_EQ(count_rendered("--resume"), 8);  // those of the changed scene are stale now
     EXPECT_EQ(count_rendered("--resume --samples 2"), 8);
+    EXPECT_EQ(count_rendered("--resume --samples 2 --set render.filter=tent"), 8);
+    EXPECT_EQ(count_rendered("--resume --samples 2 --set render.filter=tent"), 0);
     EXPECT_EQ(count_rendered("--resume --samples 2 --crop 0,0,9,9"), 8);
     EXPECT_EQ(count_rendered("--resume --samples 2 --crop 0,0,9,9 --device all/2 --no-cache"), 0);
     ASSERT_EQ(count_rendered(""), 8);

@@ -110,7 +110,8 @@ TEST(Adaptive, HasTheSameBitsWithEachNumberOfLanes) {
 }
 
 TEST(Adaptive, HasInPartsOfAPictureTheBitsOfTheWhole) {
-    const Scene whole = scene_with(kSamples, 0.05);
+    Scene whole = scene_with(kSamples, 0.05);
+    whole.render.filter = {FilterShape::blackman_harris, 4.5};
     const Image image = rendered(whole).image;
     for (const auto& [first, size] : {std::pair{glm::ivec2(0, 0), glm::ivec2(31, 22)},
                                       {glm::ivec2(17, 21), glm::ivec2(33, 30)},

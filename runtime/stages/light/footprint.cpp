@@ -22,11 +22,14 @@ Footprint footprint_of(const Scene& scene, const GridFrame& world) {
     const glm::dvec2 pixel =
         2.0 * shape.half_extent(observer.display) / glm::dvec2(frame_size(scene.render));
     const double samples = scene.render.samples, all = std::sqrt(samples);
-    // Rays through a lens don't tell which pixel they belong to.
-    const bool has_cells = observer.aperture == 0;
-    const double cells = has_cells ? std::max(std::floor(all / kCellSamples), 1.0) : all;
+    const ReconstructionFilter& filter = scene.render.filter;
+    // Rays through a lens, and samples outside of their pixel, don't tell which pixel they belong
+    // to.
+    const bool has_cells = observer.aperture == 0 && filter.is_pixel();
+    const double spread = filter_row(filter).equal_box * filter.width;
+    const double cells = has_cells ? std::max(std::floor(all / kCellSamples), 1.0) : all / spread;
     const glm::dvec2 step = pixel / cells;
-    const double square = std::sqrt(pixel.x * pixel.y) / all;
+    const double square = std::sqrt(pixel.x * pixel.y) / all * spread;
     const bool is_parallel = shape.projection == SightProjection::parallel;
     Footprint footprint{};
     footprint.middle = to_float4((observer.position - world.origin) / world.voxel_edge);

@@ -79,13 +79,15 @@ double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame&
     return std::max(pixel.x, pixel.y) * metres / std::min({edge.x, edge.y, edge.z});
 }
 
-std::vector<float> sample_offsets(int samples, int first) {
+std::vector<float> sample_offsets(int samples, int first, const ReconstructionFilter& filter) {
     constexpr double kPlastic = 1.32471795724474602596;
     std::vector<float> offsets;
     for (int i = first; i < first + samples; ++i) {
         for (const double step : {1 / kPlastic, 1 / (kPlastic * kPlastic)}) {
             const double x = 0.5 + i * step;
-            offsets.push_back(float(x - std::floor(x)));
+            const double share = x - std::floor(x);
+            offsets.push_back(
+                float(filter.is_pixel() ? share : 0.5 + filter_offset(filter, share)));
         }
     }
     return offsets;
@@ -95,10 +97,11 @@ uint32_t tile_count(int width, int height) {
     return uint32_t((width + 3) / 4) * uint32_t((height + 3) / 4);
 }
 
-SightStage::SightStage(const Device& device, const Features& features, const Camera& camera)
+SightStage::SightStage(const Device& device, const Features& features, const Camera& camera,
+                       const ReconstructionFilter& filter)
     : camera_(camera),
       offsets_(device, "sample offsets",
-               std::span<const float>(sample_offsets(camera.samples, camera.first_sample))),
+               std::span<const float>(sample_offsets(camera.samples, camera.first_sample, filter))),
       program_(device, "sight.cl", features.defines(device)),
       cast_(program_.kernel("cast_sight")) {}
 

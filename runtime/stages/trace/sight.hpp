@@ -21,10 +21,11 @@ Camera camera_of(const Scene& scene, const GridFrame& world);
 /// The distance between the rays of neighbouring pixels at the middle of the world, in voxels.
 double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world);
 
-/// The positions of the samples in a pixel: x and y in [0, 1), equal for all pixels. A single
-/// sample is the centre; several are the R2 sequence of Roberts 2018, which fills a square evenly
-/// for any number.
-std::vector<float> sample_offsets(int samples, int first = 0);
+/// The positions of the samples in a pixel: x and y, equal for all pixels, in [0, 1) but for
+/// filters that are wider than a pixel. A single sample is the centre; several are the R2 sequence
+/// of Roberts 2018, which fills a square evenly for any number, denser where the filter is higher.
+std::vector<float> sample_offsets(int samples, int first = 0,
+                                  const ReconstructionFilter& filter = {});
 
 /// The number of tiles of 4 x 4 pixels that cover an image.
 uint32_t tile_count(int width, int height);
@@ -32,7 +33,8 @@ uint32_t tile_count(int width, int height);
 /// The kernel of sight.cl: the paper's block 2.
 class SightStage {
   public:
-    SightStage(const Device& device, const Features& features, const Camera& camera);
+    SightStage(const Device& device, const Features& features, const Camera& camera,
+               const ReconstructionFilter& filter = {});
 
     /// Sets another observer's camera for the rays from here on; the number of samples stays.
     void look(const Camera& camera) { camera_ = camera; }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reconstruction filters of width 1 by their definitions, integrated by Simpson's rule.
+#pragma once
+
+#include "runtime/scene/reconstruction_filter.hpp"
+
+namespace voxelume::oracle {
+
+/// The filter's value at `x`, whose integral is 1; 0 outside of [-1/2, 1/2].
+double filter_density(FilterShape shape, double x);
+
+/// The filter's integral from `low` to `high`.
+double filter_weight(FilterShape shape, double low, double high);
+
+}  // namespace voxelume::oracle
