@@ -191,7 +191,8 @@ TEST(ApiScene, HasMediaAndRenderSettings) {
     scene.render = {{320, 200}, 4, 0.25, 3, false, true, 0.125};
     scene.render.filter = v1::ReconstructionFilter::blackman_harris;
     scene.render.filter_width = 1.5;
-    const std::string settings = R"("render": {"size": [320, 200], "samples": 4, "adaptive": 0.25, "depth": 3,
+    const std::string settings =
+        R"("render": {"size": [320, 200], "samples": 4, "adaptive": 0.25, "depth": 3,
         "shadows": false, "shadow": "filtered", "least_weight": 0.125, "filter": "blackman-harris",
         "filter_width": 1.5})";
     const auto world = [](const char* density) {
