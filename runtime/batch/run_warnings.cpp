@@ -52,8 +52,8 @@ std::string view_advice(const Observer& observer, const Bounds& objects) {
             "{:.3g} m: change \"near\"",
             observer.display.near, farthest);
     return fmt::format(
-        "the objects lie around [{:.4g}, {:.4g}, {:.4g}]: \"look_at\" that place, "
-        "or move the observer",
+        "the objects lie around [{:.4g}, {:.4g}, {:.4g}]: make that the observer's "
+        "\"look_at\", or move the observer",
         middle.x, middle.y, middle.z);
 }
 

@@ -89,7 +89,9 @@ TEST_F(CliOutputTest, AFullDiskLeavesNothing) {
         const ProgramResult result = run_line(line);
         std::filesystem::remove(folder / "here.png");
         EXPECT_EQ(result.exit_code, 5) << command << "\n" << result.err;
-        EXPECT_THAT(result.err, HasSubstr("the disk is full")) << command;
+        EXPECT_THAT(result.err, testing::ContainsRegex(
+                                    "voxelume: full/[^\n ]+: can't be written: the disk is full"))
+            << command;
         EXPECT_EQ(result.out, "") << command;
     }
 }

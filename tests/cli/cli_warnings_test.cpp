@@ -88,9 +88,10 @@ TEST_F(CliWarningsTest, AreAllSaidWithStrictAndTheErrorCountsThem) {
 TEST_F(CliWarningsTest, SayThatNothingIsInViewAndWhereToLook) {
     write_scene([](Json& scene) { scene["observer"]["look_at"] = {1.5, 1, 9}; });
     const ProgramResult result = run("render scene.json -o a.png");
-    EXPECT_THAT(result.err, AllOf(StartsWith("warning: scene.json:"),
-                                  HasSubstr("no sight ray meets an object: the objects lie around "
-                                            "[1.5, 1, 0.5]: \"look_at\" that place")));
+    EXPECT_THAT(result.err,
+                AllOf(StartsWith("warning: scene.json:"),
+                      HasSubstr("no sight ray meets an object: the objects lie around "
+                                "[1.5, 1, 0.5]: make that the observer's \"look_at\"")));
     const ProgramResult strict = run("render scene.json -o b.png --strict");
     EXPECT_EQ(strict.exit_code, 3);
     EXPECT_THAT(strict.err, MatchesRegex("voxelume: [^\n]+no sight ray meets an object[^\n]+\n"));
@@ -163,6 +164,27 @@ TEST_F(CliWarningsTest, SayThatTheCacheCannotBeWritten) {
     EXPECT_THAT(line, HasSubstr("/file/cache/models: nothing can be kept in this folder (Not a "
                                 "directory)"));
     EXPECT_THAT(run("render scene.json -o a.png --no-cache").err, Not(HasSubstr("warning")));
+}
+
+/// Access rights don't keep the superuser from writing; a file and a file system do.
+TEST_F(CliWarningsTest, SayOnceThatTheCacheCannotBeWrittenToTheSuperuser) {
+    write_scene([](Json&) {});
+    put_bytes(folder / "file", "no folder");
+    std::filesystem::create_directory(folder / "fixed");
+    const auto is_told_once = [&](const std::string& line, const std::string& cause) {
+        const std::string err = run_line(line).err;
+        const std::string told = "nothing can be kept in this folder (" + cause + ")";
+        const size_t first = err.find(told);
+        EXPECT_NE(first, std::string::npos) << err;
+        if (first == std::string::npos) return;
+        EXPECT_EQ(err.find("nothing can be kept", first + 1), std::string::npos) << err;
+    };
+    const std::string render = "voxelume render scene.json -o a.png";
+    is_told_once("VOXELUME_CACHE_DIR=file " + render, "Not a directory");
+    const std::string mount =
+        "unshare -m sh -c 'mount -t tmpfs none fixed && mount -o remount,ro fixed && ";
+    if (run_line(mount + "true'").exit_code != 0) GTEST_SKIP() << "nothing can be mounted here";
+    is_told_once(mount + "VOXELUME_CACHE_DIR=fixed " + render + "'", "Read-only file system");
 }
 
 TEST_F(CliWarningsTest, CannotSteerTheTerminal) {

@@ -41,6 +41,26 @@ TEST(VoxelWarnings, SayHowLargeACacheAWorldNeeds) {
     EXPECT_EQ(warnings.size(), 1u);
 }
 
+TEST(VoxelWarnings, SayWhySolidsAndMeshesBecameNoVoxel) {
+    Scene scene;
+    scene.models.resize(2);
+    for (Model& model : scene.models) model.surface = Surface::smooth;
+    scene.models[0].solid = Solid();
+    scene.objects.resize(2);
+    scene.objects[1].model = 1;
+    scene.objects[0].where = SourcePlace("room.json", 7, 5, "objects[0]");
+    scene.objects[1].where = SourcePlace("room.json", 8, 5, "objects[1]");
+    const BrickGrid empty;
+    std::vector<PlacedObject> placed(2);
+    for (uint32_t i = 0; i < 2; ++i) placed[i].object = i, placed[i].grid = &empty;
+    std::vector<Warning> warnings;
+    add_empty_objects(scene, placed, warnings);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_THAT(warnings[0].text, HasSubstr("it holds the middle of no voxel"));
+    EXPECT_THAT(warnings[0].text, testing::Not(HasSubstr("its faces turn inwards")));
+    EXPECT_THAT(warnings[1].text, HasSubstr("its faces turn inwards"));
+}
+
 TEST(VoxelWarnings, NameObjectsWhoseGridStoresNoBrick) {
     Scene scene;
     scene.models.emplace_back();
