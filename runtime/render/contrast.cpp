@@ -171,7 +171,9 @@ void add_samples(const std::vector<uint32_t>& pixels, const Image& more, int sam
                 add_ranks(further, from, weight, ranks, to);
             });
     }
-    for (auto& [name, plane] : image.planes) {
+    for (auto& entry : image.planes) {
+        const std::string& name = entry.first;
+        Plane<float>& plane = entry.second;
         const Plane<float>& other = more.planes.at(name);
         if (is_light(name))
             each([&](size_t, size_t to, size_t from) {
@@ -182,8 +184,9 @@ void add_samples(const std::vector<uint32_t>& pixels, const Image& more, int sam
                 if (missed[i]) plane[to] = other[from];
             });
     }
-    for (auto& [name, plane] : image.id_planes) {
-        const Plane<uint32_t>& other = more.id_planes.at(name);
+    for (auto& entry : image.id_planes) {
+        Plane<uint32_t>& plane = entry.second;
+        const Plane<uint32_t>& other = more.id_planes.at(entry.first);
         each([&](size_t i, size_t to, size_t from) {
             if (missed[i]) plane[to] = other[from];
         });
