@@ -16,9 +16,8 @@
 #include <thread>
 #include <utility>
 
-#include "runtime/voxelume.hpp"
-
 #include "cli/tell.hpp"
+#include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {
 namespace {

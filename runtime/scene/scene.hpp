@@ -87,7 +87,7 @@ struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
     ImageCrop crop;             ///< not in scene files
     int samples = 1;            ///< per pixel, 1..4096; at most so many where `noise` is given
-    /// Of local light: pixels whose neighbours differ by more than this contrast get all samples,
+    /// In local light, pixels whose neighbours differ by more than this contrast get all samples,
     /// others one, 0..1; 0: all pixels get all.
     double adaptive = 0;
     int first_sample = 0;  ///< of the sequence of samples; not in scene files
