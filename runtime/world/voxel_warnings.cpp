@@ -19,8 +19,7 @@ const char* advice_for(const Model& model) {
     if (shows_voxels(model.surface) && model.set != VoxelSet::solid)
         return "none of it lies in the world; move it, or enlarge the world's \"bounds\"";
     if (model.solid)
-        return "it holds the middle of no voxel, being too small or too thin, or none of it lies "
-               "in "
+        return "it holds the middle of no voxel, being too small or thin, or none of it lies in "
                "the world; try a smaller \"voxel_size\", or \"surface\": \"exact\"";
     return "it is thinner than its voxels, its faces turn inwards, or none of it lies in the "
            "world; try \"surface\": \"exact\"";
