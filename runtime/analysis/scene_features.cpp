@@ -8,6 +8,7 @@
 
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
@@ -246,6 +247,14 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
 }
 
 RayCounts ray_counts(const Scene& scene, const Features& features) {
+    if (is_adaptive(scene.render)) {
+        Scene more = scene;
+        more.render.adaptive = 0;
+        more.render.samples -= kComparedSamples;
+        RayCounts counts = ray_counts(more, features);
+        counts.rays = std::max(counts.rays, ray_counts(first_samples_of(scene), features).rays);
+        return counts;
+    }
     const Pyramid any;  // an empty pyramid may show all objects
     const RenderSettings& render = scene.render;
     const uint32_t tiles =

@@ -7,6 +7,7 @@
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_image.hpp"
 #include "runtime/memory/counted_grids.hpp"
+#include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/scene_motion.hpp"
@@ -91,8 +92,8 @@ class FollowingWalk {
 
     size_t hit_bytes(const Pyramid& world) const {
         const Features features = features_of(scene_, world);
-        const double rays =
-            16.0 * tile_count(scene_.render.size.x, scene_.render.size.y) * scene_.render.samples;
+        const RenderSettings render = retained_settings(scene_);
+        const double rays = 16.0 * tile_count(render.size.x, render.size.y) * render.samples;
         return size_t(rays * sight_bytes(features));
     }
 

@@ -9,6 +9,7 @@
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_display.hpp"
 #include "runtime/memory/count_image.hpp"
+#include "runtime/scene/first_samples.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -84,7 +85,7 @@ class FrameWalk {
 
     /// The bytes of hits that passes of the light are rendered from.
     double retained_hits(const Features& features) const {
-        const RenderSettings& render = scene_.render;
+        const RenderSettings render = retained_settings(scene_);
         if (estimate_ == Estimate::minimum || !render.channels.has_passes() ||
             render.noise.is_given())
             return 0;

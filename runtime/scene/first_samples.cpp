@@ -34,4 +34,8 @@ Scene first_samples_of(const Scene& scene) {
     return first;
 }
 
+RenderSettings retained_settings(const Scene& scene) {
+    return is_adaptive(scene.render) ? first_samples_of(scene).render : scene.render;
+}
+
 }  // namespace voxelume

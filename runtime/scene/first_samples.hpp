@@ -19,4 +19,8 @@ bool is_adaptive(const RenderSettings& render);
 /// and, of a part of a picture, with the neighbours of all its pixels.
 Scene first_samples_of(const Scene& scene);
 
+/// The settings of the image whose hits may be retained: of an adaptive one that of its first
+/// samples.
+RenderSettings retained_settings(const Scene& scene);
+
 }  // namespace voxelume

@@ -121,6 +121,18 @@ TEST(BuiltScene, WithPassesOfItsLightTakesWhatIsPromised) {
     }
 }
 
+TEST(BuiltScene, WithMoreSamplesWherePixelsContrastTakesWhatIsPromised) {
+    Scene scene = small_scene("cornell", {320, 240}, 64);
+    scene.render.samples = 4;
+    scene.render.adaptive = 1e-6;  // nearly all of them do, which is what is promised for
+    expect_image_kept("cornell, adaptive", scene);
+    scene.render.channels = {true, false, false, false, false};
+    scene.render.channels.object_matte = scene.render.channels.albedo = true;
+    expect_image_kept("cornell, adaptive with a matte and a pass", scene);
+    crop(scene, {40, 40}, {200, 150});
+    expect_image_kept("cornell, adaptive, a part", scene);
+}
+
 /// A ball before a wall, of such materials, in such a space.
 Scene room(const char* ball, const char* wall, const char* space, double voxel,
            const char* surface = "smooth") {
