@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kAlike = 0.9f;       // the cosine between normals of one surface, at least
 constexpr float kDepthStep = 0.05f;  // of the nearer depth, at most
-constexpr const char* kColors[] = {"R", "G", "B"};
+constexpr const char* kComparedColors[] = {"R", "G", "B"};
 
 /// What tells pixels apart.
 class PixelContrast {
@@ -29,7 +29,7 @@ class PixelContrast {
           objects_(image.id_planes.at("objectId")) {
         for (size_t i = 0; i < 3; ++i) {
             normal_[i] = &image.planes.at(fmt::format("N.{}", "XYZ"[i]));
-            for (const float value : image.planes.at(kColors[i]))
+            for (const float value : image.planes.at(kComparedColors[i]))
                 roots_[i].push_back(std::sqrt(std::max(value, 0.0f)));
         }
     }
