@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/interrupt.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <ctime>
 #include <mutex>
 #include <thread>
@@ -27,8 +23,6 @@ constexpr std::chrono::milliseconds kGrace{1500};
 // program.
 constexpr std::chrono::milliseconds kTogether{300};
 
-// The handler may do no more than write to a pipe; a thread reads from it.
-std::array<int, 2> signal_pipe{-1, -1};
 std::atomic<int> signal_number = 0;
 std::atomic<int> interruptibles = 0;
 std::mutex telling;
@@ -40,56 +34,27 @@ std::stop_source& stop_source() {
     return *source;
 }
 
-void note_signal(int number) {
-    const int error = errno;
-    const auto byte = static_cast<char>(number);
-    [[maybe_unused]] const ssize_t written = write(signal_pipe[1], &byte, 1);
-    errno = error;
-}
-
-void handle(int number) {
-    struct sigaction action {};
-    if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) {
-        // While PoCL compiles, LLVM has a handler of its own, which would remove its files.
-        sigset_t ignored;
-        sigemptyset(&ignored);
-        sigaddset(&ignored, number);
-        pthread_sigmask(SIG_BLOCK, &ignored, nullptr);
-        return;
-    }
-    action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART;
-    sigaction(number, &action, nullptr);
-}
-
-/// PoCL aborts the program where its linker, a process of its own in the program's group, was ended
-/// by the signal that interrupts the program. So the thread that aborts waits for the other to end
-/// the program in order. The system's own action follows if the program isn't interrupted.
-void await_interruption(int number) {
-    constexpr int kSteps = 30;
-    constexpr timespec kStep{0, 10'000'000};
-    for (int i = 0; i < kSteps && signal_number == 0; ++i) nanosleep(&kStep, nullptr);
-    while (signal_number != 0) pause();
-    std::signal(number, SIG_DFL);
-}
-
 /// What the program says when it ends in the middle of something.
 void tell_end() {
     tell_interruption(
         [] { tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted"); });
 }
 
-void wait_for_signal() {
-    char number = 0;
-    while (read(signal_pipe[0], &number, 1) < 0)
-        if (errno != EINTR) return;
+/// Waits for one of the signals, which are blocked.
+void wait_for_signal(const sigset_t& signals) {
+    int number = 0;
+    if (sigwait(&signals, &number) != 0) return;
     signal_number = number;
     stop_source().request_stop();
     if (interruptibles > 0) {
         std::this_thread::sleep_for(kTogether);
+        constexpr timespec kNow{};
+        while (sigtimedwait(&signals, nullptr, &kNow) > 0) {
+        }
         // A later signal, of either kind, is the system's to handle.
         std::signal(SIGINT, SIG_DFL);
         std::signal(SIGTERM, SIG_DFL);
+        pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
         std::this_thread::sleep_for(kGrace - kTogether);
     }
     tell_end();
@@ -97,15 +62,28 @@ void wait_for_signal() {
     _exit(interrupted_code());
 }
 
+bool is_ignored(int number) {
+    struct sigaction action {};
+    return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void handle_interrupts() {
-    if (pipe2(signal_pipe.data(), O_CLOEXEC) != 0) return;  // signals end the program as usual
     stop_source();
-    handle(SIGINT);
-    handle(SIGTERM);
-    std::signal(SIGABRT, await_interruption);
-    std::thread(wait_for_signal).detach();  // ignores what the first thread ignores
+    // The signals are blocked in every thread, since LLVM has handlers of its own while PoCL
+    // compiles: they would take the signals that are ignored, too, and while one of them runs, a
+    // second signal would end the program at once. PoCL's linker, a process of its own, inherits
+    // the mask, so that it isn't ended before the program is.
+    sigset_t all, awaited;
+    sigemptyset(&all);
+    sigemptyset(&awaited);
+    for (const int number : {SIGINT, SIGTERM}) {
+        sigaddset(&all, number);
+        if (!is_ignored(number)) sigaddset(&awaited, number);
+    }
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);
+    std::thread(wait_for_signal, awaited).detach();
 }
 
 Interruptible::Interruptible() {

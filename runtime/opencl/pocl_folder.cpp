@@ -125,12 +125,20 @@ PoclFolder& PoclFolder::instance() {
 void PoclFolder::remove() {
     const PoclFolder* const folder = existing_folder;
     if (folder == nullptr || folder->folder_.empty()) return;
-    // PoCL may be compiling in another thread: what it writes while the folder is emptied ends the
-    // removal, so it takes several. The next run removes what is left nevertheless.
+    // PoCL may be compiling in another thread, and makes its folders again where they are missing.
+    // A file in their place prevents that.
+    const fs::path moved = folder->folder_.string() + "-ended";
     constexpr int kAttempts = 20;
     std::error_code error;
-    for (int i = 0; i < kAttempts && fs::exists(folder->folder_, error); ++i)
-        fs::remove_all(folder->folder_, error);
+    int place = -1;
+    for (int i = 0; i < kAttempts && place < 0; ++i) {
+        fs::rename(folder->folder_, moved, error);
+        place = open(folder->folder_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        fs::remove_all(moved, error);
+    }
+    if (place < 0) return;  // the next run removes what is left
+    close(place);
+    unlink(folder->folder_.c_str());
 }
 
 PoclFolder::PoclFolder() : process_(getpid()) {
