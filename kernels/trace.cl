@@ -83,7 +83,9 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
                          uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const WorldView world = VXL_WORLD;
+    WorldView world = VXL_WORLD;
+    // Opaque cubes of an instance would end rays again and again where they go on.
+    world.instances.shown = hollow;
     const Surroundings around = VXL_SURROUNDINGS;
     const RayBatch batch = VXL_BATCH;
     Packet f;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images of observers in glass that can only be found by tracing, in meshes and smooth bodies,
 // against an analytic tracer.
+#include <nlohmann/json.hpp>
+
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/analytic_comparison.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -70,6 +72,32 @@ TEST_F(ObserverInMediumMesh, ASmoothBodyAbsorbsFromTheObserverOnWhateverIsMetFir
     const std::string ball = R"({"shape": "sphere", "radius": 0.7, "surface": )";
     expect_image(scene(ball + R"("smooth"})", kInTheMiddle),
                  oracle::analytic_image(scene(ball + R"("exact"})", kInTheMiddle)), 1e-3, 2e-2);
+}
+
+/// The block's walls are found behind the crate.
+TEST_F(ObserverInMediumMesh, AnInstanceOfOpaqueCubesHidesNoWalls) {
+    const auto with_crate = [&](const char* placement) {
+        nlohmann::json json = nlohmann::json::parse(
+            block_scene(R"({"mesh": "block.obj", "surface": "exact"})", kInTheMiddle));
+        json["models"]["crate"] = {
+            {"shape", "box"}, {"size", {0.2, 0.2, 0.2}}, {"surface", "cubes"}, {"set", "solid"}};
+        json["objects"].push_back({{"model", "crate"},
+                                   {"material", "floor"},
+                                   {"position", {0.1, 0.1, 0.2}},
+                                   {"placement", placement}});
+        RenderReport report;
+        return render(test_device(), parse_scene(json.dump(), "test.json", {folder}), report);
+    };
+    const Image in_world = with_crate("world"), instance = with_crate("instance");
+    size_t pixels = 0, others = 0;
+    for (size_t i = 0; i < in_world.planes.at("R").size(); ++i) {
+        if (in_world.id_planes.at("objectId")[i] != instance.id_planes.at("objectId")[i]) continue;
+        ++pixels;
+        for (const char* color : {"R", "G", "B"})
+            others += std::abs(in_world.planes.at(color)[i] - instance.planes.at(color)[i]) > 1e-3f;
+    }
+    EXPECT_GT(pixels, in_world.planes.at("R").size() * 99 / 100);
+    EXPECT_LT(others, pixels / 100);
 }
 
 }  // namespace

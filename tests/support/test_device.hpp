@@ -6,9 +6,11 @@
 
 #include <cstdlib>
 #include <utility>
+#include <vector>
 
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/device.hpp"
+#include "tests/support/exhaustive.hpp"
 
 namespace voxelume {
 
@@ -33,6 +35,16 @@ inline Device test_device(int lanes = 0) {
     if (!name) name = "cpu";
     if (!OpenContext::device) OpenContext::device = new Device(Device::open(name));
     return Device::open(name, lanes, OpenContext::device);
+}
+
+/// All numbers of lanes in an exhaustive run, otherwise the device's own and the one of the others
+/// whose turn it is. Each makes kernels compile again.
+inline std::vector<int> lanes_in_turn(size_t turn) {
+    std::vector<int> others = {1, 4, 8, 16};
+    std::erase(others, test_device().lanes());
+    std::vector<int> lanes = in_turn(others, turn);
+    lanes.insert(lanes.begin(), test_device().lanes());
+    return lanes;
 }
 
 }  // namespace voxelume

@@ -151,6 +151,7 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
                                      const BoundsSlack* slack, const RayState* ray_state,
                                      SurfaceHit* best, Walk* at) {
     global const InstanceRecord* r = v->records + number;
+    if (v->shown && v->shown[r->object] == 0u) return (lane_int)0;
     const Vector o = {ray->ox, ray->oy, ray->oz}, d = {ray->dx, ray->dy, ray->dz};
     const lane_float t_first = first_of_faces(slack, ray_state->t_first, r->bounds_rounding);
     t_last = last_of_faces(slack, t_last, r->bounds_rounding);

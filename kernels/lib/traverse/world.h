@@ -46,6 +46,8 @@ typedef struct {
     global const InstanceRecord* restrict records;
     global const InstanceNode* restrict nodes;
     global const uint* restrict group_materials;
+    // By objects' numbers: 0 for those whose instances are left out. Null: none is.
+    global const uint* restrict shown;
 } InstanceView;
 
 /// The whole world; buffers that it doesn't need are null.
