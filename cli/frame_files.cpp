@@ -32,7 +32,10 @@ std::string slices_path(const std::string& pattern, int frame) {
     const size_t run = pattern[last] == '%' ? last : before == pattern.npos ? 0 : before + 1;
     const std::string start = pattern.substr(0, run), own = pattern.substr(run);
     const std::string numbered = frame_path(start, frame, false);
-    return numbered != start ? numbered + own : start + fmt::format("{:04}.", frame) + own;
+    if (numbered != start) return numbered + own;
+    const bool ends_in_digit =
+        run > name && std::string_view("0123456789").find(start.back()) != std::string_view::npos;
+    return start + fmt::format("{}{:04}.", ends_in_digit ? "." : "", frame) + own;
 }
 
 bool is_pattern(const std::string& path) {
