@@ -129,11 +129,14 @@ Action add_stress(CLI::App& app) {
         ->check(in_range(1, 1e15));
     app.add_option("--seed", command->seed, "seed of the cases, 1 by default")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
+    app.add_option("--only", command->only, list_of_tests())
+        ->type_name("NAMES")
+        ->allow_extra_args(false);
     app.add_option("--first", command->first, "number of the first case, to repeat one")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--device", command->device,
                    "device: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE")
         ->check(one_device);
     app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };

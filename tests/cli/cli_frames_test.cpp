@@ -76,7 +76,7 @@ TEST_F(CliFramesTest, AnEmptyListIsAMistake) {
         EXPECT_THAT(expect_failure(2, line),
                     HasSubstr("--frames: can't read \"\"; write a frame or a range, like 1-10"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o f.#.exr --frames="),
-                HasSubstr("--frames: 1 required TEXT missing"));
+                HasSubstr("--frames: 1 required FRAMES missing"));
 }
 
 TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItBesideOneThatHasIt) {
