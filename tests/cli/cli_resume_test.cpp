@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "runtime/base/version.hpp"
 #include "runtime/io/image/png.hpp"
 #include "tests/cli/scene_program.hpp"
 
@@ -107,6 +108,42 @@ TEST_F(CliResumeTest, WhatWasMadeFromSomethingElseIsStale) {
     ASSERT_EQ(count_rendered(""), 8);
     put_bytes(folder / "tetrahedron.obj", std::string(kTetrahedron) + "# changed\n");
     EXPECT_EQ(count_rendered("--resume"), 8);
+}
+
+TEST_F(CliResumeTest, ItSaysWhyFilesAreRenderedAgain) {
+    const std::string line = std::string(kLine) + "--resume --frames 1-3 --volume v.#.raw";
+    EXPECT_THAT(run(line).err, Not(HasSubstr("again")));
+    put_bytes(folder / "f.1.png", "not a picture");
+    EXPECT_THAT(run(std::string(kLine) + "--resume").err,
+                AllOf(HasSubstr("2 of 4 frames are there already\n"),
+                      HasSubstr("1 file is damaged or has no hash in it, and rendered again\n"),
+                      Not(HasSubstr("another scene"))));
+    EXPECT_THAT(run(line + " --samples 2").err,
+                AllOf(HasSubstr("3 files are damaged or have no hash in them, and rendered again"),
+                      HasSubstr("6 files are of another scene, file, option or version, and "
+                                "rendered again\n"),
+                      Not(HasSubstr("already"))));
+    EXPECT_EQ(run(line + " --samples 2 -q").err, "");
+}
+
+TEST_F(CliResumeTest, FilesOfAnotherVersionAreRenderedAgain) {
+    ASSERT_EQ(count_rendered(""), 8);
+    const auto whole = pictures();
+    // The same program, but for its number: what else the next version changes is unknown.
+    std::string program = bytes_of(VXL_BINARY);
+    const std::string number = version(), other = number.substr(0, number.size() - 1) + "z";
+    for (size_t i = 0; (i = program.find(number, i)) != program.npos; i += number.size())
+        program.replace(i, number.size(), other);
+    put_bytes(folder / "other", program);
+    std::filesystem::permissions(folder / "other", std::filesystem::perms::owner_all);
+    ASSERT_THAT(run_line("./other --version").out, HasSubstr("voxelume " + other + "\n"));
+    const std::string line = std::string("./other ") + kLine + "--resume";
+    const ProgramResult result = run_line(line);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr("8 files are of another scene, file, option or version, "));
+    EXPECT_THAT(run_line(line).err, HasSubstr("4 of 4 frames are there already\n"));
+    EXPECT_EQ(count_rendered("--resume"), 8);
+    EXPECT_EQ(pictures(), whole);
 }
 
 TEST_F(CliResumeTest, AChangedCompanionOfAMeshMakesFramesStale) {
