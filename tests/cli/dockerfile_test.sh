@@ -48,7 +48,7 @@ from() {
 # copy SOURCE TARGET, or copy --from=STAGE PATTERN TARGET/
 copy() {
     case $1 in
-        .) git clone -q --no-hardlinks "$source" "$root$2" ;;
+        .) git clone -q --depth 1 "file://$source" "$root$2" ;;
         --from=build)
             mkdir -p "$root$3"
             # shellcheck disable=SC2086 # a pattern
