@@ -44,7 +44,7 @@ class CliShellsTest : public ProgramTest {
     std::string asked_zsh(const std::string& line, bool is_evaluated = false) const {
         const std::string start = is_evaluated
                                       ? "compinit -u -D; eval \"$(voxelume completion zsh)\""
-                                      : "fpath=(. $fpath); compinit -u -D";
+                                      : "fpath=($PWD $fpath); compinit -u -D";
         const ProgramResult result =
             run_line(fmt::format("timeout 60 zsh -f ask.zsh '{}' '{}'", start, line));
         EXPECT_EQ(result.exit_code, 0) << line << result.err;
