@@ -189,6 +189,8 @@ TEST_F(CliTest, StressPrintsALineThatFindsAMismatchAgain) {
 }
 
 TEST_F(CliTest, StressTellsWhatItFoundUntilItIsInterrupted) {
+    // Compiles the kernels, which may take longer than the test.
+    ASSERT_EQ(run("stress -q --rays 1 --only corners,ties").exit_code, 0);
     const ProgramResult result = run_line(
         "timeout --preserve-status -k 100 -s INT 4 env --default-signal=INT "
         "voxelume stress -q --rays 1e12 --only corners,ties");
