@@ -166,6 +166,7 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
     EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
+    EXPECT_THAT(refusal("/dev/zero"), HasSubstr("/dev/zero: isn't a file"));
 }
 
 TEST_F(CliShardTest, ADamagedPartIsCalledThat) {
