@@ -116,7 +116,8 @@ void write_manifest(const std::filesystem::path& file, const ShardManifest& mani
 ShardManifest read_manifest(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
-        refuse(file, std::filesystem::exists(file, error) ? "isn't a file" : "there is no such file");
+        refuse(file,
+               std::filesystem::exists(file, error) ? "isn't a file" : "there is no such file");
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (!stream) refuse(file, "can't be read");
