@@ -131,7 +131,7 @@ std::vector<fs::path> checked_outputs(const Part& part, bool outside) {
 /// Writes the files of an image of which each part has some rows. Returns them.
 std::vector<fs::path> merge_rows(const std::vector<Part>& parts, bool outside) {
     std::vector<fs::path> files;
-    const std::vector<fs::path> outputs = checked_outputs(parts.front(), outside);
+    std::vector<fs::path> outputs = checked_outputs(parts.front(), outside);
     int height = 0;
     for (const Part& part : parts) {
         const ShardRows& rows = *part.manifest.rows;
