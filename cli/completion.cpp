@@ -160,7 +160,7 @@ function __voxelume_no_command
 end
 complete -c voxelume -n __voxelume_no_command -l help -d 'print all commands'
 complete -c voxelume -n __voxelume_no_command -l version -d 'print the version'
-complete -c voxelume -n __voxelume_no_command -f -a help -d 'print all commands, or the options of one'
+complete -c voxelume -n __voxelume_no_command -f -a help -d 'print commands, or the options of one'
 )";
 
 std::string fish_option(const std::string& command, const OptionFacts& option) {

@@ -50,8 +50,8 @@ TEST_F(CliCompletionTest, EveryOptionOfHelpIsInEveryScriptAndOnThePage) {
             EXPECT_THAT(zsh, HasSubstr("'*" + option + "[")) << command;
             EXPECT_THAT(page, HasSubstr("\\fB" + option + "\\fR")) << command;
             EXPECT_TRUE(
-                std::regex_search(fish, std::regex("__voxelume_command " + command +
-                                                   "'[^\n]* -l " + option.substr(2) + "[ \n]")))
+                std::regex_search(fish, std::regex("__voxelume_command " + command + "'[^\n]* -l " +
+                                                   option.substr(2) + "[ \n]")))
                 << command << option;
         }
     }
