@@ -20,7 +20,7 @@ Usage: ./bootstrap.sh COMMAND
   lint    check the format of the code, the host code and each kernel
   python  build the Python package, build/python/wheels, and test it in a fresh environment
   package make build/package/voxelume_*.deb and check it; with --install, also install, use and
-          purge it in a bare Debian, which takes minutes and root
+          purge it in a bare Debian, and make what the container holds, which takes minutes and root
   docs    write the library's reference to build/docs/html/index.html
   packages  install what all of these but drivers and farm need
 
@@ -153,8 +153,10 @@ debian_package() {
     cpack --config "$build/CPackConfig.cmake" -G DEB -B "$folder" >"$build/package.log" 2>&1 ||
         { cat "$build/package.log"; return 1; }
     lintian --fail-on error --allow-root "$folder"/*.deb
-    [ "${1:-}" != --install ] ||
+    if [ "${1:-}" = --install ]; then
         tests/cli/package_test.sh "$folder"/*.deb . build/package-root
+        tests/cli/dockerfile_test.sh . build/package-root "$folder"/*.deb
+    fi
     echo "The package is $(echo "$folder"/*.deb)."
 }
 

@@ -70,22 +70,28 @@ Action add_bench(CLI::App& app) {
     app.add_option("--json", command->json, "write everything that was measured, .json");
     app.add_option("--csv", command->csv, "write the rows, .csv");
     app.add_option("--plot", command->plot, "write the plot of depth against time, .svg");
-    app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
+    app.add_option("--only", command->only, list_of_scenes())
+        ->type_name("NAMES")
+        ->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels per metre, like 16,32,64")
+        ->type_name("NUMBERS")
         ->check(list_of(in_range(4, 4096, Number::whole), "numbers like 16,32,64"));
     app.add_option("--placement", command->placements,
                    "placements: world, instance, or both separated by a comma")
+        ->type_name("PLACEMENTS")
         ->check(list_of(one_of({"world", "instance"}), "world, instance, or world,instance"));
     app.add_option("--samples", command->samples,
                    "rays per pixel in scenes with light, like 1,4,16")
+        ->type_name("NUMBERS")
         ->check(list_of(in_range(1, 4096, Number::whole), "numbers like 1,4,16"));
     app.add_option("--peers", command->peers,
                    "add the rows of other programs from this file of bench_peers, .json");
-    app.add_option("--size", command->size, "image size, like 640x480");
+    app.add_option("--size", command->size, "image size, like 640x480")->type_name("WIDTHxHEIGHT");
     app.add_option("--repeat", command->repeats, "renders of each row; the fastest counts")
         ->check(in_range(1, 1000, Number::whole));
     app.add_option("--device", command->device,
                    "device: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE")
         ->check(one_device);
     app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };

@@ -18,7 +18,7 @@ constexpr const char* kBash = R"(# bash completion for voxelume
 _voxelume() {{
     local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=""
     if [ "$COMP_CWORD" -eq 1 ]; then
-        COMPREPLY=($(compgen -W "help {0}" -- "$word"))
+        COMPREPLY=($(compgen -W "help --help --version {0}" -- "$word"))
         return
     fi
     case ${{COMP_WORDS[1]}}:$before in
@@ -37,6 +37,11 @@ _voxelume() {{
 }}
 complete -F _voxelume voxelume
 )";
+
+/// Whether files are offered for it: other values have a name of their own, such as FRAMES.
+bool takes_files(const OptionFacts& option) {
+    return option.value == "TEXT";
+}
 
 std::string names_of_commands(const std::vector<CommandFacts>& commands) {
     std::vector<std::string> names;
@@ -58,6 +63,8 @@ std::string bash_script(const std::vector<CommandFacts>& commands) {
                 if (!option.words.empty())
                     values += fmt::format("        {}:{}) words=\"{}\" ;;\n", command.name, name,
                                           fmt::join(option.words, " "));
+                else if (!option.value.empty() && !takes_files(option))
+                    values += fmt::format("        {}:{}) return ;;\n", command.name, name);
             }
         }
         options += fmt::format("            {}) words=\"{}\" ;;\n", command.name, names);
@@ -88,8 +95,8 @@ std::string quoted(const std::string& text) {
 
 std::string zsh_values(const OptionFacts& option) {
     if (option.value.empty()) return "";
-    return option.words.empty() ? ":value:_files"
-                                : fmt::format(":value:({})", fmt::join(option.words, " "));
+    if (!option.words.empty()) return fmt::format(":value:({})", fmt::join(option.words, " "));
+    return takes_files(option) ? ":file:_files" : ":" + escaped(option.value, ":\\") + ": ";
 }
 
 /// What follows a command: one of a few words, or files.
@@ -99,14 +106,35 @@ std::string zsh_arguments(const CommandFacts& command) {
     return "*:file:_files";
 }
 
+constexpr const char* kZshCommands = R"(    )
+    if (( CURRENT == 2 )); then
+        commands+=('help:print all commands, or the options of one')
+        _describe command commands
+        _arguments '--help[print all commands]' '--version[print the version]'
+        return
+    fi
+    shift words
+    (( CURRENT-- ))
+    case $words[1] in
+        help) (( CURRENT == 2 )) && _describe command commands ;;
+)";
+
+// A function that is loaded from $fpath is called; one that .zshrc evaluates is for later.
+constexpr const char* kZshEnd = R"(    esac
+}
+if [ "$funcstack[1]" = _voxelume ]; then
+    _voxelume "$@"
+else
+    compdef _voxelume voxelume
+fi
+)";
+
 std::string zsh_script(const std::vector<CommandFacts>& commands) {
     std::string text = "#compdef voxelume\n_voxelume() {\n    local -a commands=(\n";
     for (const CommandFacts& command : commands)
         text +=
             fmt::format("        {}\n", quoted(command.name + ":" + escaped(command.help, ":\\")));
-    text +=
-        "    )\n    if (( CURRENT == 2 )); then\n        _describe command commands\n"
-        "        return\n    fi\n    shift words\n    (( CURRENT-- ))\n    case $words[1] in\n";
+    text += kZshCommands;
     for (const CommandFacts& command : commands) {
         text += fmt::format("        {})\n            _arguments", command.name);
         for (const OptionFacts& option : command.options)
@@ -118,29 +146,45 @@ std::string zsh_script(const std::vector<CommandFacts>& commands) {
         text += fmt::format(" \\\n                {}\n            ;;\n",
                             quoted(zsh_arguments(command)));
     }
-    return text + "    esac\n}\n_voxelume \"$@\"\n";
+    return text + kZshEnd;
+}
+
+// Fish's own functions take any word of the line for the command, a file's name with it.
+constexpr const char* kFish = R"(# fish completion for voxelume
+function __voxelume_command
+    set -l words (commandline -opc)
+    test (count $words) -ge 2; and contains -- $words[2] $argv
+end
+function __voxelume_no_command
+    test (count (commandline -opc)) -eq 1
+end
+complete -c voxelume -n __voxelume_no_command -l help -d 'print all commands'
+complete -c voxelume -n __voxelume_no_command -l version -d 'print the version'
+complete -c voxelume -n __voxelume_no_command -f -a help -d 'print commands, or the options of one'
+)";
+
+std::string fish_option(const std::string& command, const OptionFacts& option) {
+    const bool is_argument = option.names.empty();
+    if (is_argument && option.words.empty()) return "";
+    std::string text = fmt::format("complete -c voxelume -n '__voxelume_command {}'{}", command,
+                                   is_argument ? " -f" : "");
+    for (const std::string& name : option.names)
+        text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+    if (!option.words.empty())
+        text += fmt::format(" -x -a {}", quoted(fmt::format("{}", fmt::join(option.words, " "))));
+    else if (!option.value.empty())
+        text += takes_files(option) ? " -r -F" : " -x";
+    return text + fmt::format(" -d {}\n", quoted(escaped(option.help, "\\")));
 }
 
 std::string fish_script(const std::vector<CommandFacts>& commands) {
-    std::string text = "# fish completion for voxelume\n";
+    std::string text = kFish;
     for (const CommandFacts& command : commands)
-        text += fmt::format("complete -c voxelume -n __fish_use_subcommand -f -a {} -d {}\n",
-                            command.name, quoted(escaped(command.help, "\\")));
+        for (const char* when : {"__voxelume_no_command", "'__voxelume_command help'"})
+            text += fmt::format("complete -c voxelume -n {} -f -a {} -d {}\n", when, command.name,
+                                quoted(escaped(command.help, "\\")));
     for (const CommandFacts& command : commands)
-        for (const OptionFacts& option : command.options) {
-            const bool is_argument = option.names.empty();
-            if (is_argument && option.words.empty()) continue;
-            text += fmt::format("complete -c voxelume -n '__fish_seen_subcommand_from {}'{}",
-                                command.name, is_argument ? " -f" : "");
-            for (const std::string& name : option.names)
-                text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-            if (!option.words.empty())
-                text += fmt::format(" -x -a {}",
-                                    quoted(fmt::format("{}", fmt::join(option.words, " "))));
-            else if (!option.value.empty())
-                text += " -r";
-            text += fmt::format(" -d {}\n", quoted(escaped(option.help, "\\")));
-        }
+        for (const OptionFacts& option : command.options) text += fish_option(command.name, option);
     return text;
 }
 
@@ -154,9 +198,11 @@ constexpr std::array kShells = {std::pair<std::string_view, MakeScript>{"bash", 
 
 Action add_completion(CLI::App& app) {
     const auto shell = std::make_shared<std::string>();
-    app.add_option("SHELL", *shell,
-                   "bash, zsh or fish; for bash, add to ~/.bashrc: eval \"$(voxelume completion "
-                   "bash)\"")
+    app.add_option(
+           "SHELL", *shell,
+           "bash, zsh or fish; add to ~/.bashrc: eval \"$(voxelume completion bash)\", likewise "
+           "to ~/.zshrc after compinit; to ~/.config/fish/config.fish: voxelume completion "
+           "fish | source")
         ->type_name("bash|zsh|fish")
         ->required();
     return [shell] {

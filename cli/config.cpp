@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxelume config: the values of all settings, and where each comes from.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "cli/checks.hpp"
@@ -30,9 +31,12 @@ int print_settings(bool as_json) {
         print_report({{"file", settings_file().string()}, {"settings", rows}}, true);
         return 0;
     }
+    size_t width = 26;
     for (const Report& row : rows)
-        fmt::print("  {:<12}{:<28}{}\n", row["setting"].get<std::string>(),
-                   row["value"].get<std::string>(), row["origin"].get<std::string>());
+        width = std::max(width, row["value"].get_ref<const std::string&>().size());
+    for (const Report& row : rows)
+        fmt::print("  {:<12}{:<{}}  {}\n", row["setting"].get<std::string>(),
+                   row["value"].get<std::string>(), width, row["origin"].get<std::string>());
     const std::filesystem::path file = settings_file();
     std::error_code error;
     if (!file.empty() && !std::filesystem::exists(file, error))

@@ -55,19 +55,22 @@ Action add_convert(CLI::App& app) {
                    ".cplanes .rgb332 .rgb565; or of voxels .vox .kv6 .binvox .npy .nrrd")
         ->required();
     app.add_option(
-        "--format", command->format,
-        "for any name of B: vdb, exr, nrrd, raw, slices, ply, kv6, planes, color-planes, "
-        "rgb332, rgb565");
+           "--format", command->format,
+           "for any name of B: vdb, exr, nrrd, raw, slices, ply, kv6, planes, color-planes, "
+           "rgb332, rgb565")
+        ->type_name("vdb|exr|nrrd|raw|slices|ply|kv6|planes|color-planes|rgb332|rgb565");
     app.add_flag("--all", options.all_values, "NRRD: also write depth, object and kind");
     app.add_flag("--uncompressed", command->uncompressed, "NRRD: write raw data, not gzip");
     app.add_option("--dither", command->dither,
-                   "display formats: dithering, bayer8 (the default) or none");
+                   "display formats: dithering, bayer8 (the default) or none")
+        ->type_name("bayer8|none");
     app.add_option("--exposure", options.exposure,
                    "display formats: exposure in stops, 0 by default")
         ->check(in_range(-64, 64));
     app.add_option(
-        "--sweep", command->sweep,
-        "bit planes: the observer's axis along which they sweep: x, y (the default) or z");
+           "--sweep", command->sweep,
+           "bit planes: the observer's axis along which they sweep: x, y (the default) or z")
+        ->type_name("x|y|z");
     app.add_option("--angles", options.angles, "rgb332, rgb565: number of angles in a turn")
         ->check(in_range(1, 65536, Number::whole));
     app.add_option("--radii", options.radii,

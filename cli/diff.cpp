@@ -147,9 +147,11 @@ Action add_diff(CLI::App& app) {
         ->required();
     app.add_option("B", command->names.b, "reference image, of the same kind and size")->required();
     app.add_option("--channels", command->channels, "compare only these channels, like R,G,B")
+        ->type_name("CHANNELS")
         ->allow_extra_args(false);
     app.add_option("--frames", command->names.frames,
-                   "frames to compare, like 1-10; without it all of which there is a file");
+                   "frames to compare, like 1-10; without it all of which there is a file")
+        ->type_name("FRAMES");
     app.add_option("--threshold", command->threshold,
                    "count pixels as `above` that differ by more than this")
         ->check(in_range(0, 1e30));

@@ -136,6 +136,7 @@ Action add_doctor(CLI::App& app) {
     const auto command = std::make_shared<DoctorCommand>();
     app.add_option("--device", command->device,
                    "device to test: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE")
         ->check(one_device);
     app.add_flag("--no-test", command->no_test, "leave the self-test out, which takes seconds");
     app.add_flag("--json", command->json, "print the report as JSON");

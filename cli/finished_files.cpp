@@ -38,42 +38,49 @@ bool is_kept(const std::filesystem::path& volume) {
                             others.front().string(), volume.string()));
 }
 
+/// Whether a file of this state needs no rendering. Counts it if it is another.
+bool is_current(FrameFileState state, Finished& finished) {
+    finished.damaged += size_t(state == FrameFileState::damaged);
+    finished.changed += size_t(state == FrameFileState::stale);
+    return state == FrameFileState::current;
+}
+
 }  // namespace
 
-size_t skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
-                     std::vector<FrameFiles>& frames) {
-    if (overwrite == Overwrite::always) return 0;
+Finished skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
+                       std::vector<FrameFiles>& frames) {
+    Finished finished;
+    if (overwrite == Overwrite::always) return finished;
     const std::vector<int> numbers = numbers_of(frames);
     std::vector<std::string> hashes, of_volumes;
     if (overwrite == Overwrite::changed) {
         hashes = frame_hashes(scene, numbers);
         of_volumes = volume_hashes(scene, numbers);
     }
-    size_t skipped = 0;
     std::vector<FrameFiles> left;
     for (size_t i = 0; i < frames.size(); ++i) {
         const auto has_image = [&](const std::filesystem::path& file) {
             std::error_code error;
             return overwrite == Overwrite::never
                        ? std::filesystem::exists(file, error)
-                       : image_file_state(file, hashes[i], options) == FrameFileState::current;
+                       : is_current(image_file_state(file, hashes[i], options), finished);
         };
         const auto has_volume = [&](const std::filesystem::path& file) {
             return overwrite == Overwrite::never
                        ? is_kept(file)
-                       : volume_file_state(file, of_volumes[i]) == FrameFileState::current;
+                       : is_current(volume_file_state(file, of_volumes[i]), finished);
         };
         FrameFiles& files = frames[i];
         const size_t before = files.images.size() + files.volumes.size();
         std::erase_if(files.images, has_image);
         std::erase_if(files.volumes, has_volume);
         if (before > 0 && files.images.empty() && files.volumes.empty())
-            ++skipped;
+            ++finished.frames;
         else
             left.push_back(std::move(files));
     }
     frames = std::move(left);
-    return skipped;
+    return finished;
 }
 
 }  // namespace voxelume::cli

@@ -14,9 +14,15 @@ enum class Overwrite { always, never, changed };
 /// What the options ask for. Throws Error::usage for a word that is none, or both options at odds.
 Overwrite overwrite_of(const RenderCommand& command);
 
-/// Takes the files that need no rendering off the list, and frames that have none left. Returns how
-/// many frames that are.
-size_t skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
-                     std::vector<FrameFiles>& frames);
+/// What is there of a run already.
+struct Finished {
+    size_t frames = 0;   ///< need no rendering
+    size_t damaged = 0;  ///< files, those without a hash with them
+    size_t changed = 0;  ///< files that were made from something else
+};
+
+/// Takes the files that need no rendering off the list, and frames that have none left.
+Finished skip_finished(const Scene& scene, const ImageFileOptions& options, Overwrite overwrite,
+                       std::vector<FrameFiles>& frames);
 
 }  // namespace voxelume::cli

@@ -32,7 +32,10 @@ std::string slices_path(const std::string& pattern, int frame) {
     const size_t run = pattern[last] == '%' ? last : before == pattern.npos ? 0 : before + 1;
     const std::string start = pattern.substr(0, run), own = pattern.substr(run);
     const std::string numbered = frame_path(start, frame, false);
-    return numbered != start ? numbered + own : start + fmt::format("{:04}.", frame) + own;
+    if (numbered != start) return numbered + own;
+    const bool ends_in_digit =
+        run > name && std::string_view("0123456789").find(start.back()) != std::string_view::npos;
+    return start + fmt::format("{}{:04}.", ends_in_digit ? "." : "", frame) + own;
 }
 
 bool is_pattern(const std::string& path) {
@@ -87,9 +90,10 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
                    "or a display's own format; may be given again")
         ->allow_extra_args(false);
-    const CLI::Option* frames = app.add_option(
-        "--frames", command.frames,
-        "frames to render, like 1-10,20,30-60x5; #### in an output's name becomes the number");
+    const CLI::Option* frames = app.add_option("--frames", command.frames,
+                                               "frames to render, like 1-10,20,30-60x5; #### in an "
+                                               "output's name becomes the number")
+                                    ->type_name("FRAMES");
     app.add_option("--views", command.views,
                    "render so many views around the scene; {view} in an output's name becomes the "
                    "number")
@@ -107,6 +111,7 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "cut off), filmic, agx, or none for linear values")
         ->type_name("srgb|filmic|agx|none");
     app.add_option("--png-bits", command.png_bits, "bits a channel of .png files, 8 or 16")
+        ->type_name("8|16")
         ->check(one_of({"8", "16"}));
     app.add_flag("--float", command.float_color,
                  "write the colours of .exr files as 32-bit floats, not halves");
@@ -115,7 +120,8 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--channels", command.channels,
                    "channels of .exr files, with commas between them: RGBA Z distance P N objectId "
                    "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "
-                   "motion; without RGBA and light's parts nothing is lit");
+                   "motion; without RGBA and light's parts nothing is lit")
+        ->type_name("CHANNELS");
     app.add_option("--stats-json", command.stats,
                    "write counts, times and memory to this file, JSON (see cli/STATISTICS.md)");
     app.add_flag("--dry-run", command.plan_only,
@@ -132,7 +138,8 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "the parts together")
         ->type_name("I/N");
     app.add_option("--fallback", command.fallback,
-                   "device, as for --device, that takes over a run whose device fails");
+                   "device, as for --device, that takes over a run whose device fails")
+        ->type_name("DEVICE");
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "
                    "changed: those that are damaged, or made from something else")

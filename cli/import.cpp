@@ -52,7 +52,8 @@ Action add_import(CLI::App& app) {
     app.add_option("-o,--output", command->output,
                    "scene to write, .json; printed if this is left out");
     app.add_option("--size", command->size,
-                   "image size, WIDTHxHEIGHT in pixels; 800x600 by default");
+                   "image size, WIDTHxHEIGHT in pixels; 800x600 by default")
+        ->type_name("WIDTHxHEIGHT");
     add_import_options(app, command->choices);
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };

@@ -113,7 +113,8 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
                    "of a model file: length of its longest side in metres; the file's by default")
         ->check(in_range(1e-6, 1e6));
     app.add_option("--up", choices.up,
-                   "of a model file: which axis is up, y or z; z by default for .stl alone");
+                   "of a model file: which axis is up, y or z; z by default for .stl alone")
+        ->type_name("y|z");
     app.add_option("--spacing", choices.spacing,
                    "of a scan or stack of slices: metres from voxel to voxel, one number or X,Y,Z, "
                    "instead of the file's")

@@ -18,13 +18,13 @@
 namespace voxelume::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kGrace{1500};
 // `timeout` sends its signal to the program and to its group, which are two signals for the
 // program.
 constexpr std::chrono::milliseconds kTogether{300};
 
 std::atomic<int> signal_number = 0;
 std::atomic<int> interruptibles = 0;
+std::atomic<std::chrono::milliseconds> grace;  // of the last of them
 std::mutex telling;
 bool is_told = false;  // with `telling` held
 
@@ -55,7 +55,7 @@ void wait_for_signal(const sigset_t& signals) {
         std::signal(SIGINT, SIG_DFL);
         std::signal(SIGTERM, SIG_DFL);
         pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
-        std::this_thread::sleep_for(kGrace - kTogether);
+        std::this_thread::sleep_for(grace.load() - kTogether);
     }
     tell_end();
     remove_unfinished_files();
@@ -86,7 +86,8 @@ void handle_interrupts() {
     std::thread(wait_for_signal, awaited).detach();
 }
 
-Interruptible::Interruptible() {
+Interruptible::Interruptible(std::chrono::milliseconds own_grace) {
+    grace = own_grace;
     ++interruptibles;
 }
 

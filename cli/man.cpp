@@ -29,6 +29,16 @@ std::string plain(const std::string& text) {
     return result;
 }
 
+/// Lets a list of words such as "auto|bar" go on in the next line.
+std::string breakable(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        result += c;
+        if (c == '|') result += "\\:";
+    }
+    return result;
+}
+
 /// Lines of text, each on its own in the page.
 void print_lines(const std::string& text) {
     size_t start = 0;
@@ -45,7 +55,7 @@ void print_option(const OptionFacts& option) {
         title += (title.empty() ? "" : ", ") + ("\\fB" + plain(name) + "\\fR");
     if (option.names.empty()) title = "\\fI" + plain(option.argument) + "\\fR";
     if (!option.names.empty() && !option.value.empty())
-        title += " \\fI" + plain(option.value) + "\\fR";
+        title += " \\fI" + breakable(plain(option.value)) + "\\fR";
     fmt::print(".TP\n{}\n", title);
     print_lines(option.help);
 }

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct MergeCommand {
     std::vector<std::string> parts;
+    bool outside = false;
     bool quiet = false;
 };
 
@@ -112,9 +113,25 @@ void check_frames(const std::vector<Part>& parts) {
         if (!known.contains(frame)) refuse("no part has frame {}", frame);
 }
 
+/// The files of the image that a part is of. A part may be someone else's, so what it names lies in
+/// its folder, links followed, unless files may lie `outside`.
+std::vector<fs::path> checked_outputs(const Part& part, bool outside) {
+    std::vector<fs::path> outputs;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(part.file).parent_path());
+    for (const std::string& name : part.manifest.rows->outputs) {
+        const fs::path& output = outputs.emplace_back(part.file.parent_path() / name);
+        const fs::path inside = fs::weakly_canonical(folder / name).lexically_relative(folder);
+        if (!outside && (inside.empty() || *inside.begin() == ".."))
+            refuse("{} would write {}, outside of its folder; --outside lets it",
+                   part.file.string(), output.string());
+    }
+    return outputs;
+}
+
 /// Writes the files of an image of which each part has some rows. Returns them.
-std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
-    std::vector<fs::path> files, outputs;
+std::vector<fs::path> merge_rows(const std::vector<Part>& parts, bool outside) {
+    std::vector<fs::path> files;
+    std::vector<fs::path> outputs = checked_outputs(parts.front(), outside);
     int height = 0;
     for (const Part& part : parts) {
         const ShardRows& rows = *part.manifest.rows;
@@ -126,21 +143,19 @@ std::vector<fs::path> merge_rows(const std::vector<Part>& parts) {
     }
     const ShardRows& rows = *parts.front().manifest.rows;
     if (height != rows.height) refuse("the parts have {} of {} rows", height, rows.height);
-    for (const std::string& output : rows.outputs)
-        outputs.push_back(parts.front().file.parent_path() / output);
     merge_image_files(files, outputs, rows.hash, parts.front().manifest.options);
     return outputs;
 }
 
-void merge_run(std::vector<Part> parts, bool is_quiet) {
+void merge_run(std::vector<Part> parts, const MergeCommand& command) {
     check_same_run(parts);
     check_numbers(parts);
     std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.number; });
     const auto say = [&](const std::string& what) {
-        if (!is_quiet) tell("{} of {} parts\n", what, parts.size());
+        if (!command.quiet) tell("{} of {} parts\n", what, parts.size());
     };
     if (parts.front().manifest.rows) {
-        for (const fs::path& file : merge_rows(parts)) say(file.string());
+        for (const fs::path& file : merge_rows(parts, command.outside)) say(file.string());
     } else {
         check_frames(parts);
         say(fmt::format("all {} frames are there, whole,", parts.front().manifest.frames.size()));
@@ -167,14 +182,14 @@ Runs read_runs(const MergeCommand& command) {
 int run(const MergeCommand& command) {
     Runs runs = read_runs(command);
     if (runs.size() == 1) {
-        merge_run(std::move(runs.begin()->second), command.quiet);
+        merge_run(std::move(runs.begin()->second), command);
         return 0;
     }
     size_t failed = 0;
     ErrorKind kind = ErrorKind::input;
     for (auto& [output, parts] : runs) {
         try {
-            merge_run(std::move(parts), command.quiet);
+            merge_run(std::move(parts), command);
         } catch (const Error& error) {
             complain(error.what(), error.kind());
             kind = failed++ == 0 || kind == error.kind() ? error.kind() : ErrorKind::render;
@@ -191,6 +206,8 @@ Action add_merge(CLI::App& app) {
     app.add_option("PART", command->parts,
                    "files .shard of all parts, of `render --shard`; files .shard.exr are skipped")
         ->required();
+    app.add_flag("--outside", command->outside,
+                 "write images outside of the folder of their parts, too, where the parts say so");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };
 }

@@ -33,19 +33,32 @@ ProgressStyle style_of(const RenderCommand& command) {
     return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
 }
 
-/// Leaves the frames that have to be rendered, and says how many have not. Returns whether any are
+/// Says what is there of so many frames, and why the rest of it is rendered again.
+void tell_of(const Finished& finished, size_t count) {
+    if (finished.frames > 0) tell("{} of {} frames are there already\n", finished.frames, count);
+    const auto again = [](size_t files, const char* one, const char* several) {
+        if (files > 0) tell("{} {}, and rendered again\n", files, files == 1 ? one : several);
+    };
+    again(finished.damaged, "file is damaged or has no hash in it",
+          "files are damaged or have no hash in them");
+    again(finished.changed, "file is of another scene, file, option or version",
+          "files are of another scene, file, option or version");
+}
+
+/// Leaves the frames that have to be rendered, and tells of the others. Returns whether any are
 /// left.
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
     const size_t count = job.frames.size();
     if (count == 0 && !command.quiet)
         tell("this part has nothing to render: there are more parts than frames or rows\n");
     const std::vector<int> numbers = numbers_of(job.frames);
-    const size_t skipped = skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
+    const Finished finished =
+        skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
     if (job.frames.empty() && OutputStream(command.outputs).is_wanted()) {
         job.frames.push_back({numbers.front(), {}, {}});  // its image goes to the stream anyway
         return true;
     }
-    if (skipped > 0 && !command.quiet) tell("{} of {} frames are there already\n", skipped, count);
+    if (!command.quiet) tell_of(finished, count);
     return !job.frames.empty();
 }
 

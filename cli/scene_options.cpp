@@ -21,7 +21,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "folder to look for the scene's models in; may be given again")
         ->allow_extra_args(false);
     app.add_option("--size", options.size,
-                   "image size, WIDTHxHEIGHT in pixels; replaces the scene's");
+                   "image size, WIDTHxHEIGHT in pixels; replaces the scene's")
+        ->type_name("WIDTHxHEIGHT");
     app.add_option("--samples", options.samples, "samples per pixel; replaces the scene's")
         ->check(in_range(1, 4096, Number::whole));
     app.add_option("--noise", options.noise,
@@ -39,8 +40,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("local|global")
         ->check(one_of({"local", "global"}));
     app.add_option(
-        "--device", options.device,
-        "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
+           "--device", options.device,
+           "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles")
+        ->type_name("DEVICE");
     app.add_option("--device-timeout", options.device_timeout,
                    "seconds after which a device that doesn't answer ends the run")
         ->check(in_range(1, 1e6));

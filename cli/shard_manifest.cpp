@@ -66,6 +66,23 @@ ShardManifest manifest_of(const Json& json) {
     return manifest;
 }
 
+/// Whether what can't be read was meant to be a part: it has the name of one, or begins like one.
+bool is_meant(const std::filesystem::path& file, const std::string& text) {
+    return file.extension() == ".shard" ||
+           text.find(fmt::format("\"{}\"", kFormatKey)) != std::string::npos;
+}
+
+/// Whether a run can have such a part.
+bool is_possible(const ShardManifest& manifest) {
+    const auto& [number, count] = manifest.shard;
+    if (number < 1 || number > count || manifest.frames.empty() || manifest.outputs.empty())
+        return false;
+    if (!manifest.rows) return true;
+    const ShardRows& rows = *manifest.rows;
+    return 0 <= rows.first && rows.first <= rows.end && rows.end <= rows.height &&
+           rows.file.has_value() == (rows.first < rows.end) && !rows.outputs.empty();
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
     throw Error(ErrorKind::input, fmt::format("{}: {}", file.string(), reason), {file.string()});
 }
@@ -98,23 +115,28 @@ void write_manifest(const std::filesystem::path& file, const ShardManifest& mani
 
 ShardManifest read_manifest(const std::filesystem::path& file) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "there is no such file");
+    if (!std::filesystem::is_regular_file(file, error))
+        refuse(file,
+               std::filesystem::exists(file, error) ? "isn't a file" : "there is no such file");
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (!stream) refuse(file, "can't be read");
     const Json json = Json::parse(text, nullptr, false);
+    constexpr const char* kDamaged = "is damaged: render this part again";
     if (!json.is_object() || !json.contains(kFormatKey))
-        refuse(file, "isn't a part of a run: `voxelume render --shard` writes those, .shard");
+        refuse(file, is_meant(file, text)
+                         ? kDamaged
+                         : "isn't a part of a run: `voxelume render --shard` writes those, .shard");
+    if (json.at(kFormatKey) != kFormat)
+        refuse(file, json.at(kFormatKey).is_number_unsigned() ? "is of another version of voxelume"
+                                                              : kDamaged);
     try {
-        if (json.at(kFormatKey).get<int>() != kFormat)
-            refuse(file, "is of another version of voxelume");
         ShardManifest manifest = manifest_of(json);
-        const auto& [number, count] = manifest.shard;
-        if (number < 1 || number > count) refuse(file, "is damaged: its number is none");
-        return manifest;
+        if (is_possible(manifest)) return manifest;
     } catch (const nlohmann::json::exception&) {
-        refuse(file, "is damaged: render this part again");
+    } catch (const Error&) {  // a view transform or channels that there aren't
     }
+    refuse(file, kDamaged);
 }
 
 }  // namespace voxelume::cli

@@ -2,14 +2,15 @@
 // voxelume stress: what a device does, held against exact arithmetic, case after case.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/stress_again.hpp"
 #include "cli/tell.hpp"
@@ -18,19 +19,9 @@
 namespace voxelume::cli {
 namespace {
 
-constexpr int kInterruptedCode = 130;
-
-volatile std::sig_atomic_t is_interrupted = 0;
-
-/// Has the first Ctrl-C end a run after the batch that it is in; a second one ends the program.
-/// Where none is to be heard, as in the background of a script, that stays.
-void wait_for_interrupt() {
-    struct sigaction action {};
-    if (sigaction(SIGINT, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
-    action.sa_handler = [](int) { is_interrupted = 1; };
-    action.sa_flags = int(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-}
+/// An interrupted run ends after the batch that it is in, whose kernel may have to be compiled. A
+/// second Ctrl-C ends the program.
+constexpr std::chrono::minutes kGrace{10};
 
 /// Each once, in the order in which they are named; all without names.
 std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
@@ -56,26 +47,23 @@ void print_examples(const StressTest& test, std::span<const StressExample> examp
 
 /// Runs a test and prints its line. The first mismatches are printed as they are found, every half
 /// a minute or so, so that a run that is ended early has told them.
-StressResult run_test(const StressTest& test, const StressCommand& command, const Device& device) {
+StressResult run_test(const StressTest& test, const StressCommand& command, const Device& device,
+                      const std::stop_token& stop) {
     constexpr uint64_t kRaysAtOnce = 1 << 25;
     const auto start = std::chrono::steady_clock::now();
     const uint64_t count = std::max<uint64_t>(1, uint64_t(command.rays) / test.rays_per_case);
     const uint64_t at_once = std::max<uint64_t>(1, kRaysAtOnce / test.rays_per_case);
     StressResult all;
-    for (uint64_t done = 0; done < count && !is_interrupted; done += at_once) {
+    for (uint64_t done = 0; done < count && !stop.stop_requested(); done += at_once) {
         const uint64_t now = std::min(count - done, at_once);
         StressResult part;
         {
             Progress bar(fmt::format("{} {} of {}", test.name, done / at_once + 1,
                                      (count + at_once - 1) / at_once),
                          now, stderr, command.quiet ? Drawing::never : Drawing::where_watched);
-            std::stop_source stop;
-            const auto advance = [&](uint64_t cases) {
-                bar.advance(cases);
-                if (is_interrupted) stop.request_stop();
-            };
+            const auto advance = [&](uint64_t cases) { bar.advance(cases); };
             part = run_stress(test.name, device,
-                              {command.seed, command.first + done, now, advance, stop.get_token()});
+                              {command.seed, command.first + done, now, advance, stop});
         }
         all.cases += part.cases;
         all.mismatches += part.mismatches;
@@ -94,20 +82,22 @@ StressResult run_test(const StressTest& test, const StressCommand& command, cons
 
 int run(const StressCommand& command) {
     const std::vector<StressTest> tests = chosen_tests(command.only);
-    wait_for_interrupt();
     const Device device = Device::open(command.device);
     if (!command.quiet)
         tell("\"{}\", {} lanes, seed {}\n", device.info().name, device.lanes(), command.seed);
+    const Interruptible interruptible(kGrace);
+    const std::stop_token stop = interruptible.stop();
     uint64_t cases = 0, mismatches = 0;
     for (const StressTest& test : tests) {
-        if (is_interrupted) break;
-        const StressResult result = run_test(test, command, device);
+        if (stop.stop_requested()) break;
+        const StressResult result = run_test(test, command, device, stop);
         cases += result.cases;
         mismatches += result.mismatches;
     }
-    if (is_interrupted) {
-        tell("interrupted after {} cases, {} mismatches\n", cases, mismatches);
-        return kInterruptedCode;
+    if (stop.stop_requested()) {
+        tell_interruption(
+            [&] { tell("interrupted after {} cases, {} mismatches\n", cases, mismatches); });
+        return interrupted_code();
     }
     return mismatches == 0 ? 0 : 1;
 }
@@ -129,11 +119,14 @@ Action add_stress(CLI::App& app) {
         ->check(in_range(1, 1e15));
     app.add_option("--seed", command->seed, "seed of the cases, 1 by default")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
+    app.add_option("--only", command->only, list_of_tests())
+        ->type_name("NAMES")
+        ->allow_extra_args(false);
     app.add_option("--first", command->first, "number of the first case, to repeat one")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--device", command->device,
                    "device: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE")
         ->check(one_device);
     app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };

@@ -67,9 +67,11 @@ Action add_view(CLI::App& app) {
                    "angle of the side view from above, in degrees; 25 by default")
         ->check(in_range(-90, 90));
     app.add_option("--size", command->size,
-                   "size of the .png, WIDTHxHEIGHT in pixels; 1280x1000 by default");
+                   "size of the .png, WIDTHxHEIGHT in pixels; 1280x1000 by default")
+        ->type_name("WIDTHxHEIGHT");
     app.add_option("--device", command->device,
-                   "device for model files: auto, cpu, gpu, a number, or part of a name");
+                   "device for model files: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE");
     app.add_option("--exposure", command->exposure, "exposure in stops, 0 by default")
         ->check(in_range(-64, 64));
     return [command] { return run(*command); };

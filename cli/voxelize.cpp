@@ -87,15 +87,19 @@ Action add_voxelize(CLI::App& app) {
         ->check(in_range(1, 16384, Number::whole))
         ->excludes(size);
     app.add_option(
-        "--surface", command->surface,
-        "surface: smooth (a distance field; the default), cubes, or exact (lists of triangles)");
+           "--surface", command->surface,
+           "surface: smooth (a distance field; the default), cubes, or exact (lists of triangles)")
+        ->type_name("smooth|cubes|exact");
     app.add_option("--set", command->set,
-                   "voxel set of cubes: supercover (the default), thin or solid");
+                   "voxel set of cubes: supercover (the default), thin or solid")
+        ->type_name("supercover|thin|solid");
     app.add_option("--normals", command->normals,
                    "normals that light cubes: faces (the default), or surface (those of the mesh, "
-                   "kept in .vxm)");
+                   "kept in .vxm)")
+        ->type_name("faces|surface");
     app.add_option("--device", command->device,
-                   "device: auto, cpu, gpu, a number, or part of a name");
+                   "device: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };
 }

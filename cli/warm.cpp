@@ -92,9 +92,11 @@ Action add_warm(CLI::App& app) {
     app.add_option("SCENE", command->inputs, "scene files, JSON, or model files")->required();
     add_scene_options(app, command->scene);
     app.add_option("--frames", command->frames,
-                   "frames to render into nothing, like 1,20; the first by default");
+                   "frames to render into nothing, like 1,20; the first by default")
+        ->type_name("FRAMES");
     app.add_option("--channels", command->channels,
-                   "channels that images will have, as `render --channels` names them");
+                   "channels that images will have, as `render --channels` names them")
+        ->type_name("CHANNELS");
     app.add_flag("--volume", command->volume, "prepare volumetric images, too");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };

@@ -38,7 +38,9 @@ std::string frame_path(const std::string& pattern, int frame, bool animation) {
     if (!animation) return pattern;
     const size_t dot = name.rfind('.');
     const size_t end = dot == std::string::npos || dot == 0 ? name.size() : dot;
-    return folder + name.insert(end, pad(frame, 4));
+    // "v-1.png" must not become "v-10001.png", as if this were frame 10001.
+    const bool ends_in_digit = end > 0 && name[end - 1] >= '0' && name[end - 1] <= '9';
+    return folder + name.insert(end, (ends_in_digit ? "." : "") + pad(frame, 4));
 }
 
 }  // namespace voxelume

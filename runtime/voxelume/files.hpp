@@ -92,7 +92,8 @@ FileIntegrity verify_file(const std::filesystem::path& file);
 std::vector<int> parse_frame_list(const std::string& list);
 
 /// The name of a frame's file: the last run of # in the pattern, or a %04d, becomes the number. A
-/// pattern without either gets four digits before its extension where the file is `one_of_many`.
+/// pattern without either gets four digits before its extension where the file is `one_of_many`,
+/// behind a dot where its name ends in a digit.
 std::string frame_path(const std::string& pattern, int frame, bool one_of_many);
 
 /// Throws Error::output when no file can be made there, or not of that kind; leaves nothing behind.

@@ -38,4 +38,11 @@ TEST(FramePath, WithoutAPlaceAnAnimationGetsFourDigitsBeforeTheExtension) {
     EXPECT_EQ(frame_path(".hidden", 12, true), ".hidden0012");
 }
 
+TEST(FramePath, ADotKeepsThemApartFromADigit) {
+    EXPECT_EQ(frame_path("out.1/view-1.exr", 12, true), "out.1/view-1.0012.exr");
+    EXPECT_EQ(frame_path("out.1/.exr", 12, true), "out.1/.exr0012");
+    EXPECT_EQ(frame_path("take9", 12, true), "take9.0012");
+    EXPECT_EQ(frame_path("view-1.exr", 12, false), "view-1.exr");
+}
+
 }  // namespace voxelume

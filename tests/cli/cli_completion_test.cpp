@@ -50,8 +50,8 @@ TEST_F(CliCompletionTest, EveryOptionOfHelpIsInEveryScriptAndOnThePage) {
             EXPECT_THAT(zsh, HasSubstr("'*" + option + "[")) << command;
             EXPECT_THAT(page, HasSubstr("\\fB" + option + "\\fR")) << command;
             EXPECT_TRUE(
-                std::regex_search(fish, std::regex("seen_subcommand_from " + command +
-                                                   "'[^\n]* -l " + option.substr(2) + "[ \n]")))
+                std::regex_search(fish, std::regex("__voxelume_command " + command + "'[^\n]* -l " +
+                                                   option.substr(2) + "[ \n]")))
                 << command << option;
         }
     }
@@ -70,7 +70,10 @@ TEST_F(CliCompletionTest, BashCompletesCommandsOptionsAndTheirWords) {
     EXPECT_EQ(completed("voxelume render a.json --light g"), "global\n");
     EXPECT_EQ(completed("voxelume completion z"), "zsh\n");
     EXPECT_EQ(completed("voxelume help doc"), "doctor\n");
+    EXPECT_EQ(completed("voxelume --v"), "--version\n");
     EXPECT_EQ(completed("voxelume render tr"), "try.sh\n");
+    EXPECT_EQ(completed("voxelume render -o tr"), "try.sh\n");
+    EXPECT_EQ(completed("voxelume render --size tr"), "\n");
     put_bytes(folder / "two words.json", "");
     EXPECT_EQ(completed("voxelume render tw"), "two words.json\n");
 }
@@ -82,7 +85,7 @@ TEST_F(CliCompletionTest, ZshAndFishOfferTheWordsOfArguments) {
     EXPECT_THAT(zsh.substr(command, zsh.find(";;", command) - command),
                 AllOf(HasSubstr("'1:value:(bash zsh fish)'\n"), Not(HasSubstr("_files"))));
     EXPECT_THAT(run("completion fish").out,
-                HasSubstr("'__fish_seen_subcommand_from completion' -f -x -a 'bash zsh fish' -d "));
+                HasSubstr("'__voxelume_command completion' -f -x -a 'bash zsh fish' -d "));
     if (run_line("zsh --version").exit_code != 0) GTEST_SKIP() << "there is no zsh";
     EXPECT_EQ(run_line("bash -c 'voxelume completion zsh >z && zsh -n z'").exit_code, 0);
 }

@@ -62,7 +62,7 @@ TEST_F(CliConfigTest, ATildeBeforeASlashIsTheHomeFolderWhereAPathBegins) {
     const std::string file = "cache_dir = ~/base:/a~/b:~/top\ndevice = ~/cpu\n";
     const std::string text =
         run_with(file, "env -u VOXELUME_CACHE_DIR HOME=/home/me", "config").out;
-    EXPECT_THAT(text, HasSubstr("\"/home/me/base:/a~/b:/home/me/top\""));
+    EXPECT_THAT(text, HasSubstr("\"/home/me/base:/a~/b:/home/me/top\"  /"));
     EXPECT_THAT(text, HasSubstr("\"~/cpu\""));
 }
 

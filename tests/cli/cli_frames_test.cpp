@@ -76,7 +76,7 @@ TEST_F(CliFramesTest, AnEmptyListIsAMistake) {
         EXPECT_THAT(expect_failure(2, line),
                     HasSubstr("--frames: can't read \"\"; write a frame or a range, like 1-10"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o f.#.exr --frames="),
-                HasSubstr("--frames: 1 required TEXT missing"));
+                HasSubstr("--frames: 1 required FRAMES missing"));
 }
 
 TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItBesideOneThatHasIt) {
@@ -85,6 +85,17 @@ TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItBesideOneThatHasIt) {
     EXPECT_THAT(names(),
                 ElementsAre("scene.json", "x0001.exr", "x0002.exr", "y.01.exr", "y.02.exr"));
     EXPECT_EQ(bytes_of(folder / "x0002.exr"), bytes_of(folder / "y.02.exr"));
+}
+
+TEST_F(CliFramesTest, ADotIsBetweenAViewsNumberAndAFrames) {
+    write_moving_scene(2);
+    ASSERT_EQ(run("render scene.json -q --frames 1 --views 2 -o v-{view}.png --volume "
+                  "s{view}##.png")
+                  .exit_code,
+              0);
+    for (const char* file : {"v-1.0001.png", "v-2.0001.png", "s1.0001.08.png", "s2.0001.json"})
+        EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+    EXPECT_EQ(names().size(), 1u + 2u + 2u * 10u);
 }
 
 TEST_F(CliFramesTest, SlicesKeepTheirOwnNumberBehindTheFrames) {

@@ -91,5 +91,21 @@ TEST_F(CliInterruptTest, AnIgnoredSignalStaysIgnored) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+TEST_F(CliInterruptTest, StressTellsWhatItFoundUntilItIsInterrupted) {
+    // Compiles the kernels, which may take longer than the test.
+    ASSERT_EQ(run("stress -q --rays 1 --only corners,ties").exit_code, 0);
+    for (const auto& [signal, code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
+        const ProgramResult result = run_line(fmt::format(
+            "timeout --preserve-status -k 100 -s {} 4 env --default-signal=INT voxelume stress -q "
+            "--rays 1e12 --only corners,ties",
+            signal));
+        EXPECT_EQ(result.exit_code, code) << result.err;
+        EXPECT_THAT(result.out, testing::MatchesRegex("corners +[0-9]+ cases +0 mismatches .*\n"));
+        EXPECT_THAT(result.err,
+                    testing::MatchesRegex("interrupted after [0-9]+ cases, 0 mismatches\n"));
+    }
+    EXPECT_THAT(run("help").out, HasSubstr("130  ended by Ctrl-C"));
+}
+
 }  // namespace
 }  // namespace voxelume

@@ -166,8 +166,71 @@ TEST_F(CliShardTest, AForeignPartIsRefusedWithTheReason) {
     EXPECT_EQ(run("merge p.exr.2-of-2.shard.exr").exit_code, 2);
     EXPECT_THAT(refusal("scene.json"), HasSubstr("isn't a part of a run"));
     EXPECT_THAT(refusal("nothing.shard"), HasSubstr("there is no such file"));
-    put_bytes(folder / "x.shard", R"({"voxelume_shard": 3, "part": "x"})");
-    EXPECT_THAT(refusal("x.shard"), HasSubstr("is damaged"));
+    EXPECT_THAT(refusal("/dev/zero"), HasSubstr("/dev/zero: isn't a file"));
+}
+
+TEST_F(CliShardTest, ADamagedPartIsCalledThat) {
+    render_parts(kImage, 2);
+    const fs::path part = folder / "p.exr.1-of-2.shard";
+    const std::string bytes = bytes_of(part);
+    const Json whole = Json::parse(bytes);
+    const auto expect_damaged = [&](const std::string& text) {
+        put_bytes(part, text);
+        EXPECT_THAT(refusal("p.*.shard"),
+                    HasSubstr("p.exr.1-of-2.shard: is damaged: render this part again\n"))
+            << text;
+    };
+    for (size_t size = 0; size + 1 < bytes.size(); size += 7) expect_damaged(bytes.substr(0, size));
+    expect_damaged(std::string(9, '\0'));
+    for (const auto& [path, value] :
+         std::vector<std::pair<const char*, Json>>{{"/voxelume_shard", "x"},
+                                                   {"/part", 3},
+                                                   {"/part", "x"},
+                                                   {"/outputs", Json::array()},
+                                                   {"/frames", {}},
+                                                   {"/view_transform", "sgrb"},
+                                                   {"/channels", "RGBX"},
+                                                   {"/rows/outputs", Json::array()},
+                                                   {"/rows/first", -4},
+                                                   {"/rows/end", 99},
+                                                   {"/rows/file", nullptr}}) {
+        Json changed = whole;
+        changed[Json::json_pointer(path)] = value;
+        expect_damaged(changed.dump());
+    }
+    put_bytes(folder / "p.copy", bytes.substr(0, bytes.size() / 2));
+    EXPECT_THAT(refusal("p.copy"), HasSubstr("is damaged"));
+}
+
+TEST_F(CliShardTest, APartWritesOutsideOfItsFolderOnlyWhereThatIsAskedFor) {
+    std::filesystem::create_directories(folder / "in/deep");
+    std::filesystem::create_directory_symlink("..", folder / "in/link");
+    render_parts("render scene.json -q -o in/p.exr -o in/q.exr", 2);
+    const std::string whole = (folder / "w.exr").string();
+    for (const std::string& name : {std::string("../w.exr"), std::string("deep/../../w.exr"),
+                                    std::string("link/w.exr"), whole}) {
+        for (const char* part : {"in/p.exr.1-of-2.shard", "in/p.exr.2-of-2.shard"}) {
+            Json manifest = Json::parse(bytes_of(folder / part));
+            manifest["rows"]["outputs"][1] = name;
+            put_bytes(folder / part, manifest.dump());
+        }
+        EXPECT_THAT(refusal("in/p.*.shard"),
+                    AllOf(HasSubstr("merge: in/p.exr.1-of-2.shard would write "),
+                          HasSubstr("w.exr, outside of its folder; --outside lets it\n")));
+        EXPECT_FALSE(std::filesystem::exists(folder / "in/p.exr"));
+        EXPECT_FALSE(std::filesystem::exists(whole));
+        ASSERT_EQ(run("merge --outside in/p.*.shard").exit_code, 0);
+        EXPECT_EQ(bytes_of(whole), bytes_of(folder / "in/p.exr"));
+        std::filesystem::remove(whole);
+        std::filesystem::remove(folder / "in/p.exr");
+    }
+    put_bytes(folder / "w.exr", "mine");
+    std::filesystem::create_symlink("../w.exr", folder / "in/p.exr");
+    render_parts("render scene.json -q -o in/p.exr", 2);
+    EXPECT_THAT(refusal("in/p.*.shard"), HasSubstr("outside of its folder"));
+    EXPECT_EQ(bytes_of(folder / "w.exr"), "mine");
+    render_parts("render scene.json -q -o in/deep/q.exr -o in/deep/../deep/r.exr", 2);
+    EXPECT_EQ(run("merge in/deep/q.*.shard").exit_code, 0);
 }
 
 TEST_F(CliShardTest, FramesOfPartsWithOtherOptionsOrOfAnotherSceneAreRefused) {

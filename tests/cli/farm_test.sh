@@ -104,9 +104,12 @@ SwitchType=switch/none
 ReturnToService=2
 KillWait=2
 SchedulerParameters=bf_interval=1,sched_min_interval=0
-NodeName=$name NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+GresTypes=gpu
+NodeName=$name NodeAddr=127.0.0.1 CPUs=$(nproc) Gres=gpu:2 State=UNKNOWN
 PartitionName=debug Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 END
+    # Two character devices that every machine has stand for graphics cards.
+    printf 'Name=gpu File=%s\n' /dev/null /dev/zero >slurm/gres.conf
     export SLURM_CONF=$folder/slurm/slurm.conf
     slurmctld -D -c -f "$SLURM_CONF" 2>/dev/null &
     servers+=($!)
@@ -147,7 +150,7 @@ requeue_first() {
 }
 
 # Each task is a node with a cache of its own over one that all read, but for the third task, whose
-# node has nothing.
+# node has nothing. What tasks are told of graphics cards goes to cards.txt, and no further.
 give_nodes_caches() {
     rm bin/voxelume
     cat >bin/voxelume <<END
@@ -157,6 +160,10 @@ case \${SLURM_ARRAY_TASK_ID:-} in
     3) VOXELUME_CACHE_DIR=$folder/cold ;;
     *) VOXELUME_CACHE_DIR=$folder/cache:$folder/node\$SLURM_ARRAY_TASK_ID ;;
 esac
+if [ -n "\${SLURM_JOB_GPUS:-}" ]; then
+    echo "\$VOXELUME_DEVICE \$CUDA_VISIBLE_DEVICES" >>$folder/cards.txt
+    unset VOXELUME_DEVICE CUDA_VISIBLE_DEVICES
+fi
 exec $program "\$@"
 END
     chmod +x bin/voxelume
@@ -185,11 +192,15 @@ run_slurm() {
     compare 'f.*.exr' 24
     [ "$(kernels_in cold)" -gt 0 ] || { echo "the cold node compiled nothing"; exit 1; }
     [ "$(kernels_in node*)" -eq 0 ] || { echo "a warm node compiled again"; exit 1; }
+    [ ! -e cards.txt ] || { echo "tasks have cards that nobody asked for"; exit 1; }
     start=$(seconds)
-    read -r -a jobs < <("$farm/slurm_submit.sh" 8 scene.json --frames 7 -o parts/one.exr)
+    read -r -a jobs < <(SBATCH_OPTIONS=--gres=gpu:1 "$farm/slurm_submit.sh" 8 scene.json \
+        --frames 7 -o parts/one.exr)
     wait_for "${jobs[1]}" "${jobs[0]}"
-    told "one frame of 64 rows of tiles, 8 tasks" "$start"
+    told "one frame of 64 rows of tiles, 8 tasks with a graphics card each" "$start"
     compare 'one*.exr' 1
+    [ "$(grep -c "^gpu [01]$" cards.txt)" -eq 8 ] ||
+        { echo "tasks don't render on the cards that they have:"; cat cards.txt; exit 1; }
 }
 
 run_parallel() {

@@ -9,7 +9,6 @@ package=$(realpath "$1")
 source=$(realpath "$2")
 mkdir -p "$3"
 cache=$(realpath "$3")
-mirror=${VXL_DEBIAN_MIRROR:-http://deb.debian.org/debian}
 
 fail() {
     echo "package_test.sh: $*"
@@ -21,7 +20,7 @@ fail() {
 if [ ! -f "$cache/bare.tar" ]; then
     made=$(mktemp -d)
     trap 'rm -rf --one-file-system "$made"' EXIT
-    debootstrap --variant=minbase bookworm "$made" "$mirror" >"$cache/log" || fail "$(tail "$cache/log")"
+    "$source/tests/cli/bare_debian.sh" "$made" "$cache" || fail "there is no bare Debian"
     needs=$(dpkg-deb -f "$package" Depends | tr ',' '\n' | sed -E 's/[|(].*//' | tr -d ' ' | sort -u)
     for one in g++ man-db pkg-config $needs; do
         case $one in libopencl*) ;; *) echo "$one" ;; esac
