@@ -223,7 +223,11 @@ JsonValue tree(const v1::Observer& observer) {
     object.add("position", observer.position).add("look_at", observer.look_at);
     object.add("up", observer.up).add("turn", observer.turn);
     object.add("aperture", observer.aperture).add("focus", observer.focus);
-    return object.put("display", tree_of_display(observer.display)).take();
+    if (observer.projection == v1::Projection::display)
+        return object.put("display", tree_of_display(observer.display)).take();
+    constexpr std::array kProjections = {"perspective", "orthographic", "panoramic"};
+    object.add("projection", kProjections.at(size_t(observer.projection)));
+    return object.add("width", observer.width).add("height", observer.height).take();
 }
 
 JsonValue tree(const v1::Animation& animation) {

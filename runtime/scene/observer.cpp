@@ -17,12 +17,14 @@ constexpr double kMaxLensRatio = 1000;
 
 std::span<const ValueRow<ObserverParameters>> observer_rows() {
     using O = ObserverParameters;
-    static constexpr std::array<ValueRow<O>, 6> rows = {{{"position", &O::position, kCoordinate},
+    static constexpr std::array<ValueRow<O>, 8> rows = {{{"position", &O::position, kCoordinate},
                                                          {"look_at", &O::look_at, kCoordinate},
                                                          {"up", &O::up, kCoordinate},
                                                          {"turn", &O::turn, kDegrees},
                                                          {"aperture", &O::aperture, kNotNegative},
-                                                         {"focus", &O::focus, kLength}}};
+                                                         {"focus", &O::focus, kLength},
+                                                         {"width", &O::width, kLength},
+                                                         {"height", &O::height, kLength}}};
     return rows;
 }
 
@@ -51,6 +53,37 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
                "the view direction is parallel to \"up\", which leaves the image's turn open; "
                "give another \"up\", such as [0, 0, 1]");
     observer.world_from_observer = {x / sine, glm::cross(z, x / sine), z};
+}
+
+void make_pixels_square(glm::ivec2 size, Display& display) {
+    if (!display.square_pixels) return;
+    glm::dvec2& half = display.half_size;
+    if (display.shape == DisplayShape::pyramid)
+        display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);
+    else if (display.keeps_height)
+        half.x = half.y * size.x / size.y;
+    else
+        half.y = half.x * size.y / size.x;
+}
+
+void project(const ObserverParameters& p, const DisplaySetting& setting, const Refuse& refuse,
+             Observer& observer) {
+    Display& display = observer.display;
+    display.near = 0;
+    display.far = setting.world_end;
+    if (observer.projection == Projection::panoramic) {
+        display.shape = DisplayShape::ball;
+        return;
+    }
+    refuse_both(p.width.has_value(), "width", p.height.has_value(), "height", refuse);
+    if (!p.width && !p.height)
+        refuse("projection",
+               "\"orthographic\" needs a \"width\" or \"height\": the metres that the image shows");
+    display.shape = DisplayShape::box;
+    display.square_pixels = true;
+    display.keeps_height = p.height.has_value();
+    display.half_size = glm::dvec2(p.height.value_or(p.width.value_or(0)) / 2);
+    make_pixels_square(setting.image_size, display);
 }
 
 }  // namespace voxelume

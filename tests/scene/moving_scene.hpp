@@ -66,6 +66,10 @@ inline std::vector<std::pair<std::string, nlohmann::json>> other_parts() {
         {"/observer/display", parsed(R"({"shape": "box", "size": [1, 2, 3], "near": 0.5})")},
         {"/observer", parsed(R"({"position": [0, 0, -3], "turn": [10, 20, 30],
                                  "display": {"shape": "ball", "radius": 2}})")},
+        {"/observer", parsed(R"({"position": [0, 0, -3], "projection": "orthographic",
+                                 "width": 2})")},
+        {"/observer", parsed(R"({"position": [0, 0, -3], "projection": "orthographic",
+                                 "height": 2})")},
         {"/observer", parsed(R"({"position": [0, 0, -3], "aperture": 0.2, "focus": 2.5,
                                  "display": {"shape": "pyramid", "angle": 40}})")},
     };
