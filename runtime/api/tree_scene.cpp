@@ -188,17 +188,22 @@ JsonValue tree(const v1::World& world) {
 
 JsonValue tree(const v1::Material& material) {
     ObjectTree object;
-    if (material.base_color || material.metallic || material.roughness || material.transmission) {
+    const bool is_physical = material.base_color || material.metallic || material.roughness ||
+                             material.transmission || material.coat || material.coat_roughness;
+    if (is_physical) {
         object.add("base_color", material.base_color.value_or(material.color));
         if (material.metallic) object.add("metallic", *material.metallic);
         if (material.roughness) object.add("roughness", *material.roughness);
         if (material.transmission) object.add("transmission", *material.transmission);
+        if (material.coat) object.add("coat", *material.coat);
+        if (material.coat_roughness) object.add("coat_roughness", *material.coat_roughness);
     } else {
         object.add("color", material.color).add("diffuse", material.diffuse);
-        object.add("specular", material.specular).add("shininess", material.shininess);
+        object.add("shininess", material.shininess);
         object.add("reflection", material.reflection).add("refraction", material.refraction);
         object.add("fresnel", material.fresnel);
     }
+    if (material.specular) object.add("specular", *material.specular);
     object.add("ior", material.ior)
         .add("opacity", material.opacity)
         .add("absorption", material.absorption);
