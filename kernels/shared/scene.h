@@ -58,7 +58,8 @@ typedef struct Camera {
     float lens_radius;              // metres; 0: all rays start at one point
     float lens_slope;               // lens_radius over the depth of what is sharp
     int first_sample;               // of the samples' sequence
-    int unused[3];
+    int blades;                     // VXL_BLADES: corners of the lens, at least 3
+    int unused[2];
 } Camera;
 VXL_SIZE_IS(Camera, 160);
 

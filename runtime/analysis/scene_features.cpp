@@ -245,6 +245,7 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
         features = without_light(voxels, scene, world, features);
     features.lens =
         scene.observer.aperture > 0 && scene.observer.display.shape == DisplayShape::pyramid;
+    features.blades = features.lens && scene.observer.blades > 0;
     add_points(scene, world, features);
 }
 

@@ -228,6 +228,7 @@ JsonValue tree(const v1::Observer& observer) {
     object.add("position", observer.position).add("look_at", observer.look_at);
     object.add("up", observer.up).add("turn", observer.turn);
     object.add("aperture", observer.aperture).add("focus", observer.focus);
+    object.add("blades", observer.blades);
     if (observer.projection == v1::Projection::display)
         return object.put("display", tree_of_display(observer.display)).take();
     constexpr std::array kProjections = {"perspective", "orthographic", "panoramic"};

@@ -17,14 +17,16 @@ constexpr double kMaxLensRatio = 1000;
 
 std::span<const ValueRow<ObserverParameters>> observer_rows() {
     using O = ObserverParameters;
-    static constexpr std::array<ValueRow<O>, 8> rows = {{{"position", &O::position, kCoordinate},
-                                                         {"look_at", &O::look_at, kCoordinate},
-                                                         {"up", &O::up, kCoordinate},
-                                                         {"turn", &O::turn, kDegrees},
-                                                         {"aperture", &O::aperture, kNotNegative},
-                                                         {"focus", &O::focus, kLength},
-                                                         {"width", &O::width, kLength},
-                                                         {"height", &O::height, kLength}}};
+    static constexpr std::array<ValueRow<O>, 9> rows = {
+        {{"position", &O::position, kCoordinate},
+         {"look_at", &O::look_at, kCoordinate},
+         {"up", &O::up, kCoordinate},
+         {"turn", &O::turn, kDegrees},
+         {"aperture", &O::aperture, kNotNegative},
+         {"focus", &O::focus, kLength},
+         {"blades", &O::blades, {0, 16}, false, false},
+         {"width", &O::width, kLength},
+         {"height", &O::height, kLength}}};
     return rows;
 }
 
@@ -33,6 +35,9 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
     refuse_both(p.look_at.has_value(), "look_at", p.turn.has_value(), "turn", refuse);
     refuse_both(p.up.has_value(), "up", p.turn.has_value(), "turn", refuse);
     observer.aperture = p.aperture;
+    observer.blades = p.blades;
+    if (p.blades == 1 || p.blades == 2)
+        refuse("blades", "a lens has 3 to 16 blades, or 0 to be round");
     observer.focus = p.focus.value_or(p.look_at ? glm::distance(*p.look_at, p.position) : 0);
     if (p.aperture > 0 && !p.focus && !p.look_at)
         refuse("aperture",

@@ -26,6 +26,7 @@ struct Observer {
     glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
     double aperture = 0;  ///< metres: diameter of the lens; 0: flat images are sharp everywhere
     double focus = 0;     ///< metres along Z_E to what the lens shows sharp
+    int blades = 0;       ///< corners of the lens, from 3 on; 0: it is round
     Projection projection = Projection::display;
     Display display;
     SourcePlace where;
@@ -40,6 +41,7 @@ struct ObserverParameters {
     std::optional<glm::dvec3> turn;       ///< degrees; instead of both
     double aperture = 0;                  ///< metres
     std::optional<double> focus;          ///< metres; otherwise the distance of `look_at`
+    int blades = 0;                       ///< from 3 on; 0: round
     std::optional<double> width, height;  ///< metres that an orthographic image shows
     DisplayParameters display;
 

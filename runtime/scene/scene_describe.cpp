@@ -83,9 +83,11 @@ std::string projection_text(const Observer& observer) {
 
 std::string observer_text(const Observer& observer) {
     const Display& d = observer.display;
+    const std::string blades =
+        observer.blades > 0 ? fmt::format(" and {} blades", observer.blades) : "";
     const std::string lens = observer.aperture > 0
-                                 ? fmt::format(", lens of {:.6g} m, sharp at {:.6g} m",
-                                               observer.aperture, observer.focus)
+                                 ? fmt::format(", lens of {:.6g} m{}, sharp at {:.6g} m",
+                                               observer.aperture, blades, observer.focus)
                                  : "";
     return fmt::format(
         "observer: at {}, looking along {}, {}{} display of {}x{}x{} voxels, from {:.6g} to "

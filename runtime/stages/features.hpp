@@ -42,6 +42,7 @@ struct Features {
     bool coat = false;                 ///< ... or has a coat
     bool weak_facets = false;          ///< ... or reflects less than its index says
     bool lens = false;                 ///< sight rays start all over a lens
+    bool blades = false;               ///< ... that is a polygon
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
     int sky_rays = 0;                  ///< VXL_EMITTERS_*: how paths find the light of a map
@@ -102,6 +103,7 @@ struct Features {
                 {"VXL_COAT", coat},
                 {"VXL_WEAK_FACETS", weak_facets},
                 {"VXL_LENS", lens},
+                {"VXL_BLADES", blades},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},
                 {"VXL_SKY_RAYS", sky_rays},

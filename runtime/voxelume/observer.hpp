@@ -92,6 +92,7 @@ struct Observer {
     Projection projection = Projection::display;  ///< if another, `display` is left out
     std::optional<double> width{};                ///< metres that an orthographic image shows
     std::optional<double> height{};               ///< or its height, for square pixels
+    std::optional<int> blades{};                  ///< of the lens, which is a polygon then; 3 to 16
 };
 
 /// The light that reaches surfaces of a flat image.

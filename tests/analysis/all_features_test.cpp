@@ -60,7 +60,7 @@ std::string scene_text(const std::string& light) {
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
 "lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
             "intensity": 9, "spots": 2}],
-"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0], "aperture": 0.02,
+"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0], "aperture": 0.02, "blades": 7,
              "display": {"shape": "pyramid", "angle": 60}},
 "render": {"size": [24, 18], "depth": 2, "shadow": "filtered", "light": ")" +
            light + "\"}}";

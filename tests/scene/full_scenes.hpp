@@ -47,7 +47,7 @@ inline std::vector<nlohmann::json> full_scenes() {
                        {"type": "disk", "position": [1, 2, 3], "direction": [0, -1, 0], "radius": 2, "spots": 9},
                        {"type": "rectangle", "position": [1, 2, 3], "look_at": [0, 0, 9], "up": [1, 0, 0],
                         "size": [2, 3], "spots": 7}],
-            "observer": {"position": [0, 1, -3], "look_at": [0.5, 0, 0], "up": [0, 1, 0], "aperture": 0.1, "focus": 3,
+            "observer": {"position": [0, 1, -3], "look_at": [0.5, 0, 0], "up": [0, 1, 0], "aperture": 0.1, "focus": 3, "blades": 6,
                          "display": {"shape": "pyramid", "angles": [40, 30], "near": 0.5, "far": 10,
                                      "voxels": [64, 48, 32]}},
             "animation": {"frames": 5, "fps": 24, "tracks": []},

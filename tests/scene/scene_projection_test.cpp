@@ -106,6 +106,16 @@ TEST(SceneProjection, IsRefusedWithoutItsMeasureOrWithThatOfAnother) {
                 HasSubstr("needs \"projection\": \"orthographic\""));
 }
 
+TEST(SceneProjection, ALensHasNoPolygonOfOneOrTwoCorners) {
+    const std::string lens = R"("aperture": 0.1, "focus": 2, "display": {"shape": "pyramid"}, )";
+    for (const char* blades : {"1", "2"})
+        EXPECT_THAT(projection_refused(lens + R"("blades": )" + blades),
+                    HasSubstr("observer.blades: a lens has 3 to 16 blades"));
+    EXPECT_THAT(projection_refused(lens + R"("blades": 17)"), HasSubstr("observer.blades"));
+    EXPECT_EQ(projected(lens + R"("blades": 6)").observer.blades, 6);
+    EXPECT_EQ(projected(lens + R"("blades": 0)").observer.blades, 0);
+}
+
 TEST(SceneProjection, RefusesALens) {
     for (const char* projection : {R"("orthographic", "width": 2)", R"("panoramic")"})
         EXPECT_THAT(projection_refused(

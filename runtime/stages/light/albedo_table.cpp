@@ -13,21 +13,15 @@
 namespace voxelume {
 namespace {
 
-double square(double x) {
-    return x * x;
-}
-
 /// What surfaces of a width return of light at an angle of this cosine.
 FacetAlbedo albedo_at(double cosine, double width) {
     FacetAlbedo sum;
     for_each_facet(cosine, width, [&sum](const SeenFacet& facet) {
         sum.all += facet.seen;
-        sum.by_angle += facet.seen * square(square(1 - facet.meets)) * (1 - facet.meets);
+        sum.by_angle += facet.seen * squared(squared(1 - facet.meets)) * (1 - facet.meets);
     });
     return sum;
 }
-
-constexpr int kLast = VXL_ALBEDO_ENTRIES - 1;
 
 /// The value of one of the two rows of a table at a place between its entries.
 double between(const AlbedoTable& table, int row, double at) {
@@ -46,7 +40,7 @@ void set_means(double width, AlbedoTable& table) {
 }  // namespace
 
 double between_entries(std::span<const float> values, int rows, int row, double at) {
-    const int entry = std::clamp(int(at), 0, kLast - 1);
+    const int entry = std::clamp(int(at), 0, kLastAlbedo - 1);
     const double part = at - entry;
     const auto value = [&](int i) {
         return double(values[size_t(i) * size_t(rows) + size_t(row)]);
@@ -55,21 +49,21 @@ double between_entries(std::span<const float> values, int rows, int row, double 
 }
 
 FacetAlbedo read_albedo(const AlbedoTable& table, double width, double cosine) {
-    const double at = kLast * std::sqrt(cosine * (1 + width) / (cosine + width));
+    const double at = kLastAlbedo * std::sqrt(cosine * (1 + width) / (cosine + width));
     const double all = 1 - between(table, VXL_ALBEDO_MISSING, at);
-    return {all, all * between(table, VXL_ALBEDO_BY_ANGLE, kLast * std::sqrt(cosine))};
+    return {all, all * between(table, VXL_ALBEDO_BY_ANGLE, kLastAlbedo * std::sqrt(cosine))};
 }
 
 double width_of(double roughness) {
-    return std::max(square(roughness), 1.0 / 1024);
+    return std::max(squared(roughness), 1.0 / 1024);
 }
 
 namespace {
 
 AlbedoTable new_table(double width) {
     AlbedoTable table;
-    for (int entry = 0; entry <= kLast; ++entry) {
-        const double u = square(double(entry) / kLast);
+    for (int entry = 0; entry <= kLastAlbedo; ++entry) {
+        const double u = squared(double(entry) / kLastAlbedo);
         const FacetAlbedo missed = albedo_at(std::min(width * u / (1 + width - u), 1.0), width);
         const FacetAlbedo turned = albedo_at(u, width);
         float* values = &table.values[size_t(entry) * VXL_ALBEDO_FLOATS];
@@ -98,7 +92,7 @@ AlbedoTable albedo_table(double width) {
 
 double multiple_share(double reflectance, double missing, double grazing) {
     const double mean = reflectance + (grazing - reflectance) / 21;
-    return square(mean) * (1 - missing) / (1 - mean * missing);
+    return squared(mean) * (1 - missing) / (1 - mean * missing);
 }
 
 double passed_share(double reflectance, const AlbedoMeans& means, double grazing) {

@@ -9,6 +9,8 @@
 
 namespace voxelume {
 
+inline constexpr int kLastAlbedo = VXL_ALBEDO_ENTRIES - 1;  ///< the last entry of a table
+
 /// Means over all directions, by their cosine: of the light that reaches facets, the share that
 /// they miss and what they return at once of the part (1 - m)^5.
 struct AlbedoMeans {
@@ -28,7 +30,7 @@ struct FacetAlbedo {
 /// What kernels read from a table.
 FacetAlbedo read_albedo(const AlbedoTable& table, double width, double cosine);
 
-/// One of the `rows` numbers of each entry, at a place from 0 to VXL_ALBEDO_ENTRIES - 1.
+/// One of the `rows` numbers of each entry, at a place from 0 to kLastAlbedo.
 double between_entries(std::span<const float> values, int rows, int row, double at);
 
 /// GGX's alpha of a roughness. Highlights are at least so wide that floats hold them.

@@ -13,8 +13,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kLast = VXL_ALBEDO_ENTRIES - 1;
-constexpr double kStraight = VXL_COAT_REFLECTANCE;
+constexpr double kCoatReflectance = VXL_COAT_REFLECTANCE;
 
 /// What the coat returns in the directions of facets below more than at the angle itself, on
 /// average over the facets: of all light, and of the part (1 - m)^5.
@@ -34,8 +33,8 @@ FacetAlbedo losses_at(double cosine, double coat_width, double width, const Albe
 CoatTable new_table(double coat_width, double width) {
     const AlbedoTable coat = albedo_table(coat_width), below = albedo_table(width);
     CoatTable table;
-    for (int entry = 0; entry <= kLast; ++entry) {
-        const double u = double(entry) / kLast, cosine = std::max(u * u, 1e-7);
+    for (int entry = 0; entry <= kLastAlbedo; ++entry) {
+        const double u = double(entry) / kLastAlbedo, cosine = std::max(u * u, 1e-7);
         const FacetAlbedo losses = losses_at(cosine, coat_width, width, coat);
         table.values[size_t(entry) * 2] = float(losses.all);
         table.values[size_t(entry) * 2 + 1] = float(losses.by_angle);
@@ -44,7 +43,7 @@ CoatTable new_table(double coat_width, double width) {
         const double returned = coat_returned(coat, coat_width, cosine);
         const FacetAlbedo facets = read_albedo(below, width, cosine);
         const auto lost = [&](int row) {
-            return between_entries(table.values, 2, row, kLast * std::sqrt(cosine));
+            return between_entries(table.values, 2, row, kLastAlbedo * std::sqrt(cosine));
         };
         table.returned += share * returned;
         table.taken += share * facets.all * (returned + lost(0));
@@ -56,12 +55,12 @@ CoatTable new_table(double coat_width, double width) {
 }  // namespace
 
 double coat_later(const AlbedoTable& table) {
-    return multiple_share(kStraight, table.missing);
+    return multiple_share(kCoatReflectance, table.missing);
 }
 
 double coat_returned(const AlbedoTable& table, double width, double cosine) {
     const FacetAlbedo albedo = read_albedo(table, width, cosine);
-    const double at_once = kStraight * (albedo.all - albedo.by_angle) + albedo.by_angle;
+    const double at_once = kCoatReflectance * (albedo.all - albedo.by_angle) + albedo.by_angle;
     return at_once + coat_later(table) * (1 - albedo.all);
 }
 

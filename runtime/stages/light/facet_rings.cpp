@@ -12,10 +12,6 @@
 namespace voxelume {
 namespace {
 
-double square(double x) {
-    return x * x;
-}
-
 /// Light that comes at an angle to facets, and what a ring of those that it sees returns. With the
 /// surface stretched until facets are a sphere, the light comes along (x, 0, z).
 struct FacetRing {
@@ -26,9 +22,9 @@ struct FacetRing {
     /// The angles around the ring that mirror light upwards: the height of the mirrored direction
     /// is a quotient of linear functions of the angle's cosine.
     std::pair<double, double> upward() const {
-        const double a2 = square(width);
+        const double a2 = squared(width);
         const double slope = 2 * radius * (height * width * sine - cosine * a2 * x);
-        const double level = cosine * (a2 * (square(radius) + square(x)) + square(height)) -
+        const double level = cosine * (a2 * (squared(radius) + squared(x)) + squared(height)) -
                              2 * height * (width * sine * x + height * cosine);
         if (slope == 0) return {0, level <= 0 ? std::numbers::pi : 0};
         const double edge = std::acos(std::clamp(level / slope, -1.0, 1.0));
@@ -40,12 +36,12 @@ struct FacetRing {
     SeenFacet at(double turn, double share) const {
         const double hx = width * (radius * std::cos(turn) + x);
         const double across = width * radius, along = hx - width * x;
-        const double hy2 = square(across) - square(along);
-        const double h = std::sqrt(square(hx) + hy2 + square(height));
+        const double hy2 = squared(across) - squared(along);
+        const double h = std::sqrt(squared(hx) + hy2 + squared(height));
         const double meets = (hx * sine + height * cosine) / h;
         const double out = 2 * meets * height / h - cosine;
         if (out <= 0) return {0, out, meets};
-        const double other = std::sqrt(square(width) * (1 - square(out)) + square(out));
+        const double other = std::sqrt(squared(width) * (1 - squared(out)) + squared(out));
         const double seen = share * (length + cosine) * out / (length * out + other * cosine);
         return {seen, out, meets};
     }
@@ -56,8 +52,8 @@ struct FacetRing {
 void for_each_facet(double cosine, double width, const std::function<void(const SeenFacet&)>& add) {
     constexpr int kRings = 128, kParts = 32;  // parts of half a ring; the other half is its mirror
     FacetRing ring;
-    ring.width = width, ring.sine = std::sqrt(1 - square(cosine)), ring.cosine = cosine;
-    ring.length = std::sqrt(square(width * ring.sine) + square(cosine));
+    ring.width = width, ring.sine = std::sqrt(1 - squared(cosine)), ring.cosine = cosine;
+    ring.length = std::sqrt(squared(width * ring.sine) + squared(cosine));
     ring.x = width * ring.sine / ring.length, ring.z = cosine / ring.length;
     const double last = std::acos(-ring.z);
     for (int i = 0; i < kRings; ++i) {
@@ -80,7 +76,7 @@ void for_each_cosine(const std::function<void(double share, double cosine)>& add
     constexpr double kLeast = 1e-6;
     const auto at = [](double step) { return std::pow(kLeast, 1 - step / kSteps); };
     for (int step = 0; step < kSteps; ++step)
-        add(square(at(step + 1)) - square(at(step)), at(step + 0.5));
+        add(squared(at(step + 1)) - squared(at(step)), at(step + 0.5));
 }
 
 }  // namespace voxelume

@@ -6,6 +6,10 @@
 
 namespace voxelume {
 
+inline double squared(double x) {
+    return x * x;
+}
+
 /// Facets that look one way.
 struct SeenFacet {
     double seen = 0;   ///< the share of what is seen that they are and other facets don't hide
