@@ -42,8 +42,9 @@ static inline void cast_packet(const SightCast* cast, lane_int column, lane_int 
     if (VXL_LENS) {
         const lane_uint frame_column = LANES_AS_UINT(column + camera.first_column);
         const lane_uint frame_row = LANES_AS_UINT(row + camera.first_row);
-        ray = through_lens(&camera, ray,
-                           lens_point(frame_column, frame_row, (uint)camera.first_sample + sample));
+        ray = through_lens(
+            &camera, ray,
+            lens_point(&camera, frame_column, frame_row, (uint)camera.first_sample + sample));
     }
 
     lane_float dx = along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.direction);

@@ -58,7 +58,8 @@ typedef struct Camera {
     float lens_radius;              // metres; 0: all rays start at one point
     float lens_slope;               // lens_radius over the depth of what is sharp
     int first_sample;               // of the samples' sequence
-    int unused[3];
+    int blades;                     // VXL_BLADES: corners of the lens, at least 3
+    int unused[2];
 } Camera;
 VXL_SIZE_IS(Camera, 160);
 
@@ -140,6 +141,33 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_GLASS_PER_MISSING 3
 #define VXL_GLASS_TABLE 8
 #define VXL_GLASS_FLOATS 288
+
+// Physically based materials with a coat, or that reflect less than their index says, have here the
+// number of the first value of their block, 0 for none:
+#define VXL_MATERIAL_COAT VXL_MATERIAL_SPECULAR
+// A block is in the array of materials as well:
+//   VXL_COAT_REFLECTS     what the reflectance of what isn't metal is multiplied by
+//   VXL_COAT_SHARE        of the surface that the coat is on
+//   VXL_COAT_WIDTH        of its highlights
+//   VXL_COAT_ALBEDOS      the number of the first value of its table, VXL_ALBEDO_ENTRIES
+//   VXL_COAT_LATER        what its facets return later of the light that they miss
+//   VXL_COAT_PER_MISSING  1 over the mean of what they miss
+//   VXL_COAT_PER_ENTERED  1 over the mean share of light that gets through it
+//   VXL_COAT_TABLE        VXL_ALBEDO_ENTRIES times 2, by the root of the cosine: of light that
+//                         facets below it return at once, white ones or those that reflect
+//                         (1 - m)^5, how much more the coat takes on its way, as it leaves lower
+#define VXL_COAT_REFLECTS 0
+#define VXL_COAT_SHARE 1
+#define VXL_COAT_WIDTH 2
+#define VXL_COAT_ALBEDOS 3
+#define VXL_COAT_LATER 4
+#define VXL_COAT_PER_MISSING 5
+#define VXL_COAT_PER_ENTERED 6
+#define VXL_COAT_TABLE 8
+#define VXL_COAT_FLOATS 160
+
+// What a coat reflects straight on: its index of refraction is 1.5.
+#define VXL_COAT_REFLECTANCE 0.04f
 
 // Values of LightRecord::kind.
 #define VXL_LIGHT_POINT 0

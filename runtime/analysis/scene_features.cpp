@@ -51,7 +51,7 @@ bool is_lit(const Material* m) {
     if (is_physical(*m)) return true;  // nothing is so black that it has no highlight
     const bool has_color =
         m->color != glm::vec3(0) || (m->checker && m->checker->color != glm::vec3(0));
-    return m->specular > 0 || (m->diffuse > 0 && has_color);
+    return m->specular.value_or(0) > 0 || (m->diffuse > 0 && has_color);
 }
 
 /// Adds the features that the materials decide.
@@ -67,6 +67,8 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         opacity |= (effects & kIsSeenThrough) != 0;
         reflection |= (effects & kReflects) != 0;
         features.physical |= features.global && (effects & kIsPhysical) != 0;
+        features.coat |= features.global && (effects & kHasCoat) != 0;
+        features.weak_facets |= features.global && is_weak(*m);
         features.rough_glass |= features.global && follows && glass_share(*m) > 0;
         fresnel |= (effects & kHasReflectance) != 0 && (effects & (kReflects | kRefracts)) != 0;
         absorption |= (effects & kAbsorbs) != 0 && (transmits(*m) || features.voxel_opacity);
@@ -243,6 +245,7 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
         features = without_light(voxels, scene, world, features);
     features.lens =
         scene.observer.aperture > 0 && scene.observer.display.shape == DisplayShape::pyramid;
+    features.blades = features.lens && scene.observer.blades > 0;
     add_points(scene, world, features);
 }
 

@@ -188,17 +188,22 @@ JsonValue tree(const v1::World& world) {
 
 JsonValue tree(const v1::Material& material) {
     ObjectTree object;
-    if (material.base_color || material.metallic || material.roughness || material.transmission) {
+    const bool is_physical = material.base_color || material.metallic || material.roughness ||
+                             material.transmission || material.coat || material.coat_roughness;
+    if (is_physical) {
         object.add("base_color", material.base_color.value_or(material.color));
         if (material.metallic) object.add("metallic", *material.metallic);
         if (material.roughness) object.add("roughness", *material.roughness);
         if (material.transmission) object.add("transmission", *material.transmission);
+        if (material.coat) object.add("coat", *material.coat);
+        if (material.coat_roughness) object.add("coat_roughness", *material.coat_roughness);
     } else {
         object.add("color", material.color).add("diffuse", material.diffuse);
-        object.add("specular", material.specular).add("shininess", material.shininess);
+        object.add("shininess", material.shininess);
         object.add("reflection", material.reflection).add("refraction", material.refraction);
         object.add("fresnel", material.fresnel);
     }
+    if (material.specular) object.add("specular", *material.specular);
     object.add("ior", material.ior)
         .add("opacity", material.opacity)
         .add("absorption", material.absorption);
@@ -223,7 +228,12 @@ JsonValue tree(const v1::Observer& observer) {
     object.add("position", observer.position).add("look_at", observer.look_at);
     object.add("up", observer.up).add("turn", observer.turn);
     object.add("aperture", observer.aperture).add("focus", observer.focus);
-    return object.put("display", tree_of_display(observer.display)).take();
+    object.add("blades", observer.blades);
+    if (observer.projection == v1::Projection::display)
+        return object.put("display", tree_of_display(observer.display)).take();
+    constexpr std::array kProjections = {"perspective", "orthographic", "panoramic"};
+    object.add("projection", kProjections.at(size_t(observer.projection)));
+    return object.add("width", observer.width).add("height", observer.height).take();
 }
 
 JsonValue tree(const v1::Animation& animation) {

@@ -61,7 +61,7 @@ std::string view_advice(const Observer& observer, const Bounds& objects) {
 bool returns_light(const Material& material) {
     if (is_physical(material)) return true;
     const bool is_black = material.color == glm::vec3(0) && !material.checker;
-    return (material.diffuse > 0 && !is_black) || material.specular > 0;
+    return (material.diffuse > 0 && !is_black) || material.specular.value_or(0) > 0;
 }
 
 /// Whether objects can be anything but black.

@@ -65,12 +65,33 @@ std::string ior_member(const GltfValue& material) {
     return fmt::format(", \"ior\": {}", rounded(std::min(ior, 10.0), 4));
 }
 
+/// A factor between 0 and 1 of an extension, or what it is without one. Where a texture decides,
+/// the factor says nothing of most of the surface.
+double factor_of(const GltfValue& extension, const std::string& name, double otherwise) {
+    if (extension.has((name + "Texture").c_str())) return otherwise;
+    return std::clamp(extension.number((name + "Factor").c_str(), otherwise), 0.0, 1.0);
+}
+
+/// Members of a coat, and of a surface that reflects less than its index of refraction says.
+std::string layer_members(const GltfValue& material) {
+    std::string text;
+    const double specular = factor_of(material.extension("KHR_materials_specular"), "specular", 1);
+    if (specular < 1) text += fmt::format(", \"specular\": {}", rounded(specular, 3));
+    const GltfValue coat = material.extension("KHR_materials_clearcoat");
+    const double share = factor_of(coat, "clearcoat", 0);
+    if (share == 0) return text;
+    const double rough = factor_of(coat, "clearcoatRoughness", 0);
+    return text + fmt::format(", \"coat\": {}, \"coat_roughness\": {}", rounded(share, 3),
+                              rounded(rough, 3));
+}
+
 /// Members of a body of glass. What has no volume is a pane, through which light goes straight on.
 std::string glass_members(const GltfValue& material, const Looks& s, double transmission) {
     if (!has_volume(material))
         return fmt::format(", \"opacity\": {}", rounded(std::max(1 - transmission, 0.05), 3));
-    std::string text = fmt::format(", {}, \"transmission\": {}{}", metal_members(s.metal, s.rough),
-                                   rounded(transmission, 3), ior_member(material));
+    std::string text =
+        fmt::format(", {}, \"transmission\": {}{}{}", metal_members(s.metal, s.rough),
+                    rounded(transmission, 3), ior_member(material), layer_members(material));
     const GltfValue volume = material.extension("KHR_materials_volume");
     const double distance = volume.number("attenuationDistance", 0);
     if (!volume.has("attenuationColor") || !(distance > 0)) return text;
@@ -103,7 +124,8 @@ std::string gltf_values(const GltfValue& material) {
     } else if (material.has_extension("KHR_materials_unlit")) {
         // It shows its colour in whatever light.
     } else {
-        text += ", " + metal_members(s.metal, s.rough) + ior_member(material);
+        text +=
+            ", " + metal_members(s.metal, s.rough) + ior_member(material) + layer_members(material);
     }
     if (transmission == 0 && s.opacity < 1)
         text += fmt::format(", \"opacity\": {}", rounded(s.opacity, 3));

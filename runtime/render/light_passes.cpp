@@ -51,8 +51,11 @@ void make_matt(Scene& scene) {
         m.metallic.reset();
         m.roughness.reset();
         m.transmission.reset();
+        m.coat.reset();
+        m.coat_roughness.reset();
+        m.specular.reset();
         m.diffuse = 1;
-        m.specular = m.reflection = m.refraction = 0;
+        m.reflection = m.refraction = 0;
         m.fresnel = false;
     }
     scene.world.medium = {};

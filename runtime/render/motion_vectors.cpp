@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/motion_vectors.hpp"
 
+#include <cmath>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <string>
@@ -20,9 +21,17 @@ std::vector<glm::dmat4> movements(const Scene& now, const Scene& then) {
     return maps;
 }
 
+/// The columns after which a picture of all directions begins again; 0 for others.
+double columns_around(const Scene& scene) {
+    const DisplayShapeRow& shape = shape_row(scene.observer.display);
+    const bool goes_around = shape.projection == SightProjection::angular && !shape.image_is_round;
+    return goes_around ? frame_size(scene.render).x : 0;
+}
+
 /// Adds the two planes of a direction of time.
 void add_movement(const Scene& now, const Scene& then, const std::string& name, Image& image) {
     const std::vector<glm::dmat4> maps = movements(now, then);
+    const double around = columns_around(now);
     const Plane<uint32_t>& objects = image.id_planes.at("objectId");
     const Plane<float>&x = image.planes.at("P.X"), &y = image.planes.at("P.Y"),
           &z = image.planes.at("P.Z");
@@ -33,7 +42,9 @@ void add_movement(const Scene& now, const Scene& then, const std::string& name, 
         const glm::dvec3 moved(maps[objects[i] - 1] * glm::dvec4(point, 1));
         const auto from = place_in_picture(now, point), to = place_in_picture(then, moved);
         if (!from || !to) continue;
-        right[i] = float(to->x - from->x);
+        const double moved_right = to->x - from->x;
+        // The shorter way, which may lead over the picture's side.
+        right[i] = float(around > 0 ? std::remainder(moved_right, around) : moved_right);
         up[i] = float(from->y - to->y);
     }
     image.planes[name + ".u"] = std::move(right);

@@ -50,9 +50,10 @@ struct Display {
     glm::dvec2 half_size{0};  ///< metres; box: half of its edges along X_E and Y_E
     double near = 0;  ///< metres, >= 0; pyramid and box: along Z_E; sector and ball: along the ray
     double far = 0;   ///< metres, > near; ball: its radius
-    glm::ivec3 voxels{0};  ///< u, v, k
-    bool square_pixels =
-        false;  ///< pyramid given by one angle: the vertical one follows the image's size
+    glm::ivec3 voxels{0};        ///< u, v, k
+    bool square_pixels = false;  ///< of a pyramid given by one angle, or a box by one side, for
+                                 ///< flat images: the other one follows the image's size
+    bool keeps_height = false;   ///< box with square pixels: its width is the one that follows
     VolumeLayout layout = VolumeLayout::rays;
     Visibility visibility = Visibility::observer;  ///< always `observer` for rays
     SeenAlong seen_along = SeenAlong::observer;    ///< lattice

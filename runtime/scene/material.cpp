@@ -8,7 +8,7 @@ namespace voxelume {
 
 std::span<const ValueRow<Material>> material_rows() {
     using M = Material;
-    static constexpr std::array<ValueRow<Material>, 15> rows = {{
+    static constexpr std::array<ValueRow<Material>, 17> rows = {{
         {"color", &M::color, kRatio},
         {"diffuse", &M::diffuse, kRatio},
         {"specular", &M::specular, kRatio},
@@ -24,6 +24,8 @@ std::span<const ValueRow<Material>> material_rows() {
         {"metallic", &M::metallic, kRatio, false, true, kIsPhysical},
         {"roughness", &M::roughness, kRatio, false, true, kIsPhysical},
         {"transmission", &M::transmission, kRatio, false, true, kIsPhysical},
+        {"coat", &M::coat, kRatio, false, true, kIsPhysical},
+        {"coat_roughness", &M::coat_roughness, kRatio, false, true, kIsPhysical},
     }};
     return rows;
 }
@@ -45,11 +47,17 @@ uint32_t effects_of(const Material& material) {
     if ((effects & kIsPhysical) != 0 && whitted_material(material).reflection > 0)
         effects |= kReflects;
     if (glass_share(material) > 0) effects |= kRefracts | kHasReflectance;
+    if (material.coat.value_or(0) > 0) effects |= kHasCoat;
     return effects;
 }
 
 bool is_physical(const Material& material) {
-    return material.base_color || material.metallic || material.roughness || material.transmission;
+    return material.base_color || material.metallic || material.roughness ||
+           material.transmission || material.coat || material.coat_roughness;
+}
+
+bool is_weak(const Material& material) {
+    return is_physical(material) && material.specular.value_or(1) < 1;
 }
 
 double glass_share(const Material& material) {
@@ -60,21 +68,36 @@ glm::vec3 color_of(const Material& material) {
     return material.base_color ? glm::vec3(*material.base_color) : material.color;
 }
 
+namespace {
+
+/// The exponent of a highlight about as wide as that of rough facets.
+float shininess_of(double rough) {
+    const double width = std::max(rough * rough, 0.04);
+    return float(std::clamp(2 / (width * width) - 2, 2.0, 1000.0));
+}
+
+}  // namespace
+
 Material whitted_material(const Material& material) {
     if (!is_physical(material)) return material;
     constexpr double kGlint = 0.2;  // the root of what glass reflects straight on
     const double metal = material.metallic.value_or(0);
     const double rough = material.roughness.value_or(kRoughness);
-    const double smooth = (1 - rough) * (1 - rough), width = std::max(rough * rough, 0.04);
+    const double smooth = (1 - rough) * (1 - rough);
+    const double clear = kGlint * material.specular.value_or(1) * (1 - metal) * (1 - rough);
+    const double coat_rough = material.coat_roughness.value_or(kCoatRoughness);
+    const double coat = kGlint * material.coat.value_or(0) * (1 - coat_rough);
     Material m = material;
     m.color = color_of(material);
     m.base_color.reset();
     m.metallic.reset();
     m.roughness.reset();
     m.transmission.reset();
+    m.coat.reset();
+    m.coat_roughness.reset();
     m.diffuse = float(1 - 0.5 * metal * smooth);
-    m.specular = float(0.6 * metal + kGlint * (1 - metal) * (1 - rough));
-    m.shininess = float(std::clamp(2 / (width * width) - 2, 2.0, 1000.0));
+    m.specular = std::max(0.6 * metal + clear, coat);
+    m.shininess = shininess_of(coat > 0.6 * metal + clear ? coat_rough : rough);
     m.reflection = float(0.65 * metal * smooth);
     const double glass = glass_share(material);
     if (glass == 0) return m;
@@ -85,9 +108,15 @@ Material whitted_material(const Material& material) {
     return m;
 }
 
-std::span<const std::string_view> whitted_keys() {
+std::span<const std::string_view> physical_keys() {
     static constexpr std::array<std::string_view, 6> keys = {
-        "diffuse", "specular", "shininess", "reflection", "refraction", "fresnel"};
+        "base_color", "metallic", "roughness", "transmission", "coat", "coat_roughness"};
+    return keys;
+}
+
+std::span<const std::string_view> whitted_keys() {
+    static constexpr std::array<std::string_view, 5> keys = {"diffuse", "shininess", "reflection",
+                                                             "refraction", "fresnel"};
     return keys;
 }
 

@@ -22,14 +22,16 @@ struct Checker {
     friend bool operator==(const Checker&, const Checker&) = default;
 };
 
-/// The roughness of physically based materials that give none.
-inline constexpr double kRoughness = 0.5;
+/// The roughness of physically based materials that give none, and of their coats.
+inline constexpr double kRoughness = 0.5, kCoatRoughness = 0;
 
 struct Material {
     std::string name;
-    glm::vec3 color{0.8f};    ///< linear Rec. 709, 0..1
-    float diffuse = 1;        ///< 0..1
-    float specular = 0;       ///< 0..1
+    glm::vec3 color{0.8f};  ///< linear Rec. 709, 0..1
+    float diffuse = 1;      ///< 0..1
+    /// 0..1: the part of Blinn and Phong's highlight, otherwise 0; of a physically based material
+    /// what the reflectance of what isn't metal is multiplied by, otherwise 1
+    std::optional<double> specular;
     float shininess = 50;     ///< Blinn-Phong exponent, 1..1e6
     float reflection = 0;     ///< R_i, 0..1
     float refraction = 0;     ///< F_i, 0..1
@@ -44,6 +46,8 @@ struct Material {
     std::optional<double> metallic;        ///< 0..1; otherwise 0
     std::optional<double> roughness;       ///< 0..1; otherwise 0.5
     std::optional<double> transmission;    ///< of what isn't metal, the share of glass, 0..1
+    std::optional<double> coat;            ///< the share under a clear coat, 0..1; otherwise 0
+    std::optional<double> coat_roughness;  ///< 0..1; otherwise 0
 
     friend bool operator==(const Material&, const Material&) = default;
 };
@@ -57,6 +61,7 @@ enum MaterialEffect : uint32_t {
     kAbsorbs = 16,        ///< dims light on its way inside
     kEmits = 32,
     kIsPhysical = 64,  ///< physically based
+    kHasCoat = 128,    ///< ... under a coat
 };
 
 /// The values of a material but its checker. A value is added with a member above, a row here, and
@@ -69,6 +74,9 @@ uint32_t effects_of(const Material& material);
 
 bool is_physical(const Material& material);
 
+/// Whether a physically based surface reflects less than its index of refraction says.
+bool is_weak(const Material& material);
+
 /// The share of a physically based surface that is glass.
 double glass_share(const Material& material);
 
@@ -80,7 +88,9 @@ glm::vec3 color_of(const Material& material);
 /// of its own colour.
 Material whitted_material(const Material& material);
 
-/// The keys that physically based materials have other keys for.
+/// The keys that make a material physically based, and those of Whitted's model that they are in
+/// the place of.
+std::span<const std::string_view> physical_keys();
 std::span<const std::string_view> whitted_keys();
 
 /// Refuses a checker without blocks.

@@ -85,12 +85,13 @@ void MovedPart::form_model() {
 }
 
 void MovedPart::form_display(Observer& observer) {
+    const DisplaySetting setting{distance_to_farthest_corner(scene_.world, observer.position),
+                                 frame_size(scene_.render)};
+    if (observer.projection != Projection::display)
+        return project(observer_, setting, refusal(""), observer);
     Display display;
     display.shape = observer.display.shape;
-    shape_row(display).measure(
-        observer_.display,
-        {distance_to_farthest_corner(scene_.world, observer.position), frame_size(scene_.render)},
-        refusal("display."), display);
+    shape_row(display).measure(observer_.display, setting, refusal("display."), display);
     display.voxels = observer.display.voxels;
     display.layout = observer.display.layout;
     display.visibility = observer.display.visibility;

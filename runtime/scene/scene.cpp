@@ -42,10 +42,7 @@ void resize(Scene& scene, glm::ivec2 size) {
     scene.render.size = size;
     scene.render.crop = {};
     if (scene.fitted.observer) return frame_observer(scene);
-    Display& display = scene.observer.display;
-    if (display.square_pixels) {
-        display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);
-    }
+    make_pixels_square(size, scene.observer.display);
 }
 
 void check_tiles(const RenderSettings& render) {

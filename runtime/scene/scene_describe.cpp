@@ -74,17 +74,27 @@ std::string medium_text(const Medium& medium) {
                        vector_text(glm::dvec3(medium.absorption)), density_text(medium.density));
 }
 
+std::string projection_text(const Observer& observer) {
+    if (observer.projection == Projection::panoramic) return "panoramic, ";
+    if (observer.projection != Projection::orthographic) return "";
+    const glm::dvec2 size = 2.0 * observer.display.half_size;
+    return fmt::format("orthographic, {:.6g} x {:.6g} m, ", size.x, size.y);
+}
+
 std::string observer_text(const Observer& observer) {
     const Display& d = observer.display;
+    const std::string blades =
+        observer.blades > 0 ? fmt::format(" and {} blades", observer.blades) : "";
     const std::string lens = observer.aperture > 0
-                                 ? fmt::format(", lens of {:.6g} m, sharp at {:.6g} m",
-                                               observer.aperture, observer.focus)
+                                 ? fmt::format(", lens of {:.6g} m{}, sharp at {:.6g} m",
+                                               observer.aperture, blades, observer.focus)
                                  : "";
     return fmt::format(
-        "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} "
-        "m{}",
+        "observer: at {}, looking along {}, {}{} display of {}x{}x{} voxels, from {:.6g} to "
+        "{:.6g} m{}",
         vector_text(observer.position), vector_text(observer.world_from_observer[2]),
-        shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far, lens);
+        projection_text(observer), shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near,
+        d.far, lens);
 }
 
 std::string filter_text(const ReconstructionFilter& filter) {

@@ -73,7 +73,7 @@ std::vector<KeyTable> make_tables() {
                                     placement});
     tables.push_back({"parent", placement});
     add_kinds("light", {"name", "type", "group", "color", "intensity"}, light_types(), {}, tables);
-    tables.push_back({"observer", keys_of(observer_rows()) + Keys{"display"}});
+    tables.push_back({"observer", keys_of(observer_rows()) + Keys{"projection", "display"}});
     add_kinds("display", {"shape", "voxels", "layout", "visibility", "seen_along", "clip"},
               display_shapes(), {}, tables);
     tables.push_back({"animation", {"frames", "fps", "tracks"}});

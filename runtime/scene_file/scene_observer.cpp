@@ -26,6 +26,27 @@ DisplayParameters read_display_parameters(const SceneValue& value) {
 
 constexpr std::array<std::string_view, 5> kSeenAlong = {"observer", "facing", "x", "y", "z"};
 
+constexpr std::array<std::string_view, 3> kProjections = {"perspective", "orthographic",
+                                                          "panoramic"};
+
+/// The projection that takes the place of a display; `perspective` leaves it to a pyramid.
+Projection read_projection(const SceneFields& fields) {
+    const auto name = fields.find("projection");
+    const auto projection = name ? Projection(name->choice(kProjections)) : Projection::display;
+    if (projection != Projection::display && fields.has("display"))
+        fields.get("display").fail(
+            fmt::format("\"projection\": \"{}\" makes the display; leave one of them out",
+                        kProjections[size_t(projection)]));
+    if (name && projection == Projection::display &&
+        display_shape(fields.get("display")).shape != DisplayShape::pyramid)
+        name->fail("\"perspective\" needs a display of the shape \"pyramid\"");
+    if (projection != Projection::orthographic)
+        for (const char* key : {"width", "height"})
+            if (const auto value = fields.find(key))
+                value->fail("needs \"projection\": \"orthographic\"");
+    return projection;
+}
+
 /// How the display's voxels are ordered, and which of them it has.
 void read_volume(const SceneFields& fields, Display& display) {
     using Pair = std::array<std::string_view, 2>;
@@ -86,7 +107,8 @@ ObserverParameters read_place(const SceneFields& fields) {
 ObserverParameters read_observer_parameters(const SceneValue& value) {
     const SceneFields fields(value, "observer");
     ObserverParameters parameters = read_place(fields);
-    parameters.display = read_display_parameters(fields.get("display"));
+    if (read_projection(fields) == Projection::display)
+        parameters.display = read_display_parameters(fields.get("display"));
     return parameters;
 }
 
@@ -94,10 +116,20 @@ Observer read_observer(const SceneValue& value, const Scene& scene) {
     const SceneFields fields(value, "observer");
     Observer observer;
     observer.where = value.where();
-    place_observer(read_place(fields), fields.refusal(), observer);
-    observer.display = read_display(fields.get("display"), scene, observer.position);
+    const ObserverParameters place = read_place(fields);
+    place_observer(place, fields.refusal(), observer);
+    observer.projection = read_projection(fields);
+    if (observer.projection == Projection::display) {
+        observer.display = read_display(fields.get("display"), scene, observer.position);
+    } else {
+        const DisplaySetting setting{distance_to_farthest_corner(scene.world, observer.position),
+                                     scene.render.size};
+        project(place, setting, fields.refusal(), observer);
+        observer.display.voxels = {scene.render.size, 256};
+    }
     if (observer.aperture > 0 && observer.display.shape != DisplayShape::pyramid)
-        fields.get("aperture").fail("needs a display of the shape \"pyramid\"");
+        fields.get("aperture")
+            .fail("a lens needs a perspective: a display of the shape \"pyramid\"");
     return observer;
 }
 

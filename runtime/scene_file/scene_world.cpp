@@ -30,7 +30,7 @@ Bounds read_bounds(const SceneValue& value) {
 
 /// Refuses values of Whitted's model that a physically based material has others for.
 void refuse_both_models(const SceneFields& fields) {
-    for (const char* key : {"base_color", "metallic", "roughness", "transmission"}) {
+    for (const std::string_view key : physical_keys()) {
         if (!fields.has(key)) continue;
         for (const std::string_view other : whitted_keys())
             if (const auto value = fields.find(other))

@@ -39,7 +39,10 @@ struct Features {
     bool global = false;               ///< light is followed along paths
     bool physical = false;             ///< ... and some material is physically based
     bool rough_glass = false;          ///< ... and lets light through
+    bool coat = false;                 ///< ... or has a coat
+    bool weak_facets = false;          ///< ... or reflects less than its index says
     bool lens = false;                 ///< sight rays start all over a lens
+    bool blades = false;               ///< ... that is a polygon
     int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
     int sky = 0;                       ///< VXL_SKY_*: what is around the world
     int sky_rays = 0;                  ///< VXL_EMITTERS_*: how paths find the light of a map
@@ -97,7 +100,10 @@ struct Features {
                 {"VXL_GLOBAL", global},
                 {"VXL_PHYSICAL", physical},
                 {"VXL_ROUGH_GLASS", rough_glass},
+                {"VXL_COAT", coat},
+                {"VXL_WEAK_FACETS", weak_facets},
                 {"VXL_LENS", lens},
+                {"VXL_BLADES", blades},
                 {"VXL_EMITTERS", emitters},
                 {"VXL_SKY", sky},
                 {"VXL_SKY_RAYS", sky_rays},

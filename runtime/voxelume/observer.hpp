@@ -73,6 +73,13 @@ struct Display {
     bool cylinder = false;  ///< of a lattice: the upright cylinder inside clips it, too
 };
 
+/// How flat images show what an observer sees.
+enum class Projection {
+    display,       ///< through `Observer::display`: a perspective if that is a pyramid
+    orthographic,  ///< by parallel rays, `width` or `height` metres across, to the world's end
+    panoramic      ///< all directions by longitude and latitude, to the world's end
+};
+
 /// The observer looks along +Z_E with Y_E up, so that the right-hand side of the image is -X_E.
 struct Observer {
     Vec3 position{};                ///< metres
@@ -82,6 +89,10 @@ struct Observer {
     std::optional<double> aperture{};  ///< metres: diameter of a lens, of flat images of a pyramid
     std::optional<double> focus{};     ///< metres to what it shows sharp; without it `look_at`
     Display display{};                 ///< what is seen, and how display voxels lie
+    Projection projection = Projection::display;  ///< if another, `display` is left out
+    std::optional<double> width{};                ///< metres that an orthographic image shows
+    std::optional<double> height{};               ///< or its height, for square pixels
+    std::optional<int> blades{};                  ///< of the lens, which is a polygon then; 3 to 16
 };
 
 /// The light that reaches surfaces of a flat image.

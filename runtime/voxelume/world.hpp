@@ -114,22 +114,26 @@ struct Material {
     std::string name{};          ///< by which objects name it
     Color color{0.8, 0.8, 0.8};  ///< 0..1
     double diffuse = 1;          ///< part of the light that Lambert's term returns, 0..1
-    double specular = 0;         ///< part of the light that the Blinn-Phong highlight returns, 0..1
-    double shininess = 50;       ///< exponent of the highlight, 1..1e6
-    double reflection = 0;       ///< part of the reflected ray's value, 0..1
-    double refraction = 0;       ///< part of the refracted ray's value, 0..1
-    double ior = 1.5;            ///< index of refraction inside, 0.1..10
-    bool fresnel = false;        ///< the exact reflectance for the angle scales the two parts above
-    double opacity = 1;          ///< share of what lies behind that the surface covers, 0..1
-    Color absorption{};          ///< inside of the object, per metre, at least 0
-    Color emission{};            ///< radiance that the surface sends out, at least 0
+    /// Part of the light that the Blinn-Phong highlight returns, 0..1; otherwise 0. Physically
+    /// based: what the reflectance of what isn't metal is multiplied by; otherwise 1.
+    std::optional<double> specular{};
+    double shininess = 50;  ///< exponent of the highlight, 1..1e6
+    double reflection = 0;  ///< part of the reflected ray's value, 0..1
+    double refraction = 0;  ///< part of the refracted ray's value, 0..1
+    double ior = 1.5;       ///< index of refraction inside, 0.1..10
+    bool fresnel = false;   ///< the exact reflectance for the angle scales the two parts above
+    double opacity = 1;     ///< share of what lies behind that the surface covers, 0..1
+    Color absorption{};     ///< inside of the object, per metre, at least 0
+    Color emission{};       ///< radiance that the surface sends out, at least 0
     std::optional<Checker> checker{};  ///< a second colour in every other block
-    /// One of these makes the material physically based: then `color` and the values from `diffuse`
-    /// to `refraction` and `fresnel` say nothing. scenes/README.md tells what is shown.
-    std::optional<Color> base_color{};     ///< 0..1; otherwise `color`
-    std::optional<double> metallic{};      ///< share of metal, 0..1; otherwise 0
-    std::optional<double> roughness{};     ///< 0 polished to 1 dull; otherwise 0.5
-    std::optional<double> transmission{};  ///< share of glass, of what isn't metal, 0..1
+    /// One of these makes the material physically based: then `color` `diffuse`, `shininess`,
+    /// `reflection`, `refraction` and `fresnel` say nothing. scenes/README.md tells what is shown.
+    std::optional<Color> base_color{};       ///< 0..1; otherwise `color`
+    std::optional<double> metallic{};        ///< share of metal, 0..1; otherwise 0
+    std::optional<double> roughness{};       ///< 0 polished to 1 dull; otherwise 0.5
+    std::optional<double> transmission{};    ///< share of glass, of what isn't metal, 0..1
+    std::optional<double> coat{};            ///< share under a clear coat, 0..1; otherwise 0
+    std::optional<double> coat_roughness{};  ///< of the coat, 0..1; otherwise 0
 };
 
 }  // namespace voxelume::v1

@@ -38,7 +38,7 @@ std::string scene_text(const std::string& light) {
                         "ior": 1.1, "absorption": [0.1, 0.3, 0.2]},
               "clay": {"color": [0.8, 0.6, 0.4], "checker": {"color": [0.1, 0.2, 0.3], "size": 0.4}},
               "brass": {"base_color": [0.9, 0.7, 0.3], "metallic": 0.8, "roughness": 0.3,
-                        "transmission": 0.5},
+                        "transmission": 0.5, "coat": 0.5, "specular": 0.5},
               "glow": {"emission": [3, 2, 1]}, "veil": {"opacity": 0.5}},
 "models": {"ball": {"shape": "sphere", "radius": 0.4, "surface": "exact"},
            "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
@@ -60,7 +60,7 @@ std::string scene_text(const std::string& light) {
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
 "lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
             "intensity": 9, "spots": 2}],
-"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0], "aperture": 0.02,
+"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0], "aperture": 0.02, "blades": 7,
              "display": {"shape": "pyramid", "angle": 60}},
 "render": {"size": [24, 18], "depth": 2, "shadow": "filtered", "light": ")" +
            light + "\"}}";
@@ -116,8 +116,9 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const Device& device = shared_device();
     RenderReport report;
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
-    const std::set<std::string> of_global = {"VXL_GLOBAL", "VXL_EMITTERS", "VXL_PHYSICAL",
-                                             "VXL_SKY_RAYS", "VXL_ROUGH_GLASS"};
+    const std::set<std::string> of_global = {"VXL_GLOBAL",     "VXL_EMITTERS",    "VXL_PHYSICAL",
+                                             "VXL_SKY_RAYS",   "VXL_ROUGH_GLASS", "VXL_COAT",
+                                             "VXL_WEAK_FACETS"};
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device)) {
         const bool is_absent = of_global.contains(name) && !is_global;
         EXPECT_TRUE(value != 0 || is_absent || name == "VXL_NATIVE_DIVIDE") << name;

@@ -87,6 +87,16 @@ TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
     EXPECT_THAT(glass, HasSubstr("\"roughness\": 0.25, \"transmission\": 1, \"ior\": 1.75, "
                                  "\"absorption\": [0, 0.5, 1]"));
     EXPECT_THAT(glass, HasSubstr("\"shadow\": \"filtered\""));
+    const Json coat = {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}};
+    EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                               {"extensions",
+                                {{"KHR_materials_clearcoat", coat},
+                                 {"KHR_materials_specular", {{"specularFactor", 0.75}}}}}}),
+                HasSubstr("\"roughness\": 1, \"specular\": 0.75, \"coat\": 0.5, "
+                          "\"coat_roughness\": 0.25"));
+    const Json mapped = {{"clearcoatFactor", 1}, {"clearcoatTexture", {{"index", 0}}}};
+    EXPECT_THAT(with_material({{"extensions", {{"KHR_materials_clearcoat", mapped}}}}),
+                Not(HasSubstr("coat")));
     const Json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
     EXPECT_THAT(with_material({{"emissiveFactor", {1, 0.5, 0}}, {"extensions", strength}}),
                 HasSubstr("\"emission\": [8, 4, 0]"));

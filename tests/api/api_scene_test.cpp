@@ -183,6 +183,22 @@ TEST(ApiScene, HasEveryDisplay) {
                  "clip": "cylinder"})");
 }
 
+TEST(ApiScene, HasProjections) {
+    const auto text = [](const std::string& keys) {
+        return text_with("", R"({"position": [0.5, 1, -6], )" + keys + "}");
+    };
+    v1::SceneDescription scene = empty_scene();
+    scene.observer->projection = v1::Projection::orthographic;
+    scene.observer->height = 2.5;
+    expect_same(scene, text(R"("projection": "orthographic", "height": 2.5)"));
+    scene.observer->height.reset();
+    scene.observer->width = 3;
+    expect_same(scene, text(R"("projection": "orthographic", "width": 3)"));
+    scene.observer->width.reset();
+    scene.observer->projection = v1::Projection::panoramic;
+    expect_same(scene, text(R"("projection": "panoramic")"));
+}
+
 TEST(ApiScene, HasMediaAndRenderSettings) {
     v1::SceneDescription scene = empty_scene();
     scene.world.background = {1, 2, 3};

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "runtime/stages/features.hpp"
-#include "runtime/stages/light/albedo_table.hpp"
+#include "runtime/stages/light/material_records.hpp"
 #include "tests/oracles/physical_surface.hpp"
 #include "tests/support/test_device.hpp"
 
@@ -18,7 +18,8 @@ namespace voxelume {
 
 namespace oracle {
 void PrintTo(const PhysicalValues& s, std::ostream* out) {
-    *out << "metallic " << s.metallic << ", roughness " << s.roughness << ", ior " << s.ior;
+    *out << "metallic " << s.metallic << ", roughness " << s.roughness << ", ior " << s.ior
+         << ", specular " << s.specular << ", coat " << s.coat << " of " << s.coat_roughness;
 }
 }  // namespace oracle
 
@@ -77,20 +78,21 @@ kernel void scatter_surface(global const float* materials, uint count, float out
 using oracle::at_cosine;
 using oracle::PhysicalValues;
 
-/// A material's record and its table, as the stage of shading lays them out.
+/// A material's record and its tables, as the stage of shading lays them out.
 std::vector<float> floats_of(const PhysicalValues& s) {
-    const AlbedoTable table = albedo_table(width_of(s.roughness));
-    MaterialRecord record{};
-    for (int c = 0; c < 3; ++c) record.color[c] = float(s.base[c]);
-    record.metallic = float(s.metallic);
-    record.width = float(width_of(s.roughness));
-    record.reflectance = float(std::pow((s.ior - 1) / (s.ior + 1), 2));
-    record.albedos = VXL_MATERIAL_FLOATS;
-    record.missing = float(table.missing);
-    record.matt = float((1 - s.metallic) / passed_share(record.reflectance, table));
-    std::vector<float> floats(VXL_MATERIAL_FLOATS);
-    std::memcpy(floats.data(), &record, sizeof record);
-    floats.insert(floats.end(), table.values.begin(), table.values.end());
+    Scene scene;
+    Material material;
+    material.base_color = s.base;
+    material.metallic = s.metallic;
+    material.roughness = s.roughness;
+    material.ior = float(s.ior);
+    material.specular = s.specular;
+    material.coat = s.coat;
+    material.coat_roughness = s.coat_roughness;
+    scene.materials = {material};
+    const std::vector<MaterialRecord> records = material_records(scene, {}, true);
+    std::vector<float> floats(records.size() * VXL_MATERIAL_FLOATS);
+    std::memcpy(floats.data(), records.data(), floats.size() * sizeof(float));
     return floats;
 }
 
@@ -100,6 +102,9 @@ std::vector<PhysicalValues> surfaces() {
         list.push_back({0, roughness, 1.5, {0.9, 0.5, 0.1}});
         list.push_back({1, roughness, 1.5, {1, 0.7, 0.3}});
         list.push_back({0.4, roughness, 2, {0.2, 0.6, 1}});
+        list.push_back({0, roughness, 1.5, {0.9, 0.5, 0.1}, 0.3});
+        list.push_back({0.4, roughness, 2, {0.2, 0.6, 1}, 0.6, 0.7, 0.3});
+        list.push_back({1, roughness, 1.5, {1, 0.7, 0.3}, 1, 1, 0.6});
     }
     return list;
 }
@@ -146,8 +151,11 @@ class PhysicalSurfaces : public testing::TestWithParam<PhysicalValues> {
     }
 
   private:
-    static Program program(const Device& device) {
-        return Program::from_text(device, kSurfaceSource, Features{}.defines(device));
+    Program program(const Device& device) const {
+        Features features;
+        features.coat = GetParam().coat > 0;
+        features.weak_facets = GetParam().specular < 1;
+        return Program::from_text(device, kSurfaceSource, features.defines(device));
     }
     Buffer<float> materials(const Device& device) const {
         const std::vector<float> floats = floats_of(GetParam());
@@ -216,7 +224,11 @@ TEST_P(PhysicalSurfaces, ReturnTogetherTheAlbedoThatChoosesPaths) {
 std::vector<PhysicalValues> white_surfaces() {
     std::vector<PhysicalValues> list;
     for (const double roughness : {0.02, 0.05, 0.15, 0.3, 0.6, 1.0})
-        for (const double metallic : {0.0, 1.0}) list.push_back({metallic, roughness});
+        for (const double metallic : {0.0, 1.0}) {
+            list.push_back({metallic, roughness});
+            for (const double coat_roughness : {0.0, 0.2, 1.0})
+                list.push_back({metallic, roughness, 1.5, {1, 1, 1}, 0.5, 1, coat_roughness});
+        }
     return list;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <vector>
 
 #include "runtime/stages/trace/trace.hpp"
@@ -84,6 +85,7 @@ std::vector<std::array<glm::dvec3, 2>> metric_rays(const Scene& s) {
     const Pyramid pyramid = world();
     Features features;
     features.lens = s.observer.aperture > 0;
+    features.blades = s.observer.blades > 0;
     SightStage stage(device, features, camera_of(s, pyramid.frame));
     const uint32_t tiles = tile_count(s.render.size.x, s.render.size.y);
     RayBatch batch;
@@ -132,6 +134,43 @@ TEST(LensRays, FillTheLensAndMeetWhereItIsFocused) {
     for (int axis = 0; axis < 2; ++axis) {
         EXPECT_NEAR(sum[axis] / count, 0, 1e-3);
         EXPECT_NEAR(squares[axis] / count, 0.15 * 0.15 / 4, 1e-4);
+    }
+}
+
+TEST(LensRays, FillThePolygonOfTheBladesWithACornerAtTheTop) {
+    for (const int blades : {3, 5, 8}) {
+        Scene scene_of_blades = scene(DisplayShape::pyramid);
+        scene_of_blades.render.size = {8, 4};
+        scene_of_blades.render.samples = 256;
+        scene_of_blades.observer.aperture = 0.4;
+        scene_of_blades.observer.focus = 1.7;
+        scene_of_blades.observer.blades = blades;
+        const double pi = std::numbers::pi, radius = 0.2;
+        glm::dvec2 sum(0), squares(0);
+        double top = -1;
+        const auto rays = metric_rays(scene_of_blades);
+        for (const auto& [origin, direction] : rays) {
+            const glm::dmat3 observer =
+                glm::transpose(scene_of_blades.observer.world_from_observer);
+            const glm::dvec3 e = observer * direction;
+            const glm::dvec3 o = observer * (origin - scene_of_blades.observer.position);
+            const glm::dvec2 p(o - e * (o.z / e.z));
+            for (int side = 0; side < blades; ++side) {
+                const double turn = (2 * side + 1) * pi / blades;
+                EXPECT_LT(glm::dot(p, glm::dvec2(std::sin(turn), std::cos(turn))),
+                          radius * std::cos(pi / blades) + 1e-4);
+            }
+            top = std::max(top, p.y);
+            sum += p, squares += p * p;
+        }
+        EXPECT_GT(top, 0.97 * radius) << blades;
+        const double edge = 2 * radius * std::sin(pi / blades);
+        const auto count = double(rays.size());
+        for (int axis = 0; axis < 2; ++axis) {
+            EXPECT_NEAR(sum[axis] / count, 0, 1e-3) << blades;
+            EXPECT_NEAR(squares[axis] / count, (6 * radius * radius - edge * edge) / 24, 1e-4)
+                << blades;
+        }
     }
 }
 

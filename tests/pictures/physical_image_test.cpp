@@ -13,6 +13,15 @@ Json physical(double metallic, double roughness) {
     return {{"base_color", {1, 1, 1}}, {"metallic", metallic}, {"roughness", roughness}};
 }
 
+/// The same under a coat, and where what isn't metal reflects half as much.
+Json coated(double metallic, double roughness, double coat, double coat_roughness) {
+    Json material = physical(metallic, roughness);
+    material["coat"] = coat;
+    material["coat_roughness"] = coat_roughness;
+    material["specular"] = 0.5;
+    return material;
+}
+
 Json ball_of(double radius, const char* surface) {
     Json model = {{"shape", "sphere"}, {"radius", radius}, {"surface", surface}};
     if (std::string(surface) == "cubes") model["set"] = "solid";
@@ -31,6 +40,22 @@ TEST_P(PhysicalOnEverySurface, WhiteOnesAreInvisibleUnderAWhiteSky) {
         scene["materials"]["metal"] = physical(1, roughness);
         scene["materials"]["plastic"] = physical(0, roughness);
         scene["materials"]["half metal"] = physical(0.5, roughness);
+        add_thing(scene, ball_of(0.2, GetParam()), "metal", {0.25, 0.25, 0.1});
+        add_thing(scene, ball_of(0.2, GetParam()), "plastic", {-0.25, 0.25, 0.1});
+        add_thing(scene, ball_of(0.2, GetParam()), "half metal", {0.25, -0.25, 0.1});
+        send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 64);
+        const Estimate e = estimate_of(channel_of(sense(scene), 1));
+        expect_mean(e, 1, "roughness " + std::to_string(roughness), 1e-3);
+        EXPECT_NEAR(e.mean, 1, 3e-3);
+    }
+}
+
+TEST_P(PhysicalOnEverySurface, WhiteOnesUnderACoatAreInvisibleUnderAWhiteSky) {
+    for (const double roughness : {0.2, 0.8}) {
+        Json scene = open_furnace(64);
+        scene["materials"]["metal"] = coated(1, roughness, 1, 0);
+        scene["materials"]["plastic"] = coated(0, roughness, 0.5, 0.3);
+        scene["materials"]["half metal"] = coated(0.5, roughness, 1, 0.7);
         add_thing(scene, ball_of(0.2, GetParam()), "metal", {0.25, 0.25, 0.1});
         add_thing(scene, ball_of(0.2, GetParam()), "plastic", {-0.25, 0.25, 0.1});
         add_thing(scene, ball_of(0.2, GetParam()), "half metal", {0.25, -0.25, 0.1});
@@ -70,7 +95,9 @@ Json shone_on(const Json& material, bool by_light, const char* lamps) {
 TEST(PhysicalMaterials, ShowALampAndALightOfItsFormAlike) {
     Json brass = {{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}};
     Json lacquer = {{"base_color", {0.1, 0.5, 0.9}}, {"roughness", 0.25}, {"ior", 1.8}};
-    for (const Json& material : {brass, lacquer}) {
+    Json paint = coated(0.7, 0.5, 1, 0.15);
+    paint["base_color"] = {0.6, 0.1, 0.05};
+    for (const Json& material : {brass, lacquer, paint}) {
         const std::vector<SensedRay> expected = sense(shone_on(material, true, "both"));
         for (const char* lamps : {"both", "paths", "rays"}) {
             const std::vector<SensedRay> found = sense(shone_on(material, false, lamps));
@@ -91,23 +118,52 @@ TEST(PhysicalMaterials, ShowALampAndALightOfItsFormAlike) {
     }
 }
 
-TEST(PhysicalMaterials, HaveTheSameBitsOnAnyNumberOfLanes) {
-    Json json = shone_on({{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}},
-                         false, "both");
-    json["materials"]["plastic"] = {{"base_color", {0.2, 0.6, 0.3}}, {"roughness", 0.1}};
+/// A floor, a lamp, a point light and two balls.
+Json still_life(const Json& floor, const Json& balls) {
+    Json json = shone_on(floor, false, "both");
+    json["materials"]["plastic"] = balls;
     json["lights"] = {{{"type", "point"}, {"position", {-0.3, 0.3, -0.3}}, {"intensity", 0.2}}};
     add_thing(json, ball_of(0.15, "smooth"), "plastic", {-0.2, -0.1, 0.1});
     add_thing(json, ball_of(0.1, "cubes"), "plastic", {0.2, -0.15, 0});
     json["render"]["size"] = {15, 10};
     json["render"]["samples"] = 4;
     json["render"]["bounces"] = 4;
+    return json;
+}
+
+void expect_bits(const Json& json, const std::string& name) {
     const Scene scene = parse_scene(json.dump(), "physical", {});
     for (const int lanes : lanes_in_turn(2)) {
         RenderReport report;
         const Image image = render(test_device(lanes), scene, report);
         EXPECT_EQ(report.not_finite, 0u);
-        expect_golden("global/physical", oracle::image_hash(image));
+        expect_golden(name, oracle::image_hash(image));
     }
+}
+
+TEST(PhysicalMaterials, HaveTheSameBitsOnAnyNumberOfLanes) {
+    const Json brass = {{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}};
+    const Json plastic = {{"base_color", {0.2, 0.6, 0.3}}, {"roughness", 0.1}};
+    expect_bits(still_life(brass, plastic), "global/physical");
+    Json paint = coated(0.7, 0.5, 1, 0.15);
+    paint["base_color"] = {0.6, 0.1, 0.05};
+    expect_bits(still_life(brass, paint), "global/coat");
+}
+
+TEST(PhysicalMaterials, ShowABareSurfaceAlikeInASceneWithACoatedOne) {
+    const Json brass = {{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}};
+    const Json plastic = {{"base_color", {0.2, 0.6, 0.3}}, {"roughness", 0.1}};
+    Json json = still_life(brass, plastic);
+    json["render"]["bounces"] = 0;
+    json["materials"]["paint"] = coated(0, 0.5, 1, 0.15);
+    const auto hash_of = [&](const char* material) {
+        Json scene = json;
+        add_thing(scene, ball_of(0.05, "exact"), material, {0.4, 0.4, -0.4});  // out of sight
+        RenderReport report;
+        return oracle::image_hash(
+            render(test_device(4), parse_scene(scene.dump(), "bare", {}), report));
+    };
+    EXPECT_EQ(hash_of("paint"), hash_of("plastic"));
 }
 
 }  // namespace

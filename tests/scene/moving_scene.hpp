@@ -21,7 +21,7 @@ inline nlohmann::json full_scene() {
             "absorption": [1, 2, 3], "emission": [4, 5, 6],
             "checker": {"color": [0.1, 0.2, 0.3], "size": [0.5, 0.6, 0.7], "origin": [1, 2, 3]}},
             "brass": {"base_color": [0.7, 0.6, 0.3], "metallic": 0.9, "roughness": 0.3,
-                      "transmission": 0.5}},
+                      "transmission": 0.5, "coat": 0.4, "coat_roughness": 0.2}},
         "models": {
             "block": {"shape": "difference", "parts": [
                 {"shape": "box", "size": [0.9, 0.5, 0.7]},
@@ -66,6 +66,10 @@ inline std::vector<std::pair<std::string, nlohmann::json>> other_parts() {
         {"/observer/display", parsed(R"({"shape": "box", "size": [1, 2, 3], "near": 0.5})")},
         {"/observer", parsed(R"({"position": [0, 0, -3], "turn": [10, 20, 30],
                                  "display": {"shape": "ball", "radius": 2}})")},
+        {"/observer", parsed(R"({"position": [0, 0, -3], "projection": "orthographic",
+                                 "width": 2})")},
+        {"/observer", parsed(R"({"position": [0, 0, -3], "projection": "orthographic",
+                                 "height": 2})")},
         {"/observer", parsed(R"({"position": [0, 0, -3], "aperture": 0.2, "focus": 2.5,
                                  "display": {"shape": "pyramid", "angle": 40}})")},
     };

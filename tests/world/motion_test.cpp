@@ -93,6 +93,33 @@ TEST(Motion, AMovingObserverMovesWhatStandsStill) {
     EXPECT_EQ(m.backward_u, 0);
 }
 
+TEST(Motion, GoesTheShorterWayAroundAPictureOfAllDirections) {
+    // Behind the observer, on both sides of the picture's edge: 0.1 m to the left at 4 m.
+    const Scene scene = moving_scene(R"({"shape": "ball", "radius": 9})",
+                                     R"({"target": "objects.a.position", "interpolation": "linear",
+        "keys": [{"frame": 1, "value": [-0.05, 0, 0]}, {"frame": 2, "value": [0.05, 0, 0]}]},
+        {"target": "observer.look_at", "keys": [{"frame": 1, "value": [0, 0, -9]}]})");
+    const Motion m = motion_of(scene, 1, 1, {-0.05f, 0, 0});
+    EXPECT_NEAR(m.forward_u, -2 * std::atan(0.05 / 4) / std::numbers::pi * 100, 1e-3);
+    EXPECT_NEAR(m.forward_v, 0, 1e-4);
+}
+
+TEST(Motion, OfParallelRaysIsInMetresOfThePicture) {
+    const Scene scene = parse_scene(R"({"voxelume": 1,
+"world": {"voxel_size": 0.1, "bounds": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
+"models": {"box": {"shape": "box", "size": [1, 1, 0.2]}},
+"objects": [{"name": "a", "model": "box", "position": [0.3, 0.2, 0]}], "lights": [],
+"observer": {"position": [0, 0, -4], "projection": "orthographic", "height": 2},
+"render": {"size": [200, 100]},
+"animation": {"frames": 5, "tracks": [{"target": "observer.height", "interpolation": "linear",
+    "keys": [{"frame": 1, "value": 2}, {"frame": 5, "value": 4}]}]}})",
+                                    "motion.json", {});
+    // What is 0.5 m left of the middle is 25 of 50 pixels away at 2 m, and 20 at 2.5 m.
+    const Motion m = motion_of(scene, 1, 1, {0.5f, 0.25f, -0.1f});
+    EXPECT_NEAR(m.forward_u, 5, 1e-4);
+    EXPECT_NEAR(m.forward_v, -2.5, 1e-4);
+}
+
 TEST(Motion, PlacesAreThoseOfSightRaysInEveryShape) {
     for (const char* display : {kPyramid, R"({"shape": "sector", "angle": 200, "far": 9})",
                                 R"({"shape": "ball", "radius": 5})",

@@ -51,6 +51,21 @@ static inline lane_float facet_density(Vector h, lane_float width) {
     return 0.318309886f * ratio * ratio;
 }
 
+/// What white facets return between two directions that h lies between, the second at a cosine: pi
+/// times the reflectance distribution times the cosine, in the lanes `above`. Sets the density of
+/// directions that they mirror `out` to, in the lanes `is`.
+static inline lane_float facet_lobe(Vector h, Vector in, lane_float cosine, Vector out,
+                                    lane_float width, lane_int above, lane_int is,
+                                    lane_float* mirrored) {
+    const lane_float one = (lane_float)1.0f;
+    const lane_float facets = facet_density(h, width);
+    const lane_float k_in = stretched_length(in, width), k_out = stretched_length(out, width);
+    const lane_float both = fma(k_in, out.z, k_out * cosine), seen = out.z + k_out;
+    *mirrored = exact_divide(0.5f * facets, LANES_SELECT(is & LANE_MASK(seen > 0.0f), seen, one));
+    return exact_divide(1.57079633f * facets * cosine,
+                        LANES_SELECT(above & LANE_MASK(both > 0.0f), both, one));
+}
+
 /// Unit normals of facets that are seen from `out`, each as probable as it is visible (Dupuy &
 /// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
 static inline Vector visible_facet(Vector out, lane_float width, SquarePoint p) {

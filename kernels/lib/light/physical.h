@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Physically based surfaces: metal, and matt surfaces under a clear coat, both of rough facets.
+// Physically based surfaces: metal, and matt surfaces under clear facets, both of rough facets, and
+// with a coat.
 //
 // What facets return at once is GGX's lobe with Schlick's reflectance. What they return after more
 // reflections, and what comes back from the matt surface below them, has no direction of its own
@@ -8,22 +9,20 @@
 #ifndef VXL_PHYSICAL_H
 #define VXL_PHYSICAL_H
 
+#include "lib/light/coat.h"
+#include "lib/light/facet_albedo.h"
 #include "lib/light/ggx.h"
 #include "lib/light/rough_glass.h"
 #include "lib/surface/surface_color.h"
-
-/// What facets return at some angles: the share of all light that they miss, and what they return
-/// at once of the part (1 - m)^5 of it; see VXL_ALBEDO_ENTRIES.
-typedef struct {
-    lane_float missing, by_angle;
-} Albedo;
 
 /// Surfaces as they are seen along one direction.
 typedef struct {
     lane_int is;  // mask: physically based ones
     global const float* restrict materials;
-    lane_uint albedos;
+    FacetTable facets;
     lane_float width, reflectance, multiple;  // the last: what comes back later of `reflectance`
+    lane_float grazing;                       // what facets reflect of light along the surface ...
+    lane_float clear_grazing;                 // ... and those of what isn't metal
     lane_float facet[3];                      // what facets reflect straight on
     lane_float later[3];                      // what light returns later, per missing shares
     lane_float matt[3];                       // of the surface below, per passed shares
@@ -34,44 +33,40 @@ typedef struct {
     lane_float albedo[3];
     lane_float gloss;    // how probably paths are mirrored by facets
     GlassView glass;     // the part of the surfaces that lets light through
+    Coat coat;           // on the others
     lane_float tint[3];  // what that multiplies light by on its way
 } PhysicalView;
 
-/// One of the two rows of the surfaces' tables, `at` a place between the first entry, 0, and the
-/// last, 1.
-static inline lane_float table_value(const PhysicalView* s, uint row, lane_float at) {
-    const lane_float place = at * (float)(VXL_ALBEDO_ENTRIES - 1);
-    const lane_uint entry = min(LANES_UINT(place), (lane_uint)(VXL_ALBEDO_ENTRIES - 2));
-    const lane_uint first = s->albedos + entry * (uint)VXL_ALBEDO_FLOATS + row;
-    const lane_float low = LANES_GATHER_FLOAT(s->materials, first);
-    const lane_float high = LANES_GATHER_FLOAT(s->materials, first + (uint)VXL_ALBEDO_FLOATS);
-    return fma(place - LANES_FLOAT(entry), high - low, low);
-}
-
-static inline Albedo albedo_at(const PhysicalView* s, lane_float cosine) {
-    const lane_float width = LANES_SELECT(s->is, s->width, (lane_float)1.0f);
-    const lane_float by_width = exact_divide(cosine * (1.0f + width), cosine + width);
-    Albedo a;
-    a.missing = table_value(s, VXL_ALBEDO_MISSING, exact_sqrt(by_width));
-    a.by_angle = (1.0f - a.missing) * table_value(s, VXL_ALBEDO_BY_ANGLE, exact_sqrt(cosine));
-    return a;
-}
-
-/// What facets return at once of light at an angle, reflecting so much straight on.
-static inline lane_float at_once(const Albedo* a, lane_float reflectance) {
-    return fma(reflectance, 1.0f - a->missing - a->by_angle, a->by_angle);
+/// What the facets return at an angle, under their coat.
+static inline Albedo albedo_below(const PhysicalView* s, lane_float cosine, lane_float returned) {
+    const Albedo a = albedo_at(&s->facets, cosine);
+    if (!VXL_COAT) return a;
+    return under_coat(&s->coat, a, cosine, returned);
 }
 
 /// The share of light that gets through the facets of what isn't metal.
 static inline lane_float passed_share(const PhysicalView* s, const Albedo* a) {
-    return fmax(1.0f - at_once(a, s->reflectance) - s->multiple * a->missing, 0.0f);
+    return fmax(
+        a->entered - at_once(a, s->reflectance, s->clear_grazing) - s->multiple * a->missing, 0.0f);
 }
 
 /// What facets return later, per share that they don't return at once (Kulla & Conty 2017).
-static inline lane_float multiple_share(lane_float reflectance, lane_float missing) {
+static inline lane_float multiple_share(lane_float reflectance, lane_float grazing,
+                                        lane_float missing) {
     const lane_float mean =
-        fma(reflectance, (lane_float)(20.0f / 21.0f), (lane_float)(1.0f / 21.0f));
+        fma(reflectance, (lane_float)(20.0f / 21.0f), grazing * (lane_float)(1.0f / 21.0f));
     return exact_divide(mean * mean * (1.0f - missing), fma(-mean, missing, (lane_float)1.0f));
+}
+
+/// Adds what the coat returns to the albedos, and what it does evenly to the rest.
+static inline void add_coat(PhysicalView* s, lane_float glossy, lane_float* rest) {
+    Coat* coat = &s->coat;
+    const lane_float later = coat->share * coat->later * coat->missing;
+    const lane_float first = fma(coat->share, coat->returned, -later);
+    *rest += later;
+    for (int c = 0; c < 3; ++c) s->albedo[c] = fma(coat->share, coat->returned, s->albedo[c]);
+    const lane_float all = first + glossy + *rest;
+    coat->chance = exact_divide(first, LANES_SELECT(LANE_MASK(all > 0.0f), all, (lane_float)1.0f));
 }
 
 /// Finds what surfaces of `base` colour and their layers return.
@@ -83,22 +78,26 @@ static inline void set_layers(lane_uint material, const lane_float* base, Physic
     const lane_float matt = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_MATT);
     const lane_float per_missing =
         exact_reciprocal(LANES_SELECT(LANE_MASK(missing > 0.0f) & s->is, missing, one));
-    s->multiple = multiple_share(s->reflectance, missing);
-    s->seen = albedo_at(s, s->out.z);
+    s->clear_grazing = (VXL_COAT | VXL_WEAK_FACETS) ? s->coat.reflects : one;
+    s->grazing = fma(metallic, one - s->clear_grazing, s->clear_grazing);
+    const lane_float missed = VXL_COAT ? missing * s->coat.per_entered : missing;
+    s->multiple = multiple_share(s->reflectance, s->clear_grazing, missed);
+    s->seen = albedo_below(s, s->out.z, s->coat.returned);
     s->passed = passed_share(s, &s->seen);
     lane_float glossy = zero, rest = zero;
     for (int c = 0; c < 3; ++c) {
         s->facet[c] = fma(metallic, base[c] - s->reflectance, s->reflectance);
         const lane_float multiple =
-            fma(metallic, multiple_share(base[c], missing) - s->multiple, s->multiple);
+            fma(metallic, multiple_share(base[c], one, missed) - s->multiple, s->multiple);
         s->later[c] = multiple * per_missing;
         s->matt[c] = base[c] * matt;
-        const lane_float first = at_once(&s->seen, s->facet[c]);
+        const lane_float first = at_once(&s->seen, s->facet[c], s->grazing);
         const lane_float other =
             fma(multiple, s->seen.missing, base[c] * (one - metallic) * s->passed);
         s->albedo[c] = first + other;
         glossy = fmax(glossy, first), rest = fmax(rest, other);
     }
+    if (VXL_COAT) add_coat(s, glossy, &rest);
     s->gloss = exact_divide(glossy, LANES_SELECT(s->is, glossy + rest, one));
     for (int c = 0; VXL_ROUGH_GLASS && c < 3; ++c) {
         const lane_float through = fma(base[c], (lane_float)0.5f, (lane_float)0.5f);
@@ -116,13 +115,16 @@ static inline PhysicalView view_physical(global const float* restrict materials,
     s.materials = materials;
     s.width = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_WIDTH);
     s.is = met & LANE_MASK(s.width > 0.0f);
-    s.albedos = LANES_UINT(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_ALBEDOS)) &
-                LANES_AS_UINT(s.is);
+    s.facets.materials = materials;
+    s.facets.first = LANES_UINT(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_ALBEDOS)) &
+                     LANES_AS_UINT(s.is);
+    s.facets.width = LANES_SELECT(s.is, s.width, (lane_float)1.0f);
     s.reflectance = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFLECTANCE);
     s.frame = frame_around(normal);
     s.out = into_frame(&s.frame, out);
     s.out.z = clamp(s.out.z, 0.0f, 1.0f);
     if (VXL_ROUGH_GLASS) s.glass = view_glass(materials, s.is, material, leaving, s.out.z, s.width);
+    if (VXL_COAT | VXL_WEAK_FACETS) s.coat = view_coat(materials, s.is, material, s.out.z);
     lane_float base[3];
     for (int c = 0; c < 3; ++c) base[c] = surface_color(materials, color, colors, c);
     set_layers(material, base, &s);
@@ -140,25 +142,32 @@ static inline lane_int physical_value(const PhysicalView* s, Vector in, lane_flo
     const lane_int above = s->is & LANE_MASK(i.z > 0.0f);
     const lane_float cosine = LANES_SELECT(above, fmin(i.z, one), zero);
     const Vector h = {i.x + o.x, i.y + o.y, i.z + o.z};
-    const lane_float facets = facet_density(h, s->width);
-    const lane_float k_in = stretched_length(i, s->width), k_out = stretched_length(o, s->width);
-    const lane_float both = fma(k_in, o.z, k_out * cosine), seen = o.z + k_out;
-    const lane_float lobe = exact_divide(1.57079633f * facets * cosine,
-                                         LANES_SELECT(above & LANE_MASK(both > 0.0f), both, one));
+    lane_float mirrored, coat_missing = zero, returned_by_coat = zero, under = one;
+    const lane_float lobe = facet_lobe(h, i, cosine, o, s->width, above, s->is, &mirrored);
+    if (VXL_COAT) {
+        returned_by_coat = coat_returned(&s->coat, cosine, &coat_missing);
+        under = fma(-s->coat.share, fmax(returned_by_coat, s->coat.returned), one);
+    }
     const lane_float meets = clamp(dot_product(unit(h), o), 0.0f, 1.0f);
     const lane_float far = one - meets, square = far * far, fifth = square * square * far;
-    const Albedo a = albedo_at(s, cosine);
+    const Albedo a = albedo_below(s, cosine, returned_by_coat);
     const lane_float later = s->seen.missing * a.missing * cosine;
     const lane_float matt = s->passed * passed_share(s, &a) * cosine;
-    for (int c = 0; c < 3; ++c) {
-        const lane_float facet = fma(fifth, one - s->facet[c], s->facet[c]);
-        const lane_float all = fma(lobe, facet, fma(later, s->later[c], matt * s->matt[c]));
-        value[c] = LANES_SELECT(above, all, zero);
-    }
-    const lane_float mirrored =
-        exact_divide(0.5f * facets, LANES_SELECT(s->is & LANE_MASK(seen > 0.0f), seen, one));
     const lane_float evenly = cosine * 0.318309886f;
     lane_float likely = fma(s->gloss, mirrored - evenly, evenly);
+    lane_float coat = zero;
+    if (VXL_COAT) {
+        lane_float by_coat;
+        coat = coat_value(&s->coat, h, i, cosine, o, above, s->is, fifth, coat_missing, &by_coat);
+        likely = fma(s->coat.chance, by_coat - likely, likely);
+    }
+    for (int c = 0; c < 3; ++c) {
+        const lane_float facet = fma(fifth, s->grazing - s->facet[c], s->facet[c]);
+        lane_float all =
+            fma(VXL_COAT ? lobe * under : lobe, facet, fma(later, s->later[c], matt * s->matt[c]));
+        if (VXL_COAT) all += coat;
+        value[c] = LANES_SELECT(above, all, zero);
+    }
     if (VXL_ROUGH_GLASS) {
         lane_float of_glass;
         const lane_float returned =
@@ -203,8 +212,16 @@ static inline Vector physical_direction(const PhysicalView* s, SquarePoint at, l
     }
     const SquarePoint d = disk_point(at);
     const Vector evenly = {d.x, d.y, exact_sqrt(1.0f - at.x)};
-    const Vector mirrored = mirrored_by_facet(s->out, s->width, at);
-    Vector in = select_vector(LANE_MASK(layer < s->gloss), mirrored, evenly);
+    lane_float width = s->width;
+    lane_int by_coat = (lane_int)0;
+    if (VXL_COAT) {
+        const lane_float chance = s->coat.chance;
+        by_coat = LANE_MASK(layer < chance);
+        width = LANES_SELECT(by_coat, s->coat.facets.width, width);
+        layer = exact_divide(layer - chance, LANES_SELECT(by_coat, one, one - chance));
+    }
+    const Vector mirrored = mirrored_by_facet(s->out, width, at);
+    Vector in = select_vector(by_coat | LANE_MASK(layer < s->gloss), mirrored, evenly);
     if (VXL_ROUGH_GLASS) {
         lane_int through;
         const Vector way = glass_direction(&s->glass, s->width, s->out, at, choice, &through);

@@ -7,14 +7,31 @@
 #include "lib/traverse/display_shape.h"
 #include "shared/paths.h"
 
-/// The points of the unit disk through which sample number `sample` of the pixels passes. Columns
-/// and rows are those of the whole frame, so that parts of a picture agree.
-static inline SquarePoint lens_point(lane_uint column, lane_uint row, uint sample) {
-    const lane_uint seed = decision_seed(column | (row << 16), (lane_uint)VXL_DECISION_LENS);
-    return disk_point(sobol_point((lane_uint)sample, seed));
+/// A point of the regular polygon of so many corners on the unit circle, one of them at the top,
+/// all of which are equally probable: p.y chooses a triangle between two corners and the middle.
+static inline SquarePoint polygon_point(SquarePoint p, int corners) {
+    const lane_float at = p.y * (float)corners;
+    const lane_float first = floor(at), along = at - first, radius = exact_sqrt(p.x);
+    const lane_float turn = exact_divide((lane_float)6.28318531f, (lane_float)(float)corners);
+    lane_float x, y, next_x, next_y;
+    exact_sincos(first * turn, &x, &y);
+    exact_sincos((first + 1.0f) * turn, &next_x, &next_y);
+    const SquarePoint result = {radius * fma(along, next_x - x, x),
+                                radius * fma(along, next_y - y, y)};
+    return result;
 }
 
-/// The rays of a pyramid's samples that start at points p of the lens, which is a disk around the
+/// The points of the lens, within the unit disk, through which sample number `sample` of the pixels
+/// passes. Columns and rows are those of the whole frame, so that parts of a picture agree.
+static inline SquarePoint lens_point(const Camera* camera, lane_uint column, lane_uint row,
+                                     uint sample) {
+    const lane_uint seed = decision_seed(column | (row << 16), (lane_uint)VXL_DECISION_LENS);
+    const SquarePoint p = sobol_point((lane_uint)sample, seed);
+    if (VXL_BLADES) return polygon_point(p, camera->blades);
+    return disk_point(p);
+}
+
+/// The rays of a pyramid's samples that start at points p of the lens, which lies around the
 /// observer across Z_E. They come to the same places as the observer's own at the depth where the
 /// lens is focused.
 static inline SightRay through_lens(const Camera* camera, SightRay ray, SquarePoint p) {

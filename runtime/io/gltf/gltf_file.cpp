@@ -23,7 +23,7 @@ constexpr size_t kMaxBuffers = size_t{16} << 30;
 constexpr int kMaxLevels = 64;
 
 /// Extensions that are shown, or that change nothing that is shown.
-constexpr std::array<std::string_view, 12> kKnown = {"KHR_lights_punctual",
+constexpr std::array<std::string_view, 13> kKnown = {"KHR_lights_punctual",
                                                      "KHR_materials_transmission",
                                                      "KHR_materials_ior",
                                                      "KHR_materials_volume",
@@ -34,7 +34,8 @@ constexpr std::array<std::string_view, 12> kKnown = {"KHR_lights_punctual",
                                                      "KHR_mesh_quantization",
                                                      "EXT_mesh_gpu_instancing",
                                                      "KHR_xmp_json_ld",
-                                                     "KHR_materials_specular"};
+                                                     "KHR_materials_specular",
+                                                     "KHR_materials_clearcoat"};
 
 bool is_known(const std::string& extension) {
     return std::ranges::find(kKnown, extension) != kKnown.end();

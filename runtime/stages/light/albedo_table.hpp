@@ -3,16 +3,35 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "kernels/shared/scene.h"
 
 namespace voxelume {
 
-/// The table of kernels/shared/scene.h for one width.
-struct AlbedoTable {
-    std::array<float, VXL_ALBEDO_ENTRIES * VXL_ALBEDO_FLOATS> values{};
-    double missing = 0, by_angle = 0;  ///< means over all directions, by their cosine
+inline constexpr int kLastAlbedo = VXL_ALBEDO_ENTRIES - 1;  ///< the last entry of a table
+
+/// Means over all directions, by their cosine: of the light that reaches facets, the share that
+/// they miss and what they return at once of the part (1 - m)^5.
+struct AlbedoMeans {
+    double missing = 0, by_angle = 0, entered = 1;
 };
+
+/// The table of kernels/shared/scene.h for one width.
+struct AlbedoTable : AlbedoMeans {
+    std::array<float, VXL_ALBEDO_ENTRIES * VXL_ALBEDO_FLOATS> values{};
+};
+
+/// What facets return at once at an angle.
+struct FacetAlbedo {
+    double all = 0, by_angle = 0;
+};
+
+/// What kernels read from a table.
+FacetAlbedo read_albedo(const AlbedoTable& table, double width, double cosine);
+
+/// One of the `rows` numbers of each entry, at a place from 0 to kLastAlbedo.
+double between_entries(std::span<const float> values, int rows, int row, double at);
 
 /// GGX's alpha of a roughness. Highlights are at least so wide that floats hold them.
 double width_of(double roughness);
@@ -22,10 +41,11 @@ double width_of(double roughness);
 AlbedoTable albedo_table(double width);
 
 /// The share of light that facets reflect several times and return, per share that they don't
-/// return at once: `reflectance` is what one reflects straight on (Kulla & Conty 2017).
-double multiple_share(double reflectance, double missing);
+/// return at once: they reflect these shares straight on and along the surface (Kulla & Conty
+/// 2017).
+double multiple_share(double reflectance, double missing, double grazing = 1);
 
 /// The share of light that gets through to what lies under the facets, over all directions.
-double passed_share(double reflectance, const AlbedoTable& table);
+double passed_share(double reflectance, const AlbedoMeans& means, double grazing = 1);
 
 }  // namespace voxelume

@@ -15,9 +15,6 @@
 
 namespace voxelume {
 
-/// A material's record for kernels, in the voxels of a world.
-MaterialRecord material_record(const Material& material, const GridFrame& world);
-
 /// The world's background, ambient light and medium.
 Environment environment_of(const World& world);
 

@@ -62,6 +62,7 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
     if (observer.aperture > 0) {
         camera.lens_radius = float(observer.aperture / 2);
         camera.lens_slope = float(observer.aperture / 2 / observer.focus);
+        camera.blades = observer.blades;
     }
     camera.sample_weight = 1.0f / float(scene.render.samples);
     return camera;

@@ -45,7 +45,7 @@ glm::dvec3 AnalyticTracer::share_of(const Light& light, const Path& path, const 
     const double highlight =
         std::pow(std::max(0.0, glm::dot(point.normal, half)), double(m.shininess));
     const glm::dvec3 share =
-        point.color * double(m.diffuse) * cosine + double(m.specular) * highlight;
+        point.color * double(m.diffuse) * cosine + m.specular.value_or(0) * highlight;
     return share * glm::dvec3(light.intensity) * falloff *
            shadow(path, point, to_light, distance, events);
 }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much light rough facets return, by tables of the angle: see VXL_ALBEDO_ENTRIES.
+#ifndef VXL_FACET_ALBEDO_H
+#define VXL_FACET_ALBEDO_H
+
+#include "lib/lanes/vector.h"
+#include "shared/scene.h"
+
+/// The tables of surfaces' facets.
+typedef struct {
+    global const float* restrict materials;
+    lane_uint first;   // the number of the first value
+    lane_float width;  // of highlights, above 0
+} FacetTable;
+
+/// What facets return at some angle: of all light at once if they reflect all of it, or the part
+/// (1 - m)^5; the share that they miss, which is later light; and the share that reaches them.
+typedef struct {
+    lane_float all, by_angle, missing, entered;
+} Albedo;
+
+/// One of the `rows` numbers of an entry, `at` a place between the first of `entries`, 0, and the
+/// last, 1.
+static inline lane_float between_entries(global const float* restrict materials, lane_uint values,
+                                         uint rows, uint row, lane_float at) {
+    const lane_float place = at * (float)(VXL_ALBEDO_ENTRIES - 1);
+    const lane_uint entry = min(LANES_UINT(place), (lane_uint)(VXL_ALBEDO_ENTRIES - 2));
+    const lane_uint first = values + entry * rows + row;
+    const lane_float low = LANES_GATHER_FLOAT(materials, first);
+    const lane_float high = LANES_GATHER_FLOAT(materials, first + rows);
+    return fma(place - LANES_FLOAT(entry), high - low, low);
+}
+
+/// What facets that all light reaches return.
+static inline Albedo albedo_at(const FacetTable* t, lane_float cosine) {
+    const lane_float by_width = exact_divide(cosine * (1.0f + t->width), cosine + t->width);
+    Albedo a;
+    a.missing = between_entries(t->materials, t->first, VXL_ALBEDO_FLOATS, VXL_ALBEDO_MISSING,
+                                exact_sqrt(by_width));
+    a.all = 1.0f - a.missing;
+    a.by_angle = a.all * between_entries(t->materials, t->first, VXL_ALBEDO_FLOATS,
+                                         VXL_ALBEDO_BY_ANGLE, exact_sqrt(cosine));
+    a.entered = (lane_float)1.0f;
+    return a;
+}
+
+/// What facets return at once, reflecting so much of the light straight on and at grazing angles.
+static inline lane_float at_once(const Albedo* a, lane_float reflectance, lane_float grazing) {
+    return fma(reflectance, a->all - a->by_angle, grazing * a->by_angle);
+}
+
+#endif

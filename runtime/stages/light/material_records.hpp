@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// materials -> the records and tables that kernels read.
+#pragma once
+
+#include <vector>
+
+#include "kernels/shared/scene.h"
+#include "runtime/grid/grid_frame.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// The record of a material of Whitted's model.
+MaterialRecord material_record(const Material& material, const GridFrame& world);
+
+/// The records of all materials, and behind them the tables of those that are physically based.
+/// Without `has_physical` these are in Whitted's model.
+std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world,
+                                             bool has_physical);
+
+}  // namespace voxelume
