@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -82,8 +83,9 @@ void check_numbers(const std::vector<Part>& parts) {
         if (!known.contains(number)) missing.push_back(std::to_string(number));
     if (missing.empty()) return;
     if (missing.size() > kMaxNames) missing.back() = "...";
-    refuse("of {} parts {} {} missing: {}", count, count - int(known.size()),
-           count - int(known.size()) == 1 ? "is" : "are", fmt::join(missing, ", "));
+    refuse("{}: of {} parts {} {} missing: {}", parts.front().manifest.outputs.front(), count,
+           count - int(known.size()), count - int(known.size()) == 1 ? "is" : "are",
+           fmt::join(missing, ", "));
 }
 
 /// The path of a part's file, which has the bytes that it was told of with.
@@ -166,6 +168,26 @@ void merge_run(std::vector<Part> parts, const MergeCommand& command) {
 /// those of several.
 using Runs = std::map<std::string, std::vector<Part>>;
 
+bool has_twins(const std::vector<Part>& parts) {
+    std::set<int> numbers;
+    for (const Part& part : parts)
+        if (!numbers.insert(part.manifest.shard.number).second) return true;
+    return false;
+}
+
+/// The parts of one run may lie in several folders. So may runs whose outputs have one name.
+Runs told_apart(Runs runs) {
+    Runs all;
+    for (auto& [output, parts] : runs) {
+        const bool apart = has_twins(parts);
+        for (Part& part : parts) {
+            const fs::path folder = part.file.parent_path().lexically_normal();
+            all[apart ? (folder / output).string() : output].push_back(std::move(part));
+        }
+    }
+    return all;
+}
+
 Runs read_runs(const MergeCommand& command) {
     Runs runs;
     for (const std::string& file : command.parts) {
@@ -175,7 +197,7 @@ Runs read_runs(const MergeCommand& command) {
         runs[output].push_back({file, std::move(manifest)});
     }
     if (runs.empty()) fail_usage("merge: name the files .shard of the parts, not their images");
-    return runs;
+    return told_apart(std::move(runs));
 }
 
 /// A run that can't be merged doesn't stop those after it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "cli/checks.hpp"
 #include "cli/output_names.hpp"
@@ -15,9 +16,12 @@ namespace {
 
 constexpr const char* kFrame = "####";  // what {frame} stands for until the frame is known
 
-/// The part of an input's name that outputs have.
+/// The part of an input's name that outputs have. In theirs, # stands for a frame.
 std::string name_of_input(const std::string& input) {
-    return input == "-" ? "stdin" : std::filesystem::path(input).stem().string();
+    if (input == "-") return "stdin";
+    std::string name = std::filesystem::path(input).stem().string();
+    std::ranges::replace(name, '#', '_');
+    return name;
 }
 
 /// What differs between jobs.
@@ -101,8 +105,18 @@ class JobList {
         if (command_.inputs.size() > 1) names.emplace_back("{name}");
         if (views_ > 1) names.emplace_back("{view}");
         if (combinations_.size() > 1)
-            for (const Sweep& sweep : sweeps_) names.push_back("{" + last_key(sweep.path) + "}");
+            for (const Sweep& sweep : sweeps_) names.push_back("{" + placeholder(sweep) + "}");
         return fmt::format("have {} in its name", fmt::join(names, " and "));
+    }
+
+    /// What tells a sweep's values apart in a file's name: its key or, where that means something
+    /// else or the values look alike, the combination's number.
+    static std::string placeholder(const Sweep& sweep) {
+        const std::string key = last_key(sweep.path);
+        std::set<std::string> parts;
+        for (const std::string& value : sweep.values) parts.insert(file_part(value));
+        const bool is_taken = key == "name" || key == "frame" || key == "view";
+        return is_taken || parts.size() < sweep.values.size() ? "sweep" : key;
     }
 
     static void refuse_shared_stream(const std::vector<RenderJob>& jobs) {
@@ -118,8 +132,8 @@ class JobList {
             files.push_back(job.command.stats);
             for (const std::string& file : files) {
                 if (file.empty()) continue;
-                const auto [first, is_new] =
-                    known.emplace(std::filesystem::absolute(file).lexically_normal(), &job);
+                const auto [first, is_new] = known.emplace(
+                    std::filesystem::weakly_canonical(std::filesystem::absolute(file)), &job);
                 if (is_new || first->second == &job) continue;
                 fail_usage("render: {}: this would be the output of both {} and {}; {}", file,
                            first->second->name, job.name, advice(*first->second, job));

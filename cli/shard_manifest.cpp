@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 3;  // changes with the keys, and with what they mean
+constexpr int kFormat = 4;  // changes with the keys, and with what they mean
 constexpr const char* kFormatKey = "voxelume_shard";
 
 Json json_of(const ShardFile& file) {
@@ -88,6 +88,14 @@ bool is_possible(const ShardManifest& manifest) {
 }
 
 }  // namespace
+
+bool is_text(const std::string& text) {
+    try {
+        return !Json(text).dump().empty();
+    } catch (const nlohmann::json::exception&) {
+        return false;
+    }
+}
 
 void write_manifest(const std::filesystem::path& file, const ShardManifest& manifest) {
     Json json = {{kFormatKey, kFormat},

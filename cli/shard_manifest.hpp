@@ -30,7 +30,8 @@ struct ShardManifest {
     Shard shard;
     std::string scene;                 ///< hash of all frames of the run
     std::vector<int> frames;           ///< of the whole run
-    std::vector<std::string> outputs;  ///< of the run, as its options have them
+    std::vector<std::string> outputs;  ///< of the run, as its options have them, from the
+                                       ///< manifest's folder
     ImageFileOptions options;          ///< how images are written
     struct Frame {
         int frame = 0;
@@ -39,6 +40,9 @@ struct ShardManifest {
     std::vector<Frame> own;         ///< frames of this part
     std::optional<ShardRows> rows;  ///< where the run is one image
 };
+
+/// Whether a manifest can hold this text: whether it is UTF-8.
+bool is_text(const std::string& text);
 
 /// Writes it. Throws Error::output.
 void write_manifest(const std::filesystem::path& file, const ShardManifest& manifest);

@@ -42,9 +42,9 @@ ShardPart::ShardPart(const RenderCommand& command, Scene& scene, FrameJob& job) 
     manifest_.frames = numbers_of(job.frames);
     manifest_.options = job.image_files;
     manifest_.scene = joint_hash(frame_hashes(scene, manifest_.frames));
-    manifest_.outputs = command.outputs;
-    manifest_.outputs.insert(manifest_.outputs.end(), command.volumes.begin(),
-                             command.volumes.end());
+    // As merge finds them: parts may be told of their files from several folders.
+    for (const auto* files : {&command.outputs, &command.volumes})
+        for (const std::string& file : *files) manifest_.outputs.push_back(name_of(file));
     if (job.frames.size() == 1)
         cut_image(command, scene, job);
     else
@@ -60,7 +60,7 @@ void ShardPart::cut_image(const RenderCommand& command, Scene& scene, FrameJob& 
     const ImagePart whole = part_of(command.crop, scene);
     const auto [first, end] = rows_of(manifest_.shard, whole.size[1]);
     ShardRows rows{first, end, whole.size[1], {}, manifest_.scene, {}};
-    for (const fs::path& file : frame.images) rows.outputs.push_back(described(file).name);
+    for (const fs::path& file : frame.images) rows.outputs.push_back(name_of(file));
     rows_ = file_.string() + ".exr";
     job.image_files = {.float_color = true, .channels = needed_channels(job)};
     frame.images = {rows_};
@@ -72,10 +72,16 @@ void ShardPart::cut_image(const RenderCommand& command, Scene& scene, FrameJob& 
             scene.with_crop({whole.first[0], whole.first[1] + first}, {whole.size[0], end - first});
 }
 
-ShardFile ShardPart::described(const fs::path& file) const {
+std::string ShardPart::name_of(const fs::path& file) const {
     const auto whole = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
-    return {whole(file).lexically_relative(whole(file_).parent_path()).string(),
-            hash_of_file(file)};
+    std::string name = whole(file).lexically_relative(whole(file_).parent_path()).string();
+    if (!is_text(name))
+        fail_usage("render: --shard: the output's name isn't UTF-8, as a part's text has to be");
+    return name;
+}
+
+ShardFile ShardPart::described(const fs::path& file) const {
+    return {name_of(file), hash_of_file(file)};
 }
 
 void ShardPart::write() const {

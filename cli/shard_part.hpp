@@ -23,6 +23,7 @@ class ShardPart {
 
   private:
     void cut_image(const RenderCommand& command, Scene& scene, FrameJob& job);
+    std::string name_of(const std::filesystem::path& file) const;
     ShardFile described(const std::filesystem::path& file) const;
 
     std::filesystem::path file_;  ///< of the manifest

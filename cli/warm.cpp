@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxelume warm SCENE...: fills the cache with what rendering the scenes takes.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/channels.hpp"
@@ -66,6 +69,13 @@ int run(const WarmCommand& command) {
     if (folder.empty())
         fail_usage(
             "warm: there is no cache to fill: VOXELUME_CACHE_DIR names no folder to write to");
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0)
+        throw Error(ErrorKind::output,
+                    fmt::format("warm: nothing can be written to {}, the cache; have "
+                                "VOXELUME_CACHE_DIR name another folder",
+                                folder.string()));
     set_limits(command.scene, "warm");
     tell_unread_bases(command.quiet);
     int code = 0;

@@ -21,6 +21,8 @@ bool is_code(uint32_t code, int further) {
     return code >= kLeast[further] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
 }
 
+}  // namespace
+
 bool is_utf8(const std::string& text) {
     for (size_t i = 0; i < text.size();) {
         const auto first = static_cast<uint8_t>(text[i]);
@@ -37,8 +39,6 @@ bool is_utf8(const std::string& text) {
     }
     return true;
 }
-
-}  // namespace
 
 std::string utf8_text(const std::string& text) {
     if (is_utf8(text)) return text;

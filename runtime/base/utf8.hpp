@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text of unknown encoding, as old files have it -> UTF-8.
+// Whether text is UTF-8, and text of unknown encoding, as old files have it -> UTF-8.
 #pragma once
 
 #include <string>
 
 namespace voxelume {
+
+bool is_utf8(const std::string& text);
 
 /// The text itself where it is valid UTF-8; otherwise its bytes are taken for Latin-1, so that the
 /// result always is.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/utf8.hpp"
 #include "runtime/scene_file/scene_path.hpp"
 
 namespace voxelume {
@@ -109,9 +110,10 @@ class Changer {
             const auto named = std::ranges::find_if(
                 list.items, [&](const JsonValue& item) { return name_in(item) == step.key; });
             const char* last = step.key.data() + step.key.size();
+            const auto [end, error] = std::from_chars(step.key.data(), last, place);
             if (named != list.items.end())
                 place = size_t(named - list.items.begin());
-            else if (std::from_chars(step.key.data(), last, place).ptr != last)
+            else if (end != last || error != std::errc())
                 fail_to_find(step.key, names_in(list));
         }
         if (place >= list.items.size())
@@ -156,6 +158,8 @@ JsonValue changed(JsonValue document, std::span<const SceneChange> changes, bool
 }  // namespace
 
 JsonValue parse_value(std::string_view text, const std::string& origin) {
+    if (!is_utf8(std::string(text)))
+        throw Error(ErrorKind::usage, "{}: the value isn't UTF-8, as a scene's texts are", origin);
     if (std::optional<JsonValue> number = number_of(text)) return std::move(*number);
     if (text.find(',') != text.npos)
         if (std::optional<JsonValue> list = numbers_of(text)) return std::move(*list);

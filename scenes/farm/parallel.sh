@@ -13,5 +13,5 @@ case $output in
 esac
 # shellcheck disable=SC2086 # several options
 seq "$parts" | parallel --quote -I @PART@ --halt soon,fail=1 --retries 3 ${PARALLEL_OPTIONS:-} \
-    voxelume render "$@" -o "$output" --shard "@PART@/$parts" --resume --progress plain
+    voxelume render -o "$output" "$@" --shard "@PART@/$parts" --resume --progress plain
 voxelume merge "$output".*-of-"$parts".shard

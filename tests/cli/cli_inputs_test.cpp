@@ -81,6 +81,28 @@ TEST_F(CliInputsTest, SweepsThatCantBeReadAreMistakes) {
                 AllOf(HasSubstr("a.exr: this would be the output of both scene.json, samples=1 and "
                                 "scene.json, samples=2"),
                       HasSubstr("{samples}")));
+    for (const char* sweep : {"objects.0.name=p,q", "world.ambient=[1,0,0],[1, 0,0]"})
+        EXPECT_THAT(
+            expect_failure(2, fmt::format("render scene.json -o a.exr --sweep '{}'", sweep)),
+            HasSubstr("have {sweep} in its name"));
+}
+
+TEST_F(CliInputsTest, NamesOfInputsStandForNoFrames) {
+    for (const char* name : {"x##.json", "x01.json"})
+        std::filesystem::copy_file(folder / "scene.json", folder / name);
+    ASSERT_EQ(run("render 'x##.json' x01.json -q -o 'c-{name}.png'").exit_code, 0);
+    EXPECT_THAT(names(),
+                ElementsAre("c-x01.png", "c-x__.png", "scene.json", "x##.json", "x01.json"));
+    std::filesystem::create_symlink("c-x01.png", folder / "c-scene.png");
+    EXPECT_THAT(expect_failure(2, "render scene.json x01.json -o 'c-{name}.png'"),
+                HasSubstr("this would be the output of both"));
+}
+
+TEST_F(CliInputsTest, WarmFillsNoCacheThatCantBeWritten) {
+    const ProgramResult result =
+        run_line("VOXELUME_CACHE_DIR=$PWD/scene.json voxelume warm scene.json");
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_THAT(result.err, HasSubstr("nothing can be written to"));
 }
 
 TEST_F(CliInputsTest, OneBadInputDoesntStopTheOthers) {

@@ -135,11 +135,32 @@ TEST_F(CliShardTest, PartsOfSeveralRunsMergeToEachOfThem) {
     EXPECT_EQ(pictures('q'), whole);
 }
 
+TEST_F(CliShardTest, PartsAreOfOneRunHoweverTheirFolderIsNamed) {
+    const std::string line = "render scene.json -q --size 21x37 -o ";
+    for (const char* name : {"s", "t"}) {
+        fs::create_directory(folder / name);
+        ASSERT_EQ(run(fmt::format("{}{}/p.exr --shard 1/2", line, name)).exit_code, 0);
+        const std::string whole = (folder / "." / name / "p.exr").string();
+        ASSERT_EQ(run(line + whole + " --shard 2/2").exit_code, 0);
+    }
+    ASSERT_EQ(run(line + "whole.exr").exit_code, 0);
+    EXPECT_EQ(run("merge s/*.shard").exit_code, 0);
+    const ProgramResult both = run("merge */p.exr.*.shard");
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    EXPECT_THAT(both.err, HasSubstr("2 of 2 runs merged\n"));
+    for (const char* name : {"s", "t"})
+        EXPECT_EQ(bytes_of(folder / name / "p.exr"), bytes_of(folder / "whole.exr")) << name;
+}
+
+TEST_F(CliShardTest, NamesThatNoPartCanTellAreMistakes) {
+    EXPECT_EQ(run("render scene.json -q -o \xff.png --shard 1/2").exit_code, 2);
+}
+
 TEST_F(CliShardTest, AMissingPartIsNamed) {
     render_parts(kImage, 8);
     std::filesystem::remove(folder / "p.exr.3-of-8.shard");
     std::filesystem::remove(folder / "p.exr.5-of-8.shard");
-    EXPECT_THAT(refusal("p.*.shard"), HasSubstr("merge: of 8 parts 2 are missing: 3, 5\n"));
+    EXPECT_THAT(refusal("p.*.shard"), HasSubstr("merge: p.exr: of 8 parts 2 are missing: 3, 5\n"));
     EXPECT_FALSE(std::filesystem::exists(folder / "p.exr"));
 }
 

@@ -79,6 +79,9 @@ TEST(SceneChange, WhatDoesntBelongThereIsNamedWithItsKeyAndTheNearestOne) {
     EXPECT_THAT(refusal_of("objects.bal.position", "1,2,3"), HasSubstr("did you mean \"ball\"?"));
     EXPECT_THAT(refusal_of("materials.rde.color", "1,1,1"), HasSubstr("did you mean \"red\"?"));
     EXPECT_THAT(refusal_of("lights[2].color", "1,1,1"), HasSubstr("lights has 2 items"));
+    EXPECT_THAT(refusal_of("lights.18446744073709551616.color", "1,1,1"),
+                HasSubstr("lights has nothing named"));
+    EXPECT_THAT(refusal_of("objects.ball.name", "\xff"), HasSubstr("isn't UTF-8"));
     EXPECT_THAT(refusal_of("material.red", "1"), HasSubstr("did you mean \"materials\"?"));
     EXPECT_THAT(refusal_of("models.ball.radius.x", "1"),
                 HasSubstr("models.ball.radius is a number"));
