@@ -75,7 +75,7 @@ typedef struct {
                                                                            textures,            \
                                                                            solids},             \
         {                                                                                       \
-            instance_records, instance_nodes, group_materials                                   \
+            instance_records, instance_nodes, group_materials, 0                                \
         }                                                                                       \
     }
 
