@@ -83,9 +83,10 @@ void check_numbers(const std::vector<Part>& parts) {
         if (!known.contains(number)) missing.push_back(std::to_string(number));
     if (missing.empty()) return;
     if (missing.size() > kMaxNames) missing.back() = "...";
-    refuse("{}: of {} parts {} {} missing: {}", parts.front().manifest.outputs.front(), count,
-           count - int(known.size()), count - int(known.size()) == 1 ? "is" : "are",
-           fmt::join(missing, ", "));
+    const fs::path output =
+        parts.front().file.parent_path() / parts.front().manifest.outputs.front();
+    refuse("{}: of {} parts {} {} missing: {}", output.string(), count, count - int(known.size()),
+           count - int(known.size()) == 1 ? "is" : "are", fmt::join(missing, ", "));
 }
 
 /// The path of a part's file, which has the bytes that it was told of with.

@@ -126,7 +126,7 @@ struct Material {
     Color absorption{};     ///< inside of the object, per metre, at least 0
     Color emission{};       ///< radiance that the surface sends out, at least 0
     std::optional<Checker> checker{};  ///< a second colour in every other block
-    /// One of these makes the material physically based: then `color` `diffuse`, `shininess`,
+    /// One of these makes the material physically based: then `color`, `diffuse`, `shininess`,
     /// `reflection`, `refraction` and `fresnel` say nothing. scenes/README.md tells what is shown.
     std::optional<Color> base_color{};       ///< 0..1; otherwise `color`
     std::optional<double> metallic{};        ///< share of metal, 0..1; otherwise 0

@@ -129,7 +129,7 @@ TEST_F(CliResumeTest, ItSaysWhyFilesAreRenderedAgain) {
 TEST_F(CliResumeTest, FilesOfAnotherVersionAreRenderedAgain) {
     ASSERT_EQ(count_rendered(""), 8);
     const auto whole = pictures();
-    // The same program, but for its number: what else the next version changes is unknown.
+    // This program differs in its number alone, since nobody knows what else a version changes.
     std::string program = bytes_of(VXL_BINARY);
     const std::string number = version(), other = number.substr(0, number.size() - 1) + "z";
     for (size_t i = 0; (i = program.find(number, i)) != program.npos; i += number.size())

@@ -13,7 +13,7 @@ Json physical(double metallic, double roughness) {
     return {{"base_color", {1, 1, 1}}, {"metallic", metallic}, {"roughness", roughness}};
 }
 
-/// The same under a coat, and where what isn't metal reflects half as much.
+/// Such a material has a coat, and what isn't metal of it reflects half as much.
 Json coated(double metallic, double roughness, double coat, double coat_roughness) {
     Json material = physical(metallic, roughness);
     material["coat"] = coat;
@@ -32,38 +32,34 @@ class PhysicalOnEverySurface : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(GlobalLight, PhysicalOnEverySurface,
                          testing::Values("cubes", "smooth", "exact"));
 
+/// Expects that balls of metal, of plastic and of both can't be told from a white sky.
+void expect_invisible(const char* surface, const Json& metal, const Json& plastic, const Json& half,
+                      const std::string& what) {
+    Json scene = open_furnace(64);
+    scene["materials"]["metal"] = metal;
+    scene["materials"]["plastic"] = plastic;
+    scene["materials"]["half metal"] = half;
+    add_thing(scene, ball_of(0.2, surface), "metal", {0.25, 0.25, 0.1});
+    add_thing(scene, ball_of(0.2, surface), "plastic", {-0.25, 0.25, 0.1});
+    add_thing(scene, ball_of(0.2, surface), "half metal", {0.25, -0.25, 0.1});
+    send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 64);
+    const Estimate e = estimate_of(channel_of(sense(scene), 1));
+    expect_mean(e, 1, what, 1e-3);
+    EXPECT_NEAR(e.mean, 1, 3e-3);
+}
+
 TEST_P(PhysicalOnEverySurface, WhiteOnesAreInvisibleUnderAWhiteSky) {
     // Balls see the sky and themselves alone, so what they return is one scattering on `exact`
     // ones, and several where cubes face each other.
-    for (const double roughness : {0.05, 0.2, 0.5, 0.8, 1.0}) {
-        Json scene = open_furnace(64);
-        scene["materials"]["metal"] = physical(1, roughness);
-        scene["materials"]["plastic"] = physical(0, roughness);
-        scene["materials"]["half metal"] = physical(0.5, roughness);
-        add_thing(scene, ball_of(0.2, GetParam()), "metal", {0.25, 0.25, 0.1});
-        add_thing(scene, ball_of(0.2, GetParam()), "plastic", {-0.25, 0.25, 0.1});
-        add_thing(scene, ball_of(0.2, GetParam()), "half metal", {0.25, -0.25, 0.1});
-        send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 64);
-        const Estimate e = estimate_of(channel_of(sense(scene), 1));
-        expect_mean(e, 1, "roughness " + std::to_string(roughness), 1e-3);
-        EXPECT_NEAR(e.mean, 1, 3e-3);
-    }
+    for (const double roughness : {0.05, 0.2, 0.5, 0.8, 1.0})
+        expect_invisible(GetParam(), physical(1, roughness), physical(0, roughness),
+                         physical(0.5, roughness), "roughness " + std::to_string(roughness));
 }
 
 TEST_P(PhysicalOnEverySurface, WhiteOnesUnderACoatAreInvisibleUnderAWhiteSky) {
-    for (const double roughness : {0.2, 0.8}) {
-        Json scene = open_furnace(64);
-        scene["materials"]["metal"] = coated(1, roughness, 1, 0);
-        scene["materials"]["plastic"] = coated(0, roughness, 0.5, 0.3);
-        scene["materials"]["half metal"] = coated(0.5, roughness, 1, 0.7);
-        add_thing(scene, ball_of(0.2, GetParam()), "metal", {0.25, 0.25, 0.1});
-        add_thing(scene, ball_of(0.2, GetParam()), "plastic", {-0.25, 0.25, 0.1});
-        add_thing(scene, ball_of(0.2, GetParam()), "half metal", {0.25, -0.25, 0.1});
-        send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 64);
-        const Estimate e = estimate_of(channel_of(sense(scene), 1));
-        expect_mean(e, 1, "roughness " + std::to_string(roughness), 1e-3);
-        EXPECT_NEAR(e.mean, 1, 3e-3);
-    }
+    for (const double roughness : {0.2, 0.8})
+        expect_invisible(GetParam(), coated(1, roughness, 1, 0), coated(0, roughness, 0.5, 0.3),
+                         coated(0.5, roughness, 1, 0.7), "roughness " + std::to_string(roughness));
 }
 
 /// A floor of a material at y = 0, seen from above and aside, and a square above it that shines.

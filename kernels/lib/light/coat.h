@@ -2,10 +2,11 @@
 // The clear coat of physically based surfaces: facets of a width of their own, through which light
 // gets to what is below, and back.
 //
-// Of light that facets below return at once, the coat lets the lesser of the shares through that it
-// lets through along its two directions: what a polished coat throws back at a mirror leaves the
-// same way later. What is more than that is spread by the rules for light that facets miss, so that
-// none is lost and both ways between two directions are equal.
+// A coat lets one share of light through along the direction in which light comes, and another
+// along that in which it leaves. Of light that facets below return at once, the lesser of both gets
+// through: what a polished coat throws back at a mirror leaves the same way later. The rest is
+// spread by the rules for light that facets miss, so that none is lost and both ways between two
+// directions are equal.
 #ifndef VXL_COAT_H
 #define VXL_COAT_H
 

@@ -33,7 +33,7 @@ void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord&
 }
 
 double coat_width_of(const Material& material) {
-    return width_of(material.coat_roughness.value_or(0));
+    return width_of(material.coat_roughness.value_or(kCoatRoughness));
 }
 
 /// What the facets of a material's surface that isn't metal reflect.
