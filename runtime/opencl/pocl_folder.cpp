@@ -73,14 +73,9 @@ std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& 
     return {files.begin(), files.end()};
 }
 
-/// The files of the compiled kernels of `part`, by path from the program's folder; such a path
-/// begins with the kernel's name.
+/// The files of a compiled kernel, by path from the program's folder.
 std::vector<fs::path> kernels_of(const fs::path& program, const ProgramPart& part) {
-    std::vector<fs::path> files = files_worth_keeping(program, "");
-    std::erase_if(files, [&](const fs::path& file) {
-        return file.extension() != ".so" || !part.kernels.contains(file.begin()->string());
-    });
-    return files;
+    return files_worth_keeping(program, part.kernel);
 }
 
 /// Writes a file that appears only when it is whole, since PoCL may look for it meanwhile.
@@ -188,17 +183,18 @@ fs::path PoclFolder::new_program_folder() const {
 }
 
 /// Restores the kernels of the program's parts that were compiled for other programs.
-void PoclFolder::take_kernels(const DiskCache& cache, const ProgramFiles& program) const {
+void PoclFolder::take_kernels(const DiskCache& cache, ProgramFiles& program) const {
     try {
-        for (const ProgramPart& part : program.parts)
-            if (const auto bytes = cache.read(part.key)) unpack(folder_ / program.folder, *bytes);
+        for (ProgramPart& part : program.parts)
+            if (const auto bytes = cache.read(part.key))
+                part.published = unpack(folder_ / program.folder, *bytes).size();
     } catch (const std::exception&) {
         return;  // the disk is full by now: PoCL compiles the missing files
     }
 }
 
 bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
-                                  std::span<const ProgramPart> parts,
+                                  std::vector<ProgramPart> parts,
                                   const std::function<void()>& build) {
     // One build at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
     const std::lock_guard guard(mutex_);
@@ -222,9 +218,9 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     const fs::path folder = new_program_folder();
     if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
         unpacked.clear();
-    ProgramFiles program = {folder, unpacked.size(), {parts.begin(), parts.end()}};
-    if (!parts.empty() && !folder.empty()) {
-        publish_changes(cache);  // includes the kernels of these parts that this process compiled
+    ProgramFiles program = {folder, unpacked.size(), std::move(parts)};
+    if (!folder.empty()) {
+        publish_changes(cache);  // includes kernels that this process compiled
         take_kernels(cache, program);
         if (!unpacked.empty())
             program.published = files_worth_keeping(folder_, program.folder).size();
@@ -233,10 +229,10 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     return !unpacked.empty();
 }
 
-void PoclFolder::publish_kernels(const DiskCache& cache, const ProgramFiles& program) const {
+void PoclFolder::publish_kernels(const DiskCache& cache, ProgramFiles& program) const {
     const fs::path own = folder_ / program.folder;
-    for (const ProgramPart& part : program.parts) {
-        if (kernels_of(own, part).empty()) continue;
+    for (ProgramPart& part : program.parts) {
+        if (kernels_of(own, part).size() <= part.published) continue;
         const auto bytes = cache.read(part.key);  // other processes may have added to it since
         size_t known = 0;
         try {
@@ -246,6 +242,7 @@ void PoclFolder::publish_kernels(const DiskCache& cache, const ProgramFiles& pro
         }
         const std::vector<fs::path> files = kernels_of(own, part);
         if (files.size() > known) cache.write(part.key, packed(own, files));
+        part.published = files.size();
     }
 }
 
@@ -260,8 +257,7 @@ void PoclFolder::publish_changes(const DiskCache& cache) {
         } catch (const std::exception&) {
             continue;  // the disk is full
         }
-        if (!program.parts.empty())
-            std::erase_if(files, [](const fs::path& file) { return file.extension() == ".so"; });
+        std::erase_if(files, [](const fs::path& file) { return file.extension() == ".so"; });
         cache.write(key, packed(folder_, files));
     }
 }

@@ -6,8 +6,6 @@
 #include <functional>
 #include <map>
 #include <mutex>
-#include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,11 +13,12 @@
 
 namespace voxelume {
 
-/// A kernel file of a program that was joined from several files. Its compiled kernels can be used
-/// by every other program that contains the file.
+/// A kernel of a program, which every other program with an equal kernel can use once it is
+/// compiled.
 struct ProgramPart {
-    std::string key;                ///< the key of its entry in the cache
-    std::set<std::string> kernels;  ///< their names
+    std::string key;       ///< the key of its entry in the cache
+    std::string kernel;    ///< its name
+    size_t published = 0;  ///< number of its files in the entry
 };
 
 /// PoCL keeps compiled kernels in files that it trusts blindly: processes that share a cold folder
@@ -45,10 +44,10 @@ class PoclFolder {
     void announce(const std::function<void()>& first_call) const;
 
     /// Runs `build`, which makes PoCL build one program, after the program's files were restored.
-    /// Also restores the kernels that other programs compiled of the same `parts`. Returns true if
+    /// Also restores those of its kernels, `parts`, that other programs compiled. Returns true if
     /// there were files of this program, from an earlier run or an earlier build.
     bool build_with_files(const DiskCache& cache, const std::string& key,
-                          std::span<const ProgramPart> parts, const std::function<void()>& build);
+                          std::vector<ProgramPart> parts, const std::function<void()>& build);
 
     /// Writes to `cache` what PoCL compiled since the last call.
     void publish(const DiskCache& cache);
@@ -66,8 +65,8 @@ class PoclFolder {
         std::vector<ProgramPart> parts;
     };
     std::filesystem::path new_program_folder() const;
-    void take_kernels(const DiskCache& cache, const ProgramFiles& program) const;
-    void publish_kernels(const DiskCache& cache, const ProgramFiles& program) const;
+    void take_kernels(const DiskCache& cache, ProgramFiles& program) const;
+    void publish_kernels(const DiskCache& cache, ProgramFiles& program) const;
     void publish_changes(const DiskCache& cache);
 
     std::mutex mutex_;

@@ -124,7 +124,6 @@ void Program::build_together(const Device& device, std::span<const char* const> 
                              const Defines& defines) {
     std::vector<std::string> keys;
     std::vector<const char*> missing;
-    std::vector<ProgramText> parts;
     const auto locked = device.lock();
     for (const char* file : files) {
         const KernelSource& source = kernel_source(file);
@@ -133,13 +132,12 @@ void Program::build_together(const Device& device, std::span<const char* const> 
         if (device.find_program(key)()) continue;
         keys.push_back(std::move(key));
         missing.push_back(file);
-        parts.push_back({source.text(), options});
     }
     if (missing.empty()) return;
     const KernelSource source = kernel_source(missing);
     const cl::Program program =
         build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
-                      {source.text(), build_options(device, source, defines)}, parts);
+                      {source.text(), build_options(device, source, defines)});
     for (const std::string& key : keys) device.keep_program(key, program);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/device_call.hpp"
+#include "runtime/opencl/kernel_slice.hpp"
 #include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
@@ -43,16 +45,24 @@ std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramT
     return cache_key(parts);
 }
 
-/// The kernels' names: the words after "kernel void".
-std::set<std::string> kernel_names(std::string_view source) {
-    constexpr std::string_view kBefore = "kernel void ";
-    std::set<std::string> names;
-    for (size_t at = source.find(kBefore); at != std::string_view::npos;
-         at = source.find(kBefore, at)) {
-        at += kBefore.size();
-        names.emplace(source.substr(at, source.find('(', at) - at));
+/// The options of a compiler without its -D constants.
+std::string without_constants(std::string_view options) {
+    std::string others;
+    for (const auto word : std::views::split(options, ' ')) {
+        const std::string_view option(word.begin(), word.end());
+        if (!option.starts_with("-D")) others.append(option).append(" ");
     }
-    return names;
+    return others;
+}
+
+/// A program's kernels, each by the key of what it consists of.
+std::vector<ProgramPart> parts_of(const DeviceInfo& info, const ProgramText& text) {
+    const std::string options = without_constants(text.options);
+    std::vector<ProgramPart> parts;
+    for (KernelSlice& slice : slice_kernels(text.source, text.options))
+        parts.push_back(
+            {key_of(info, "kernel", {std::move(slice.text), options}), slice.kernel, 0});
+    return parts;
 }
 
 /// The compiler's messages; empty where the driver has none.
@@ -127,14 +137,10 @@ cl::Program build_with_binary(const Device& device, const ProgramText& text) {
 
 /// Builds with PoCL, which compiles twice if asked for a binary, and keeps its own files: see
 /// PoclFolder.
-cl::Program build_with_pocl(const Device& device, const ProgramText& text,
-                            std::span<const ProgramText> texts_of_parts) {
-    std::vector<ProgramPart> parts;
-    for (const ProgramText& part : texts_of_parts)
-        parts.push_back({key_of(device.info(), "kernels", part), kernel_names(part.source)});
+cl::Program build_with_pocl(const Device& device, const ProgramText& text) {
     cl::Program program;
     const bool ready = PoclFolder::instance().build_with_files(
-        program_store(), key_of(device.info(), "program", text), parts,
+        program_store(), key_of(device.info(), "program", text), parts_of(device.info(), text),
         [&] { program = compile_with_pocl(device, text); });
     if (ready) ++device.counters().programs_from_cache;
     return program;
@@ -142,15 +148,14 @@ cl::Program build_with_pocl(const Device& device, const ProgramText& text,
 
 }  // namespace
 
-cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text,
-                          std::span<const ProgramText> parts) {
+cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text) {
     const auto start = std::chrono::steady_clock::now();
     const uint64_t from_cache = device.counters().programs_from_cache;
     cl::Program program;
     try {
         const DeviceCall call(device.info(), "compiling ", label);
         if (device.info().platform == kPoclPlatform)
-            program = build_with_pocl(device, text, parts);
+            program = build_with_pocl(device, text);
         else if (device.info().platform == "Oclgrind")  // it interprets code; a binary would lose
                                                         // the line numbers
             program = compile(device, text);

@@ -2,7 +2,6 @@
 // Programs compiled once: from source, or from the disk cache of an earlier run.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,11 +19,10 @@ struct ProgramText {
 /// The compiler's result is kept below `cache_folder()`, under a hash of the source with its
 /// includes, the options, and the versions of the platform, the driver and this cache; damaged
 /// files never reach a driver. A build that fails without a message about the source is tried a
-/// second time. Kernels compiled of one of the `parts` that the program was joined from are kept
-/// for other programs with that part. Throws Error::build with the compiler's log, in which `label`
+/// second time. PoCL's compiled kernels are kept for every program with an equal kernel, whatever
+/// else it holds. Throws Error::build with the compiler's log, in which `label`
 /// names the program.
-cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text,
-                          std::span<const ProgramText> parts = {});
+cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text);
 
 /// The sources of the programs that the device has ready, each once.
 std::vector<std::string> program_sources(const Device& device);
