@@ -160,7 +160,7 @@ class Program {
                                const Defines& defines);
 
     /// The same for files with constants of their own, whose programs compile sooner as one: each
-    /// takes the compiler some 70 ms, whatever its size. Does nothing where a constant of one file
+    /// takes PoCL some 13 ms, whatever its size. Does nothing where a constant of one file
     /// would change another's.
     static void build_together(const Device& device, std::span<const ProgramFile> files);
 
