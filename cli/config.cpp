@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxelume config: the values of all settings, and where each comes from.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
@@ -42,6 +46,19 @@ Report rows_of_shared_variables() {
     return rows;
 }
 
+/// Variables that are named as settings are, and are none: a slip of the keyboard is silent else.
+Report unknown_variables() {
+    std::vector<std::string_view> known = {"VOXELUME_CONFIG"};
+    for (const Setting& setting : settings()) known.emplace_back(setting.variable);
+    Report unknown = Report::array();
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view text = *entry, name = text.substr(0, text.find('='));
+        if (name.starts_with("VOXELUME_") && std::ranges::find(known, name) == known.end())
+            unknown.push_back(fmt::format("{} isn't read{}", name, suggest(name, known)));
+    }
+    return unknown;
+}
+
 /// What holds for a row, for people.
 std::string shown_value(const Report& row) {
     if (!row["value"].is_null()) return quote(row["value"].get<std::string>());
@@ -65,7 +82,11 @@ int print_settings(bool as_json) {
     const Report rows = rows_of_settings(), shared = rows_of_shared_variables();
     const std::filesystem::path file = settings_file();
     if (as_json) {
-        print_report({{"file", file.string()}, {"settings", rows}, {"environment", shared}}, true);
+        print_report({{"file", file.string()},
+                      {"settings", rows},
+                      {"environment", shared},
+                      {"unknown", unknown_variables()}},
+                     true);
         return 0;
     }
     print_rows(rows, "name", "origin", 26);
@@ -73,6 +94,8 @@ int print_settings(bool as_json) {
     if (!file.empty() && !std::filesystem::exists(file, error))
         fmt::print("\nNo file {}; lines such as `device = cpu` in it would be settings.\n",
                    file.string());
+    for (const Report& unknown : unknown_variables())
+        fmt::print("\n{}\n", unknown.get<std::string>());
     fmt::print("\nOther variables that count:\n");
     print_rows(shared, "variable", "meaning", 7);
     return 0;

@@ -2,6 +2,7 @@
 #include "cli/diff_limits.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/checks.hpp"
 
@@ -37,13 +38,16 @@ std::optional<std::string> excess_of_channels(const ImageDifference& difference,
     return {};
 }
 
+/// Tells of the channel with most unequal ids.
 std::optional<std::string> excess_of_ids(const ImageDifference& difference,
                                          const std::string& limit) {
-    for (const ChannelDifference& c : difference.channels)
-        if (c.is_id && double(c.differing) > allowed_pixels(limit, difference.pixels))
-            return fmt::format("{} of {} {} unequal ids, and {} may", pixels(c.differing),
-                               c.channel, c.differing == 1 ? "has" : "have", limit);
-    return {};
+    const auto unequal = [](const ChannelDifference& c) { return c.is_id ? c.differing : 0; };
+    const auto worst = std::ranges::max_element(difference.channels, {}, unequal);
+    if (worst == difference.channels.end()) return {};
+    const uint64_t count = unequal(*worst);
+    if (double(count) <= allowed_pixels(limit, difference.pixels)) return {};
+    return fmt::format("{} of {} {} unequal ids, and {} may", pixels(count), worst->channel,
+                       count == 1 ? "has" : "have", limit);
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ std::string fault_of_cache_size(const std::string& value) {
 }
 
 std::string fault_of_lanes(const std::string& value) {
-    return fault_of_word(value, std::array<std::string_view, 4>{"1", "4", "8", "16"});
+    const bool is_known = one_of({"1", "4", "8", "16"})(value).empty();
+    return is_known ? "" : "a work-item carries 1, 4, 8 or 16 rays";
 }
 
 std::string fault_of_progress(const std::string& value) {

@@ -148,6 +148,14 @@ TEST_F(CliConfigTest, EveryVariableThatTheSourcesReadIsListed) {
         shown, AllOf(HasSubstr("  work_group "), HasSubstr("  config "), HasSubstr("  NO_COLOR ")));
 }
 
+TEST_F(CliConfigTest, AVariableThatIsNoSettingIsToldOf) {
+    const char* set = "VOXELUME_CAHCE_MB=5 VOXELUME_PROGRESS=bar";
+    EXPECT_THAT(run_with("", set, "config").out,
+                HasSubstr("\nVOXELUME_CAHCE_MB isn't read; did you mean \"VOXELUME_CACHE_MB\"?\n"));
+    const Json report = Json::parse(run_with("", set, "config --json").out);
+    EXPECT_EQ(report["unknown"].size(), 1u);
+}
+
 TEST_F(CliConfigTest, TheFileOfSettingsIsNamedByItsOrigin) {
     const auto row = [&](const std::string& variables) {
         return Json::parse(

@@ -275,52 +275,5 @@ TEST_F(CliDiffTest, FramesThatCantBeComparedStopNoOthers) {
     EXPECT_EQ(run("diff a#.exr b#.exr --frames 5").exit_code, 4);
 }
 
-TEST_F(CliDiffTest, UnequalIdsFailUnlessSomeAreAllowed) {
-    const auto put = [&](const char* name, int count) {
-        Image image = changed(0, 0);
-        std::vector<uint32_t> ids(kDiffPixels, 3);
-        for (int i = 0; i < count; ++i) ids[size_t(i)] = 5;
-        image.id_planes["objectId"] = ids;
-        write_exr(folder / name, image, ColorDepth::float32);
-    };
-    put("a.exr", 10);
-    put("b.exr", 0);
-    const auto code = [&](const std::string& options) {
-        return run("diff a.exr b.exr " + options).exit_code;
-    };
-    const ProgramResult strict = run("diff a.exr b.exr --fail 1000");
-    EXPECT_EQ(strict.exit_code, 1);
-    EXPECT_THAT(strict.err, HasSubstr("10 pixels of objectId have unequal ids, and 0 may"));
-    EXPECT_EQ(code(""), 0);
-    EXPECT_EQ(code("--fail 0 --channels R,G,B"), 0);
-    EXPECT_EQ(code("--fail 0 --fail-ids 10"), 0);
-    EXPECT_EQ(code("--fail 0 --fail-ids 9"), 1);
-    EXPECT_EQ(code("--fail-ids 1%"), 0);
-    EXPECT_EQ(code("--fail-ids 0.9%"), 1);
-    EXPECT_EQ(code("--fail-ids 9 --channels R"), 0);
-    EXPECT_EQ(code("--fail-flip 0"), 0);
-    EXPECT_EQ(code("--fail-ids -1"), 2);
-    EXPECT_EQ(code("--fail-ids 101%"), 2);
-    put("a1.exr", 10), put("b1.exr", 0);
-    EXPECT_EQ(report_of("a#.exr b#.exr")["frames"][0]["worst"], "objectId");
-}
-
-TEST_F(CliDiffTest, CryptomattesIdsFailAndItsCoverageIsLight) {
-    const auto put = [&](const char* name, float id, float coverage) {
-        Image image = changed(0, 0);
-        image.planes["CryptoObject00.R"] = std::vector<float>(kDiffPixels, id);
-        image.planes["CryptoObject00.G"] = std::vector<float>(kDiffPixels, coverage);
-        image.attributes["cryptomatte/1234567/name"] = "CryptoObject";
-        write_exr(folder / name, image, ColorDepth::float32);
-    };
-    put("a.exr", 1e-20f, 1);
-    put("b.exr", 2e-20f, 0.5f);
-    EXPECT_THAT(run("diff a.exr b.exr --fail 0.6").err,
-                HasSubstr("1000 pixels of CryptoObject00.R have unequal ids"));
-    EXPECT_EQ(run("diff a.exr b.exr --fail 0.6 --fail-ids 100%").exit_code, 0);
-    EXPECT_THAT(run("diff a.exr b.exr --fail 0.4 --fail-ids 100%").err,
-                HasSubstr("the RMSE of CryptoObject00.G is 0.5"));
-}
-
 }  // namespace
 }  // namespace voxelume
