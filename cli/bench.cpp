@@ -71,7 +71,7 @@ Action add_bench(CLI::App& app) {
     app.add_option("--csv", command->csv, "write the rows, .csv");
     app.add_option("--plot", command->plot, "write the plot of depth against time, .svg");
     app.add_option("--only", command->only, list_of_scenes())
-        ->type_name("NAMES")
+        ->type_name("SCENES")
         ->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels per metre, like 16,32,64")
         ->type_name("NUMBERS")

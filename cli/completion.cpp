@@ -15,8 +15,17 @@ namespace voxelume::cli {
 namespace {
 
 constexpr const char* kBash = R"(# bash completion for voxelume
+_voxelume_devices() {{
+    voxelume devices 2>/dev/null | sed -nE 's/^\*? +([0-9]+)  .*/\1/p'
+}}
 _voxelume() {{
-    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=""
+    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words="" start=""
+    if [ "$word" = = ]; then
+        word=""
+    elif [ "$before" = = ]; then
+        before=${{COMP_WORDS[COMP_CWORD-2]}}
+    fi
+    local listed=${{word%"${{word##*,}}"}}
     if [ "$COMP_CWORD" -eq 1 ]; then
         COMPREPLY=($(compgen -W "help --help --version {0}" -- "$word"))
         return
@@ -29,7 +38,8 @@ _voxelume() {{
 {2}        esac
     fi
     if [ -n "$words" ]; then
-        COMPREPLY=($(compgen -W "$words" -- "$word"))
+        [ "$start" = - ] && start=$listed && compopt -o nospace 2>/dev/null
+        COMPREPLY=($(compgen -P "$start" -W "$words" -- "${{word#"$start"}}"))
     else
         compopt -o filenames 2>/dev/null
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
@@ -37,6 +47,13 @@ _voxelume() {{
 }}
 complete -F _voxelume voxelume
 )";
+
+/// What bash sets for the values of an option; a list begins with what is listed already.
+std::string bash_values(const OptionFacts& option) {
+    return fmt::format("words=\"{}{}\"{}", fmt::join(option.words, " "),
+                       option.is_device ? " $(_voxelume_devices)" : "",
+                       option.is_list ? " start=-" : "");
+}
 
 /// Whether files are offered for it: other values have a name of their own, such as FRAMES.
 bool takes_files(const OptionFacts& option) {
@@ -61,8 +78,8 @@ std::string bash_script(const std::vector<CommandFacts>& commands) {
             for (const std::string& name : option.names) {
                 names += (names.empty() ? "" : " ") + name;
                 if (!option.words.empty())
-                    values += fmt::format("        {}:{}) words=\"{}\" ;;\n", command.name, name,
-                                          fmt::join(option.words, " "));
+                    values += fmt::format("        {}:{}) {} ;;\n", command.name, name,
+                                          bash_values(option));
                 else if (!option.value.empty() && !takes_files(option))
                     values += fmt::format("        {}:{}) return ;;\n", command.name, name);
             }
@@ -95,7 +112,10 @@ std::string quoted(const std::string& text) {
 
 std::string zsh_values(const OptionFacts& option) {
     if (option.value.empty()) return "";
-    if (!option.words.empty()) return fmt::format(":value:({})", fmt::join(option.words, " "));
+    const std::string words = fmt::format("{}", fmt::join(option.words, " "));
+    if (option.is_device) return ":device: _voxelume_devices " + words;
+    if (option.is_list) return ":value:_values -s , value " + words;
+    if (!option.words.empty()) return fmt::format(":value:({})", words);
     return takes_files(option) ? ":file:_files" : ":" + escaped(option.value, ":\\") + ": ";
 }
 
@@ -105,6 +125,17 @@ std::string zsh_arguments(const CommandFacts& command) {
         if (option.names.empty() && !option.words.empty()) return "1" + zsh_values(option);
     return "*:file:_files";
 }
+
+// Devices have a line each: their number, and after a colon their name.
+constexpr const char* kZshStart = R"zsh(#compdef voxelume
+_voxelume_devices() {
+    local -a found=($@ ${(f)"$(voxelume devices 2>/dev/null |
+        sed -nE 's/^\*? +([0-9]+)  +[a-z]+  +([^ ]+( [^ ]+)*)  .*/\1:\2/p')"})
+    _describe device found
+}
+_voxelume() {
+    local -a commands=(
+)zsh";
 
 constexpr const char* kZshCommands = R"(    )
     if (( CURRENT == 2 )); then
@@ -130,7 +161,7 @@ fi
 )";
 
 std::string zsh_script(const std::vector<CommandFacts>& commands) {
-    std::string text = "#compdef voxelume\n_voxelume() {\n    local -a commands=(\n";
+    std::string text = kZshStart;
     for (const CommandFacts& command : commands)
         text +=
             fmt::format("        {}\n", quoted(command.name + ":" + escaped(command.help, ":\\")));
@@ -158,6 +189,16 @@ end
 function __voxelume_no_command
     test (count (commandline -opc)) -eq 1
 end
+function __voxelume_devices
+    printf '%s\n' $argv
+    voxelume devices 2>/dev/null |
+        sed -nE 's/^\*? +([0-9]+)  +[a-z]+  +([^ ]+( [^ ]+)*)  .*/\1\t\2/p'
+end
+function __voxelume_list
+    set -l start (commandline -ct | string replace -rf '^(?:--[a-z-]+=)?(.*,).*' '$1')
+    or set start ''
+    printf '%s\n' $start$argv
+end
 complete -c voxelume -n __voxelume_no_command -l help -d 'print all commands'
 complete -c voxelume -n __voxelume_no_command -l version -d 'print the version'
 complete -c voxelume -n __voxelume_no_command -f -a help -d 'print commands, or the options of one'
@@ -170,8 +211,13 @@ std::string fish_option(const std::string& command, const OptionFacts& option) {
                                    is_argument ? " -f" : "");
     for (const std::string& name : option.names)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-    if (!option.words.empty())
-        text += fmt::format(" -x -a {}", quoted(fmt::format("{}", fmt::join(option.words, " "))));
+    const std::string words = fmt::format("{}", fmt::join(option.words, " "));
+    if (option.is_device)
+        text += fmt::format(" -x -a {}", quoted("(__voxelume_devices " + words + ")"));
+    else if (option.is_list)
+        text += fmt::format(" -x -a {}", quoted("(__voxelume_list " + words + ")"));
+    else if (!option.words.empty())
+        text += fmt::format(" -x -a {}", quoted(words));
     else if (!option.value.empty())
         text += takes_files(option) ? " -r -F" : " -x";
     return text + fmt::format(" -d {}\n", quoted(escaped(option.help, "\\")));

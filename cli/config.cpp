@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxelume config: the values of all settings, and where each comes from.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
@@ -12,36 +17,87 @@
 namespace voxelume::cli {
 namespace {
 
-int print_settings(bool as_json) {
+/// A row for each setting: name, variable, value (null: the default) and origin.
+Report rows_of_settings() {
     Report rows = Report::array();
     for (const SettingValue& value : loaded_settings()) {
-        const Setting& setting = *value.setting;
         const bool is_default = value.origin == "default";
-        if (as_json)
-            rows.push_back({{"name", setting.name},
-                            {"variable", setting.variable},
-                            {"value", is_default ? Report(nullptr) : Report(value.value)},
-                            {"origin", value.origin}});
-        else
-            rows.push_back({{"setting", setting.name},
-                            {"value", is_default ? setting.default_text : quote(value.value)},
-                            {"origin", value.origin}});
+        rows.push_back({{"name", value.setting->name},
+                        {"variable", value.setting->variable},
+                        {"value", is_default ? Report(nullptr) : Report(value.value)},
+                        {"origin", value.origin}});
     }
+    rows.push_back({{"name", "config"},
+                    {"variable", "VOXELUME_CONFIG"},
+                    {"value", settings_file().string()},
+                    {"origin", settings_file_origin()}});
+    return rows;
+}
+
+/// The variables of other programs, with what they are set to.
+Report rows_of_shared_variables() {
+    Report rows = Report::array();
+    for (const SharedVariable& shared : shared_variables()) {
+        const char* value = std::getenv(shared.variable);
+        rows.push_back({{"variable", shared.variable},
+                        {"value", value == nullptr ? Report(nullptr) : Report(value)},
+                        {"meaning", shared.help}});
+    }
+    return rows;
+}
+
+/// Variables that are named as settings are, and are none: a slip of the keyboard is silent else.
+Report unknown_variables() {
+    std::vector<std::string_view> known = {"VOXELUME_CONFIG"};
+    for (const Setting& setting : settings()) known.emplace_back(setting.variable);
+    Report unknown = Report::array();
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view text = *entry, name = text.substr(0, text.find('='));
+        if (name.starts_with("VOXELUME_") && std::ranges::find(known, name) == known.end())
+            unknown.push_back(fmt::format("{} isn't read{}", name, suggest(name, known)));
+    }
+    return unknown;
+}
+
+/// What holds for a row, for people.
+std::string shown_value(const Report& row) {
+    if (!row["value"].is_null()) return quote(row["value"].get<std::string>());
+    for (const Setting& setting : settings())
+        if (row.value("name", "") == setting.name) return setting.default_text;
+    return "not set";
+}
+
+void print_rows(const Report& rows, const char* first, const char* last, size_t least) {
+    size_t width = least, names = 0;
+    for (const Report& row : rows) {
+        width = std::max(width, shown_value(row).size());
+        names = std::max(names, row[first].get_ref<const std::string&>().size());
+    }
+    for (const Report& row : rows)
+        fmt::print("  {:<{}}  {:<{}}  {}\n", row[first].get<std::string>(), names, shown_value(row),
+                   width, row[last].get<std::string>());
+}
+
+int print_settings(bool as_json) {
+    const Report rows = rows_of_settings(), shared = rows_of_shared_variables();
+    const std::filesystem::path file = settings_file();
     if (as_json) {
-        print_report({{"file", settings_file().string()}, {"settings", rows}}, true);
+        print_report({{"file", file.string()},
+                      {"settings", rows},
+                      {"environment", shared},
+                      {"unknown", unknown_variables()}},
+                     true);
         return 0;
     }
-    size_t width = 26;
-    for (const Report& row : rows)
-        width = std::max(width, row["value"].get_ref<const std::string&>().size());
-    for (const Report& row : rows)
-        fmt::print("  {:<12}{:<{}}  {}\n", row["setting"].get<std::string>(),
-                   row["value"].get<std::string>(), width, row["origin"].get<std::string>());
-    const std::filesystem::path file = settings_file();
+    print_rows(rows, "name", "origin", 26);
     std::error_code error;
     if (!file.empty() && !std::filesystem::exists(file, error))
         fmt::print("\nNo file {}; lines such as `device = cpu` in it would be settings.\n",
                    file.string());
+    for (const Report& unknown : unknown_variables())
+        fmt::print("\n{}\n", unknown.get<std::string>());
+    fmt::print("\nOther variables that count:\n");
+    print_rows(shared, "variable", "meaning", 7);
     return 0;
 }
 

@@ -87,11 +87,14 @@ Report report_of(const ImageDifference& difference) {
     return report;
 }
 
-/// A row of an animation's table: the channel with the largest RMSE stands for all, the one with
-/// most values that aren't finite for those, and `missing` are channels of one image alone.
+/// A row of an animation's table: the channel with the largest RMSE stands for all, where there is
+/// no error one with unequal ids, the one with most values that aren't finite for those, and
+/// `missing` are channels of one image alone.
 Report frame_row(int frame, const ImageDifference& difference) {
     const std::vector<ChannelDifference>& channels = difference.channels;
-    const auto worst = std::ranges::max_element(channels, {}, &ChannelDifference::rmse);
+    const auto worst = std::ranges::max_element(channels, {}, [](const ChannelDifference& c) {
+        return std::pair(c.rmse, c.is_id ? c.differing : 0);
+    });
     Report missing = difference.only_in_a;
     for (const std::string& channel : difference.only_in_b) missing.push_back(channel);
     return {{"frame", frame},
@@ -111,31 +114,69 @@ Report whole_frame(int frame, const ImageDifference& difference) {
     return report;
 }
 
-int run(const DiffCommand& command) {
+/// What a comparison has found so far.
+struct Findings {
+    Report report;
+    std::optional<std::string> excess;  ///< the first limit that is exceeded
+    std::optional<Error> failure;       ///< of the first frame that can't be compared
+};
+
+void add_image(const DiffFiles& files, const ImageDifference& difference,
+               const DiffCommand& command, Findings& findings) {
+    const bool is_animation = command.names.is_animation();
+    if (is_animation)
+        findings.report["frames"].push_back(command.json ? whole_frame(files.frame, difference)
+                                                         : frame_row(files.frame, difference));
+    else
+        findings.report = report_of(difference);
+    if (findings.excess) return;
+    findings.excess = excess_of(difference, command.limits);
+    if (findings.excess && is_animation)
+        findings.excess = fmt::format("frame {}: {}", files.frame, *findings.excess);
+}
+
+/// A frame that can't be compared is listed, and the others are compared all the same.
+void add_failure(const DiffFiles& files, const Error& error, Findings& findings) {
+    findings.report["not compared"].push_back(files.frame);
+    if (!findings.failure) findings.failure = error;
+}
+
+/// Throws what makes the comparison fail. Frames that can't be compared count more than limits.
+void throw_findings(const Findings& findings) {
+    const std::string excess =
+        findings.excess ? "the images differ: " + *findings.excess : std::string();
+    if (!findings.failure) {
+        if (!excess.empty()) throw Error(ErrorKind::render, excess);
+        return;
+    }
+    const size_t count = findings.report["not compared"].size();
+    std::string text = findings.failure->what();
+    if (count > 1) text += fmt::format("; {} frames can't be compared", count);
+    if (!excess.empty()) text += "; " + excess;
+    throw Error(findings.failure->kind(), text);
+}
+
+int run(DiffCommand command) {
     const CompareOptions options{listed(command.channels), command.threshold};
-    DiffLimits limits = command.limits;
+    DiffLimits& limits = command.limits;
     if (!limits.flip && !command.names.flip.empty()) limits.flip = 1;  // a picture needs one, too
     check_colors(limits, options.channels);
     for (const std::string& picture : {command.names.output, command.names.flip})
         if (!picture.empty()) check_output(picture, {".exr", ".png"}, "diff");
     const std::vector<DiffFiles> list = diff_files(command.names);
-    check_files(list);
-    Report report;
-    std::optional<std::string> excess;
-    const bool is_animation = command.names.is_animation();
-    for (const DiffFiles& files : list) {
-        const ImageDifference difference = compare_files(files, options, limits);
-        if (is_animation)
-            report["frames"].push_back(command.json ? whole_frame(files.frame, difference)
-                                                    : frame_row(files.frame, difference));
-        else
-            report = report_of(difference);
-        if (excess) continue;
-        excess = excess_of(difference, limits);
-        if (excess && is_animation) excess = fmt::format("frame {}: {}", files.frame, *excess);
-    }
-    print_report(report, command.json);
-    if (excess) throw Error(ErrorKind::render, "the images differ: " + *excess);
+    check_outputs(list);
+    Findings findings;
+    for (const DiffFiles& files : list) try {
+            check_inputs(files);
+            add_image(files, compare_files(files, options, limits), command, findings);
+        } catch (const Error& error) {
+            const bool is_of_images =
+                error.kind() == ErrorKind::input || error.kind() == ErrorKind::render;
+            if (!is_of_images || !command.names.is_animation()) throw;
+            add_failure(files, error, findings);
+        }
+    print_report(findings.report, command.json);
+    throw_findings(findings);
     return 0;
 }
 
@@ -147,7 +188,7 @@ Action add_diff(CLI::App& app) {
         ->required();
     app.add_option("B", command->names.b, "reference image, of the same kind and size")->required();
     app.add_option("--channels", command->channels, "compare only these channels, like R,G,B")
-        ->type_name("CHANNELS")
+        ->type_name("PLANES")
         ->allow_extra_args(false);
     app.add_option("--frames", command->names.frames,
                    "frames to compare, like 1-10; without it all of which there is a file")

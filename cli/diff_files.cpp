@@ -66,14 +66,17 @@ bool DiffNames::is_animation() const {
     return !frames.empty() || is_numbered(a) || is_numbered(b);
 }
 
-void check_files(const std::vector<DiffFiles>& list) {
+void check_inputs(const DiffFiles& files) {
+    for (const std::string& image : {files.a, files.b}) {
+        std::error_code error;
+        if (!fs::exists(image, error)) throw Error(ErrorKind::input, image + ": no such file");
+    }
+}
+
+void check_outputs(const std::vector<DiffFiles>& list) {
     std::map<fs::path, std::string> inputs, outputs;
     for (const DiffFiles& files : list)
-        for (const std::string& image : {files.a, files.b}) {
-            std::error_code error;
-            if (!fs::exists(image, error)) throw Error(ErrorKind::input, image + ": no such file");
-            inputs.emplace(target_of(image), image);
-        }
+        for (const std::string& image : {files.a, files.b}) inputs.emplace(target_of(image), image);
     for (const DiffFiles& files : list)
         for (const std::string& picture : {files.output, files.flip}) {
             if (picture.empty()) continue;

@@ -24,8 +24,11 @@ struct DiffNames {
 };
 
 /// Throws Error::usage where an output is one of the images, or two outputs are one file, however
-/// they are spelled and whatever links lead to them, and Error::input where an image isn't there.
-void check_files(const std::vector<DiffFiles>& list);
+/// they are spelled and whatever links lead to them.
+void check_outputs(const std::vector<DiffFiles>& list);
+
+/// Throws Error::input where an image isn't there.
+void check_inputs(const DiffFiles& files);
 
 /// The pairs of files, in the order of the frames. Without a list these are the frames of which
 /// there is a file of A or of B. Throws Error::usage for patterns that don't go together.

@@ -2,6 +2,7 @@
 #include "cli/diff_limits.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/checks.hpp"
 
@@ -27,6 +28,7 @@ std::string pixels(uint64_t count) {
 
 std::optional<std::string> excess_of_channels(const ImageDifference& difference, double limit) {
     for (const ChannelDifference& c : difference.channels) {
+        if (c.is_id) continue;
         if (c.unmatched > 0)
             return fmt::format("{} of {} {} where a value isn't finite", pixels(c.unmatched),
                                c.channel, c.unmatched == 1 ? "differs" : "differ");
@@ -36,16 +38,34 @@ std::optional<std::string> excess_of_channels(const ImageDifference& difference,
     return {};
 }
 
+/// Tells of the channel with most unequal ids.
+std::optional<std::string> excess_of_ids(const ImageDifference& difference,
+                                         const std::string& limit) {
+    const auto unequal = [](const ChannelDifference& c) { return c.is_id ? c.differing : 0; };
+    const auto worst = std::ranges::max_element(difference.channels, {}, unequal);
+    if (worst == difference.channels.end()) return {};
+    const uint64_t count = unequal(*worst);
+    if (double(count) <= allowed_pixels(limit, difference.pixels)) return {};
+    return fmt::format("{} of {} {} unequal ids, and {} may", pixels(count), worst->channel,
+                       count == 1 ? "has" : "have", limit);
+}
+
 }  // namespace
 
 void add_limit_options(CLI::App& app, DiffLimits& limits) {
     app.add_option("--fail", limits.rmse,
                    "exit with 1 if a channel's RMSE is above this, a value is finite in one image "
-                   "only, or a channel is missing; ids are listed but never fail")
+                   "only, ids are unequal (--fail-ids allows some), or a channel is missing")
         ->check(in_range(0, 1e30));
     app.add_option("--fail-above", limits.above,
                    "exit with 1 if more pixels than this are above --threshold in some channel, "
                    "ids among them, or a channel is missing; 0.1% is a part of all pixels")
+        ->check(check_above)
+        ->type_name("COUNT");
+    app.add_option("--fail-ids", limits.ids,
+                   "exit with 1 if more pixels than this of a channel of ids, such as objectId or "
+                   "CryptoObject00.R, are unequal, or a channel is missing; 0.1% is a part of all "
+                   "pixels")
         ->check(check_above)
         ->type_name("COUNT");
     app.add_option("--fail-flip", limits.flip, "exit with 1 if FLIP is above this")
@@ -55,6 +75,9 @@ void add_limit_options(CLI::App& app, DiffLimits& limits) {
 std::optional<std::string> excess_of(const ImageDifference& difference, const DiffLimits& limits) {
     if (limits.rmse)
         if (auto excess = excess_of_channels(difference, *limits.rmse)) return excess;
+    if (limits.rmse || !limits.ids.empty())
+        if (auto excess = excess_of_ids(difference, limits.ids.empty() ? "0" : limits.ids))
+            return excess;
     if (!limits.above.empty() &&
         double(difference.above) > allowed_pixels(limits.above, difference.pixels))
         return fmt::format("{} of {} {} above the threshold, and {} may be", difference.above,
@@ -64,7 +87,7 @@ std::optional<std::string> excess_of(const ImageDifference& difference, const Di
         return "FLIP can't be told, for some pixels' colours aren't numbers";
     if (limits.flip && *difference.flip > *limits.flip)
         return fmt::format("FLIP is {:.6g}, above {:.6g}", *difference.flip, *limits.flip);
-    if (!limits.rmse && limits.above.empty()) return {};
+    if (!limits.rmse && limits.above.empty() && limits.ids.empty()) return {};
     if (!difference.only_in_a.empty()) return "only A has channel " + difference.only_in_a.front();
     if (!difference.only_in_b.empty()) return "only B has channel " + difference.only_in_b.front();
     return {};

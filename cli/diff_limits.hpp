@@ -18,13 +18,15 @@ struct DiffLimits {
     std::optional<double> rmse;  ///< of a channel
     std::optional<double> flip;  ///< mean FLIP
     std::string above;           ///< pixels above the threshold: a number, or a percentage
+    std::string ids;             ///< pixels of a channel with unequal ids, likewise
 };
 
-/// Declares --fail, --fail-above and --fail-flip.
+/// Declares --fail, --fail-above, --fail-ids and --fail-flip.
 void add_limit_options(CLI::App& app, DiffLimits& limits);
 
 /// What exceeds the limits first, as part of a sentence; nothing where all is within them, and
-/// where there are none. Colours that aren't numbers exceed each limit of FLIP.
+/// where there are none. Colours that aren't numbers exceed each limit of FLIP. A limit of the RMSE
+/// allows no unequal ids, unless `ids` says how many.
 std::optional<std::string> excess_of(const ImageDifference& difference, const DiffLimits& limits);
 
 }  // namespace voxelume::cli

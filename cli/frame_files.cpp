@@ -139,7 +139,7 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
         ->type_name("I/N");
     app.add_option("--fallback", command.fallback,
                    "device, as for --device, that takes over a run whose device fails")
-        ->type_name("DEVICE");
+        ->type_name("DEVICES");
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "
                    "changed: those that are damaged, or made from something else")

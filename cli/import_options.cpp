@@ -93,6 +93,12 @@ Vec3 spacing_of(const std::string& text, const char* command) {
 
 }  // namespace
 
+std::vector<std::string> view_names() {
+    std::vector<std::string> names;
+    for (const NamedView& view : kViews) names.emplace_back(view.name);
+    return names;
+}
+
 void add_import_options(CLI::App& app, ImportChoices& choices) {
     app.add_option(
            "--view", choices.view,

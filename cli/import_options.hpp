@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/voxelume.hpp"
 
@@ -19,6 +20,9 @@ struct ImportChoices {
     std::optional<double> angle, fit;
     std::optional<bool> ground;
 };
+
+/// The names that --view knows.
+std::vector<std::string> view_names();
 
 void add_import_options(CLI::App& app, ImportChoices& choices);
 

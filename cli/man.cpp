@@ -77,9 +77,10 @@ int print_page() {
     fmt::print(".fi\n.SH ENVIRONMENT\n");
     for (const Setting& setting : settings())
         fmt::print(".TP\n\\fB{}\\fR\n{}\n", plain(setting.variable), plain(setting.help));
+    fmt::print(".TP\n\\fBVOXELUME_CONFIG\\fR\nfile of settings\n");
+    for (const SharedVariable& shared : shared_variables())
+        fmt::print(".TP\n\\fB{}\\fR\n{}\n", plain(shared.variable), plain(shared.help));
     fmt::print(
-        ".TP\n\\fBVOXELUME_CONFIG\\fR\nfile of settings\n"
-        ".TP\n\\fBNO_COLOR\\fR\nif it is set, progress bars have no colour\n"
         ".SH FILES\n.TP\n~/.config/voxelume/config\n"
         "settings, a line each: a name that \\fBvoxelume config\\fR prints, =, and its value; the "
         "environment counts more\n");

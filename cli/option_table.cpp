@@ -3,11 +3,72 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 
 #include "cli/commands.hpp"
+#include "cli/import_options.hpp"
+#include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
 namespace {
+
+using Words = std::vector<std::string>;
+
+/// Names of groups of channels, as `render --channels` takes them.
+Words group_names() {
+    Words names;
+    for (const ChannelRow& row : channel_table()) names.emplace_back(row.name);
+    return names;
+}
+
+/// Names of channels in files, as `diff --channels` takes them; those that number others have none.
+Words plane_names() {
+    Words names;
+    for (const ChannelRow& row : channel_table())
+        for (const std::string_view plane : row.planes)
+            if (!plane.ends_with('_')) names.emplace_back(plane);
+    return names;
+}
+
+Words test_names() {
+    Words names;
+    for (const StressTest& test : stress_tests()) names.emplace_back(test.name);
+    return names;
+}
+
+Words scene_names() {
+    Words names;
+    for (const BenchScene& scene : bench_scenes()) names.emplace_back(scene.name);
+    return names;
+}
+
+Words placement_names() {
+    return {"world", "instance"};
+}
+
+Words device_kinds() {
+    return {"auto", "cpu", "gpu"};
+}
+
+Words several_devices() {
+    return {"auto", "cpu", "gpu", "all"};
+}
+
+/// The values of a type of options whose name doesn't list them.
+struct KnownValues {
+    const char* type;
+    Words (*words)();
+    bool is_list;
+};
+
+constexpr std::array kKnownValues = {KnownValues{"CHANNELS", group_names, true},
+                                     KnownValues{"PLANES", plane_names, true},
+                                     KnownValues{"TESTS", test_names, true},
+                                     KnownValues{"SCENES", scene_names, true},
+                                     KnownValues{"PLACEMENTS", placement_names, true},
+                                     KnownValues{"VIEW", view_names, false},
+                                     KnownValues{"DEVICE", device_kinds, false},
+                                     KnownValues{"DEVICES", several_devices, false}};
 
 OptionFacts facts_of(const CLI::Option& option) {
     OptionFacts facts;
@@ -18,6 +79,12 @@ OptionFacts facts_of(const CLI::Option& option) {
     // A type such as "auto|bar" lists the values.
     if (facts.value.find('|') != std::string::npos)
         facts.words = CLI::detail::split(facts.value, '|');
+    for (const KnownValues& known : kKnownValues) {
+        if (facts.value != known.type) continue;
+        facts.words = known.words();
+        facts.is_list = known.is_list;
+        facts.is_device = facts.value.starts_with("DEVICE");
+    }
     facts.help = option.get_description();
     return facts;
 }

@@ -42,7 +42,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option(
            "--device", options.device,
            "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles")
-        ->type_name("DEVICE");
+        ->type_name("DEVICES");
     app.add_option("--device-timeout", options.device_timeout,
                    "seconds after which a device that doesn't answer ends the run")
         ->check(in_range(1, 1e6));

@@ -2,7 +2,6 @@
 #include "cli/settings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -14,23 +13,6 @@ namespace voxelume::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array kSettings = {
-    Setting{"assets", "VOXELUME_ASSETS", "folders of models, separated by colons", "none"},
-    Setting{"cache_dir", "VOXELUME_CACHE_DIR",
-            "folder of the cache, after colons behind folders that are only read; empty: keep "
-            "nothing",
-            "~/.cache/voxelume"},
-    Setting{"cache_mb", "VOXELUME_CACHE_MB", "size of the cache of models and worlds", "4096"},
-    Setting{"device", "VOXELUME_DEVICE", "what --device is without that option", "auto"},
-    Setting{"lanes", "VOXELUME_LANES", "rays that a work-item carries: 1, 4, 8 or 16",
-            "the device's own"},
-    Setting{"memory_mb", "VOXELUME_MEMORY_MB", "most that is used of a device's memory",
-            "all that it offers"},
-    Setting{"buffer_mb", "VOXELUME_BUFFER_MB", "most that one buffer takes",
-            "what the device allows"},
-    Setting{"progress", "VOXELUME_PROGRESS", "what --progress is without that option", "auto"},
-};
 
 struct FileValue {
     std::string value;
@@ -63,14 +45,20 @@ std::string with_home(const std::string& value) {
     return text;
 }
 
+/// Throws Error::usage for a value that the setting can't have. An empty one is none.
+void check(const Setting& setting, const std::string& value, const std::string& origin) {
+    if (value.empty() || setting.fault == nullptr) return;
+    if (const std::string fault = setting.fault(value); !fault.empty())
+        fail_usage("{}: {}", origin, fault);
+}
+
 /// Lines "name = value"; # begins a line of remarks.
 std::map<std::string, FileValue> read_file(const fs::path& file) {
     std::ifstream stream(file);
     if (!stream) fail_usage("{}: can't be read", file.string());
     std::map<std::string, FileValue> values;
     std::vector<std::string_view> names;
-    names.reserve(kSettings.size());
-    for (const Setting& setting : kSettings) names.emplace_back(setting.name);
+    for (const Setting& setting : settings()) names.emplace_back(setting.name);
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
         ++number;
@@ -81,11 +69,13 @@ std::map<std::string, FileValue> read_file(const fs::path& file) {
         if (sign == std::string::npos)
             fail_usage("{}:{}: {}: give a setting as NAME = VALUE", file.string(), number,
                        quote(line));
-        if (std::ranges::find(names, name) == names.end())
+        const auto setting = std::ranges::find(settings(), name, &Setting::name);
+        if (setting == settings().end())
             fail_usage("{}:{}: no setting named {}{}", file.string(), number, quote(name),
                        suggest(name, names));
         FileValue value{value_of(trimmed(line.substr(sign + 1))), number};
         if (name == "assets" || name == "cache_dir") value.value = with_home(value.value);
+        check(*setting, value.value, fmt::format("{}:{}: {}", file.string(), number, name));
         const auto [known, is_new] = values.emplace(name, value);
         if (!is_new)
             fail_usage("{}:{}: {} is set already in line {}", file.string(), number, name,
@@ -106,18 +96,19 @@ std::vector<SettingValue>& loaded() {
 
 }  // namespace
 
-std::span<const Setting> settings() {
-    return kSettings;
+std::string settings_file_origin() {
+    if (environment("VOXELUME_CONFIG") != nullptr) return "VOXELUME_CONFIG";
+    const char* shared = environment("XDG_CONFIG_HOME");
+    return shared != nullptr && fs::path(shared).is_absolute() ? "XDG_CONFIG_HOME" : "HOME";
 }
 
 fs::path settings_file() {
-    if (const char* named = environment("VOXELUME_CONFIG")) return named;
-    const char* shared = environment("XDG_CONFIG_HOME");
-    if (shared != nullptr && fs::path(shared).is_absolute())
-        return fs::path(shared) / "voxelume" / "config";
-    const char* home = environment("HOME");
-    return home != nullptr && *home != '\0' ? fs::path(home) / ".config" / "voxelume" / "config"
-                                            : fs::path();
+    const std::string origin = settings_file_origin();
+    const char* value = environment(origin.c_str());
+    if (origin == "VOXELUME_CONFIG") return value;
+    if (origin == "XDG_CONFIG_HOME") return fs::path(value) / "voxelume" / "config";
+    return value != nullptr && *value != '\0' ? fs::path(value) / ".config" / "voxelume" / "config"
+                                              : fs::path();
 }
 
 namespace {
@@ -125,7 +116,7 @@ namespace {
 /// Notes every setting's value, and puts those of the file into the environment.
 void take(const fs::path& file, const std::map<std::string, FileValue>& values) {
     loaded().clear();
-    for (const Setting& setting : kSettings) {
+    for (const Setting& setting : settings()) {
         const auto in_file = values.find(setting.name);
         if (const char* value = environment(setting.variable)) {
             loaded().push_back({&setting, value, setting.variable});
@@ -150,6 +141,9 @@ void load_settings() {
         take(file, read_file(file));
     else if (!file.empty() && environment("VOXELUME_CONFIG") != nullptr)
         fail_usage("VOXELUME_CONFIG is {}: there is no such file", quote(file.string()));
+    for (const Setting& setting : settings())
+        if (const char* value = environment(setting.variable))
+            check(setting, value, fmt::format("{}={}", setting.variable, value));
 }
 
 const std::vector<SettingValue>& loaded_settings() {

@@ -15,10 +15,20 @@ struct Setting {
     const char* variable;      ///< in the environment, where it counts more
     const char* help;          ///< what it means
     const char* default_text;  ///< what holds without it, for people
+    std::string (*fault)(const std::string& value) = nullptr;  ///< what is wrong; null: nothing is
 };
 
 /// All of them. `voxelume config` and the manual page are made from this table.
 std::span<const Setting> settings();
+
+/// A variable of the environment that belongs to other programs, too.
+struct SharedVariable {
+    const char* variable;
+    const char* help;  ///< what it does to this program
+};
+
+/// All of them that the program reads.
+std::span<const SharedVariable> shared_variables();
 
 /// The value of a setting, and where it comes from.
 struct SettingValue {
@@ -31,10 +41,14 @@ struct SettingValue {
 /// ~/.config. Empty if VOXELUME_CONFIG is set to nothing.
 std::filesystem::path settings_file();
 
+/// Where the name of that file comes from: a variable of the environment.
+std::string settings_file_origin();
+
 /// Reads the file, if there is one, and puts its values into the environment where that has none,
 /// for the library and for commands. To be called once, before there are threads. Throws
 /// Error::usage for a file that can't be read, lines that are no settings, and a file that
-/// VOXELUME_CONFIG names and that isn't there; no value of the file holds then.
+/// VOXELUME_CONFIG names and that isn't there; no value of the file holds then. Throws it for wrong
+/// values of the environment, too.
 void load_settings();
 
 /// What load_settings found, in the order of the table.

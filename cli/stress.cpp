@@ -120,7 +120,7 @@ Action add_stress(CLI::App& app) {
     app.add_option("--seed", command->seed, "seed of the cases, 1 by default")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--only", command->only, list_of_tests())
-        ->type_name("NAMES")
+        ->type_name("TESTS")
         ->allow_extra_args(false);
     app.add_option("--first", command->first, "number of the first case, to repeat one")
         ->check(in_range(0, 1e18, Number::whole));

@@ -49,7 +49,7 @@ py::dict difference(const Image& a, const Image& b) {
         channels[py::str(c.channel)] =
             py::dict(py::arg("max") = c.max, py::arg("rmse") = c.rmse, py::arg("mae") = c.mae,
                      py::arg("mrse") = c.mrse, py::arg("differing") = c.differing,
-                     py::arg("unmatched") = c.unmatched);
+                     py::arg("unmatched") = c.unmatched, py::arg("is_id") = c.is_id);
     return py::dict(py::arg("channels") = channels, py::arg("only_in_a") = found.only_in_a,
                     py::arg("only_in_b") = found.only_in_b, py::arg("flip") = found.flip);
 }

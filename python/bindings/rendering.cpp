@@ -40,6 +40,10 @@ class DevicesInUse {
 }  // namespace
 
 voxelume::Channels channels_named(const std::vector<std::string>& names) {
+    if (names.empty())
+        throw voxelume::Error(voxelume::ErrorKind::usage,
+                              "channels names none: leave it out for "
+                              "the usual ones");
     voxelume::Channels channels = voxelume::kNoChannels;
     const auto rows = voxelume::channel_table();
     for (const std::string& name : names) {

@@ -10,15 +10,16 @@
 degrees, colours are linear Rec. 709. Processes that render are started with "spawn", not "fork":
 OpenCL's threads don't live on in a fork.
 """
+from ._devices import limit_memory, open_devices
 from ._errors import Error
 from ._native import (Device, DeviceInfo, Image, Scene, Volume, __version__, compare,
-                      limit_memory, list_devices, open_devices)
+                      list_devices)
 from ._pictures import dense, png_of
 from ._rendering import (plan, render, render_frames, render_volume, scene_of_voxels, voxels)
 from ._scenes import parse_scene, scene
 
 __all__ = [
     "Device", "DeviceInfo", "Error", "Image", "Scene", "Volume", "__version__", "compare", "dense",
-    "limit_memory", "list_devices", "open_devices", "parse_scene", "plan", "png_of", "render", "render_frames",
-    "render_volume", "scene", "scene_of_voxels", "voxels",
+    "limit_memory", "list_devices", "open_devices", "parse_scene", "plan", "png_of", "render",
+    "render_frames", "render_volume", "scene", "scene_of_voxels", "voxels",
 ]

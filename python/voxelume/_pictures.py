@@ -8,11 +8,14 @@ import tempfile
 import numpy as np
 import numpy.typing as npt
 
+from ._arguments import instance, number
 from ._native import Image, Volume
 
 
 def png_of(image: Image, exposure: float = 0.0) -> bytes:
     """The image as the bytes of a PNG file; `exposure` is in stops."""
+    instance("image", image, Image)
+    number("exposure", exposure, 64)
     with tempfile.TemporaryDirectory(prefix="voxelume-") as folder:
         file = os.path.join(folder, "image.png")
         image.write(file, exposure=exposure)
@@ -25,6 +28,7 @@ def dense(volume: Volume) -> npt.NDArray[np.float32]:
 
     It holds R, G, B, linear Rec. 709 and not multiplied by the opacity, and the opacity.
     """
+    instance("volume", volume, Volume)
     x, y, z = volume.size
     cells = np.zeros((z * y * x, 4), np.float32)
     cells[volume.indices, :3] = volume.colors

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import json
 import os
-import threading
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Literal, Union
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._arguments import choice, flag, function, instance, items, number, paths, text, whole
+from ._arguments import size as checked_size
 from ._colors import voxel_bytes
-from ._errors import Error
+from ._devices import Devices, opened
 from ._native import Device, Image, Scene, Volume
 from ._scenes import SceneLike, scene as make_scene
-
-#: Devices that render: those of `open_devices`, one of them, or its selector.
-Devices = Union[Sequence[Device], Device, str, None]
 
 #: Hears the share of a call that is done, 0..1, and the frame that got on.
 Progress = Callable[[float, int], object]
@@ -32,35 +29,21 @@ Channel = Literal["color", "depth", "position", "normal", "object", "distance", 
                   "lights", "motion"]
 ALL_CHANNELS: tuple[Channel, ...] = ("color", "depth", "position", "normal", "object")
 
-_usual_devices: list[Device] = []
-_usual_devices_lock = threading.Lock()
 
-
-def _opened(devices: Devices) -> list[Device]:
-    if isinstance(devices, Device):
-        return [devices]
-    if isinstance(devices, str):
-        return _native.open_devices(devices)
-    if devices is not None:
-        return list(devices)
-    # Kept open: a device has its kernels ready the second time.
-    with _usual_devices_lock:
-        if not _usual_devices:
-            _usual_devices.extend(_native.open_devices())
-        return list(_usual_devices)
-
-
-def _files(names: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[str]:
-    if isinstance(names, (str, os.PathLike)):
-        return [os.fspath(names)]
-    return [os.fspath(name) for name in names]
+def _options(channels: Any, progress: Any, warn: Any, strict: Any, cache: Any) -> _native.Options:
+    """What a call takes besides scene, frames and devices."""
+    names = [channels] if isinstance(channels, str) else items("channels", channels,
+                                                              "a list of names")
+    return _native.Options([text(f"channels[{i}]", name) for i, name in enumerate(names)],
+                           function("progress", progress), function("warn", warn),
+                           flag("strict", strict), flag("cache", cache))
 
 
 def render(scene: SceneLike, *, frame: int = 1, devices: Devices = None,
-           channels: Sequence[Channel] = ALL_CHANNELS, size: tuple[int, int] | None = None,
-           samples: int | None = None, light: str | None = None,
-           progress: Progress | None = None, warn: Warn | None = None, strict: bool = False,
-           cache: bool = True) -> Image:
+           channels: Channel | Sequence[Channel] = ALL_CHANNELS,
+           size: tuple[int, int] | None = None, samples: int | None = None,
+           light: str | None = None, progress: Progress | None = None, warn: Warn | None = None,
+           strict: bool = False, cache: bool = True) -> Image:
     """Renders the image of a frame.
 
     `scene` is what `voxelume.scene` takes. Several devices share the image, and its bits are the
@@ -71,16 +54,17 @@ def render(scene: SceneLike, *, frame: int = 1, devices: Devices = None,
     Raises Error.
     """
     made = make_scene(scene, size=size, samples=samples, light=light)
-    options = _native.Options(list(channels), progress, warn, strict, cache)
-    return _native.render_image(made, _opened(devices), frame, options)
+    options = _options(channels, progress, warn, strict, cache)
+    return _native.render_image(made, opened(devices), whole("frame", frame, 1), options)
 
 
 def render_volume(scene: SceneLike, *, frame: int = 1, devices: Devices = None,
                   progress: Progress | None = None, warn: Warn | None = None,
                   strict: bool = False, cache: bool = True) -> Volume:
     """Renders the volumetric image of what the scene's display shows; otherwise as `render`."""
-    options = _native.Options(list(ALL_CHANNELS), progress, warn, strict, cache)
-    return _native.render_volume(make_scene(scene), _opened(devices), frame, options)
+    options = _options(ALL_CHANNELS, progress, warn, strict, cache)
+    made = make_scene(scene)
+    return _native.render_volume(made, opened(devices), whole("frame", frame, 1), options)
 
 
 def render_frames(scene: SceneLike, frames: Iterable[int] | None = None, *,
@@ -88,7 +72,7 @@ def render_frames(scene: SceneLike, frames: Iterable[int] | None = None, *,
                   volumes: str | os.PathLike[str] | Iterable[str | os.PathLike[str]] = (),
                   deliver: Deliver | None = None, wants: Literal["images", "volumes",
                                                                  "both"] = "images",
-                  devices: Devices = None, channels: Sequence[Channel] = ALL_CHANNELS,
+                  devices: Devices = None, channels: Channel | Sequence[Channel] = ALL_CHANNELS,
                   progress: Progress | None = None, warn: Warn | None = None,
                   strict: bool = False, cache: bool = True) -> dict[str, Any]:
     """Renders frames, all of the scene's animation if none are given, and returns statistics.
@@ -98,19 +82,23 @@ def render_frames(scene: SceneLike, frames: Iterable[int] | None = None, *,
     two is rendered for it. A frame costs what its changes cost.
     """
     made = make_scene(scene)
-    numbers = list(frames) if frames is not None else list(range(1, made.frames + 1))
-    options = _native.Options(list(channels), progress, warn, strict, cache)
+    given = range(1, made.frames + 1) if frames is None else items("frames", frames, "a list")
+    numbers = [whole(f"frames[{i}]", frame, 1) for i, frame in enumerate(given)]
+    choice("wants", wants, ("images", "volumes", "both"))
+    options = _options(channels, progress, warn, strict, cache)
     statistics = _native.render_frames(
-        made, _opened(devices), numbers, _files(images), _files(volumes), deliver,
-        deliver is not None and wants != "volumes", deliver is not None and wants != "images",
-        options)
+        made, opened(devices), numbers, paths("images", images), paths("volumes", volumes),
+        function("deliver", deliver), deliver is not None and wants != "volumes",
+        deliver is not None and wants != "images", options)
     result: dict[str, Any] = json.loads(statistics)
     return result
 
 
 def plan(scene: SceneLike, device: Device | None = None) -> dict[str, Any]:
     """What rendering a scene takes of a device, and whether it fits, before memory is taken."""
-    return _native.plan(make_scene(scene), device or _opened(None)[0])
+    if device is not None:
+        instance("device", device, Device)
+    return _native.plan(make_scene(scene), device or opened(None)[0])
 
 
 def scene_of_voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: float | None = None,
@@ -119,17 +107,20 @@ def scene_of_voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: floa
                     parallel: bool = False, ground: bool = True,
                     background: Sequence[float] | None = None) -> Scene:
     """The scene that `voxels` renders."""
-    if up not in ("y", "z"):
-        raise Error(f"up is \"y\" or \"z\", not {up!r}")
+    choice("up", up, ("y", "z"))
+    studio: dict[str, Any] = {
+        "size": checked_size("size", size), "longitude": number("longitude", longitude, 360),
+        "latitude": number("latitude", latitude, 90), "parallel": flag("parallel", parallel),
+        "ground": flag("ground", ground)}
+    if background is not None:
+        each = items("background", background, "three numbers R, G, B", 3)
+        studio["background"] = [number(f"background[{i}]", x) for i, x in enumerate(each)]
+    rays = whole("samples", samples, 1, 4096)
     codes = voxel_bytes(array, colors, threshold)
     if up == "z":
         # (x, y, z) -> (x, z, -y): the array stays where it is, its strides change.
         codes = codes.transpose(0, 2, 1, 3)[:, :, ::-1]
-    studio: dict[str, Any] = {"size": tuple(size), "longitude": longitude, "latitude": latitude,
-                              "parallel": parallel, "ground": ground}
-    if background is not None:
-        studio["background"] = [float(x) for x in background]
-    return _native.scene_of_voxels(codes, studio).with_samples(samples)
+    return _native.scene_of_voxels(codes, studio).with_samples(rays)
 
 
 def voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: float | None = None,
@@ -147,10 +138,11 @@ def voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: float | None 
     - (x, y, z, 3): R, G, B of each voxel; black ones are not there.
     - (x, y, z, 4): R, G, B and the opacity; 0: not there.
 
-    Colours are sRGB: bytes, or floats of 0..1. `colors` gives voxels (x, y, z) theirs: one colour,
-    or (x, y, z, 3 or 4). `up` is the axis that points up, "z" as in most plots, or "y". The
-    observer stands `longitude` degrees to the right of the front, which is -y for "z" and +z for
-    "y", and `latitude` degrees above the horizon; `parallel` gives isometric pictures.
+    Voxels of which a numpy mask hides a value are not there. Colours are sRGB: bytes, or floats of
+    0..1. `colors` gives voxels (x, y, z) theirs: one colour, or (x, y, z, 3 or 4). `up` is the axis
+    that points up, "z" as in most plots, or "y". The observer stands `longitude` degrees to the
+    right of the front, which is -y for "z" and +z for "y", and `latitude` degrees above the
+    horizon; `parallel` gives isometric pictures.
     """
     made = scene_of_voxels(array, colors=colors, threshold=threshold, up=up, size=size,
                            samples=samples, longitude=longitude, latitude=latitude,

@@ -142,22 +142,32 @@ Report describe_voxel_file(const fs::path& path) {
 
 using Describe = Report (*)(const fs::path&);
 
-/// By what the file begins with; meshes have no mark of their own, so they are what is left.
+/// A kind of file, with its first bytes and the ending of its name.
+struct FileKind {
+    std::string_view mark;
+    const char* ending;
+    Describe describe;
+};
+
+/// By what the file begins with. Where that is nothing known, its name has the right reader refuse
+/// it; meshes have no mark of their own, so they are what is left.
 Describe find_description(const fs::path& path) {
-    constexpr std::array<std::pair<std::string_view, Describe>, 6> kKinds = {
-        {{{"\x76\x2f\x31\x01", 4}, describe_exr},
-         {{"\x89PNG\r\n\x1a\n", 8}, describe_png},
-         {{" BDV\0\0\0\0", 8}, describe_vdb},
-         {{"\x89VXM\r\n\x1a\n", 8}, describe_model},
-         {{"Kvxl", 4}, describe_kv6},
-         {{"VOX ", 4}, describe_vox}}};
+    constexpr std::array<FileKind, 6> kKinds = {{{{"\x76\x2f\x31\x01", 4}, ".exr", describe_exr},
+                                                 {{"\x89PNG\r\n\x1a\n", 8}, ".png", describe_png},
+                                                 {{" BDV\0\0\0\0", 8}, ".vdb", describe_vdb},
+                                                 {{"\x89VXM\r\n\x1a\n", 8}, ".vxm", describe_model},
+                                                 {{"Kvxl", 4}, ".kv6", describe_kv6},
+                                                 {{"VOX ", 4}, ".vox", describe_vox}}};
     const InputFile file(path);
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());
-    for (const auto& [mark, describe] : kKinds)
-        if (start.starts_with(mark)) return describe;
+    for (const FileKind& kind : kKinds)
+        if (start.starts_with(kind.mark)) return kind.describe;
+    const std::string ending = ending_of(path);
+    for (const FileKind& kind : kKinds)
+        if (ending == kind.ending) return kind.describe;
     if (voxel_file_format(path) != nullptr) return describe_voxel_file;
-    return ending_of(path) == ".json" ? describe_volume_header : describe_mesh;
+    return ending == ".json" ? describe_volume_header : describe_mesh;
 }
 
 }  // namespace

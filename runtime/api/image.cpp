@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/api/exposure.hpp"
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
@@ -100,7 +101,7 @@ PngOptions png_options(const v1::Image::Implementation& image,
     const api::Attributes attributes = attributes_for(image, ".png", options);
     if (const auto stamp = attributes.find(api::kStamp); stamp != attributes.end())
         png.stamp = stamp->second;
-    png.exposure = float(options.exposure);
+    png.exposure = api::exposure_inside(options.exposure);
     png.view_transform = transform_of(options.view_transform);
     if (options.png_bits != 8 && options.png_bits != 16)
         throw Error(ErrorKind::usage, "a PNG has 8 or 16 bits a channel, not {}", options.png_bits);

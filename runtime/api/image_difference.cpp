@@ -57,8 +57,8 @@ bool wants_flip(const CompareOptions& options) {
 v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
     v1::ImageDifference result;
     for (const ChannelDifference& c : difference.channels)
-        result.channels.push_back(
-            {c.channel, c.largest, c.rmse, c.mae, c.mrse, c.differing, c.unmatched, c.above});
+        result.channels.push_back({c.channel, c.largest, c.rmse, c.mae, c.mrse, c.differing,
+                                   c.unmatched, c.above, c.is_id});
     result.only_in_a = difference.only_in_a;
     result.only_in_b = difference.only_in_b;
     result.pixels = difference.pixels;

@@ -12,9 +12,11 @@
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/base/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "runtime/render/motion_vectors.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
@@ -65,6 +67,17 @@ Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
     return wanted;
 }
 
+/// Throws Error::usage for names of files that can't be written, before a frame is rendered.
+void check_names(const v1::FrameJob& job) {
+    for (const v1::FrameFiles& frame : job.frames) {
+        for (const std::filesystem::path& image : frame.images)
+            if (!is_exr(image) && ending_of(image) != ".png")
+                throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
+                            SourcePlace(image.string()));
+        for (const std::filesystem::path& volume : frame.volumes) volume_format_of(volume);
+    }
+}
+
 /// Lets a caller hear of compiling as long as it lives.
 class CompilerWatch {
   public:
@@ -99,6 +112,7 @@ class Run {
 
     v1::Statistics render() {
         const auto start = Clock::now();
+        check_names(job_);
         for (const Device& device : devices_) device.time_kernels(options_.time_kernels);
         const CompilerWatch watch(devices_, api::callback(options_.compiling));
         const BatchOutcome outcome = render_frames(

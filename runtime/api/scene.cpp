@@ -2,6 +2,8 @@
 // Scenes for callers.
 #include "runtime/voxelume/scene.hpp"
 
+#include <cmath>
+
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
@@ -140,10 +142,11 @@ Scene Scene::with_samples(int samples) const {
 
 Scene Scene::with_noise(double error, double seconds, int max_samples) const {
     return api::guarded([&] {
-        if (!(error >= 0) || !(seconds >= 0) || error + seconds == 0)
+        if (!(error >= 0) || !(seconds >= 0) || error + seconds == 0 ||
+            !std::isfinite(error + seconds))
             throw voxelume::Error(voxelume::ErrorKind::usage,
-                                  "an image's noise and seconds are at least 0, and one of them "
-                                  "is above 0, not {} and {}",
+                                  "an image's noise and seconds are numbers of at least 0, and one "
+                                  "of them is above 0, not {} and {}",
                                   error, seconds);
         if (max_samples < 32 || max_samples > 4096)
             throw voxelume::Error(voxelume::ErrorKind::usage,

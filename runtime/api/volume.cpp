@@ -2,10 +2,12 @@
 // Volumetric images for callers: their arrays, files and views.
 #include "runtime/image/volume.hpp"
 
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <mutex>
 
 #include "runtime/api/convert.hpp"
+#include "runtime/api/exposure.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
@@ -36,7 +38,7 @@ VolumeOptions options_inside(const v1::VolumeFileOptions& options) {
     if (options.format) result.format = static_cast<VolumeFormat>(*options.format);
     result.compress = options.compress;
     result.all_values = options.all_values;
-    result.device.exposure = float(options.exposure);
+    result.device.exposure = api::exposure_inside(options.exposure);
     result.device.dither = static_cast<Dither>(options.dither);
     result.device.sweep = static_cast<SweepAxis>(options.sweep);
     result.device.angles = options.angles;
@@ -45,6 +47,10 @@ VolumeOptions options_inside(const v1::VolumeFileOptions& options) {
 }
 
 ViewPoint view_inside(const v1::ViewPoint& from) {
+    constexpr double kMax = 360;
+    if (!(std::abs(from.around) <= kMax) || !(std::abs(from.above) <= kMax))
+        throw Error(ErrorKind::usage, "a view is from -{0} to {0} degrees, not {1} and {2}", kMax,
+                    from.around, from.above);
     return {glm::radians(from.around), glm::radians(from.above)};
 }
 
@@ -141,7 +147,8 @@ Image Volume::view(ViewPoint from, Size size) const {
 
 void Volume::write_page(const std::filesystem::path& file, ViewPoint from, double exposure) const {
     api::guarded([&] {
-        write_volume_page(file, api::inside(*this), {view_inside(from), float(exposure)});
+        write_volume_page(file, api::inside(*this),
+                          {view_inside(from), api::exposure_inside(exposure)});
     });
 }
 

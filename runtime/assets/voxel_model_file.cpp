@@ -8,6 +8,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
@@ -168,11 +169,14 @@ VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, 
         if (const VoxelFileFormat* format = voxel_file_format(path))
             return read_voxel_file(*format, path, surface, values);
     if (values.is_there()) file.refuse("has voxels and no values: leave out \"iso\" and \"label\"");
-    if (start.starts_with("VOX ")) return read_vox_model(read_vox_file(path), surface, part);
+    const bool is_model = start == kModelStart, is_vdb = start == std::string(" BDV\0\0\0\0", 8);
+    // The name counts where nothing is known to begin like this: the format's reader refuses it.
+    const std::string ending = is_model || is_vdb ? "" : ending_of(path);
+    if (start.starts_with("VOX ") || ending == ".vox")
+        return read_vox_model(read_vox_file(path), surface, part);
     if (part != 0) file.refuse("is one model; only .vox files have parts");
-    if (start == kModelStart) return read_model_voxels(path, surface);
-    if (start != std::string(" BDV\0\0\0\0", 8))
-        file.refuse("is of no format of voxels that voxelume reads");
+    if (is_model || ending == ".vxm") return read_model_voxels(path, surface);
+    if (!is_vdb && ending != ".vdb") file.refuse("is of no format of voxels that voxelume reads");
     if (lists_primitives(surface))
         file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");
     return model_of(read_vdb_voxels(path, surface), surface, file);

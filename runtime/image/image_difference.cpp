@@ -68,7 +68,7 @@ ChannelDifference compare_values(const std::string& name, const Plane<float>& a,
 
 ChannelDifference compare_values(const std::string& name, const Plane<uint32_t>& a,
                                  const Plane<uint32_t>& b) {
-    ChannelDifference result{name};
+    ChannelDifference result{.channel = name, .is_id = true};
     for (size_t i = 0; i < a.size(); ++i)
         if (a[i] != b[i]) ++result.differing;
     return result;

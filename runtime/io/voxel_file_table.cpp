@@ -33,6 +33,10 @@ bool is_named(const VoxelFileFormat& format, const std::filesystem::path& path) 
     });
 }
 
+/// What files begin with that others read: OpenVDB, MagicaVoxel, and this program's models.
+constexpr std::array<std::string_view, 3> kMarksOfOthers = {
+    {{" BDV\0\0\0\0", 8}, "VOX ", "\x89VXM\r\n\x1a\n"}};
+
 }  // namespace
 
 std::span<const VoxelFileFormat> voxel_file_table() {
@@ -45,9 +49,11 @@ const VoxelFileFormat* voxel_file_format(const std::filesystem::path& path) {
     file.read(0, start.data(), start.size());
     for (const VoxelFileFormat& format : kVoxelFiles)
         if (!format.mark.empty() && start.starts_with(format.mark)) return &format;
-    for (const VoxelFileFormat& format : kVoxelFiles)
-        if (format.mark.empty() && is_named(format, path)) return &format;
-    return nullptr;
+    // A name counts for a damaged mark, too, so that the format's own reader refuses the file.
+    const VoxelFileFormat* const named = voxel_format_named(path);
+    const bool is_of_others = std::ranges::any_of(
+        kMarksOfOthers, [&](std::string_view mark) { return start.starts_with(mark); });
+    return named && (named->mark.empty() || !is_of_others) ? named : nullptr;
 }
 
 const VoxelFileFormat* voxel_format_named(const std::filesystem::path& name) {

@@ -7,6 +7,7 @@
 #include "runtime/opencl/device.hpp"
 #include "runtime/opencl/device_settings.hpp"
 #include "runtime/opencl/platforms.hpp"
+#include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/selector.hpp"
 #include "runtime/opencl/self_test.hpp"
 
@@ -43,6 +44,7 @@ std::string new_fault(const Device& device) {
     try {
         std::string fault = find_fault(device);
         keep_fault(device.info(), fault);
+        share_compiled_kernels(device.info());
         return fault;
     } catch (const Error& error) {
         const std::string text = error.what();

@@ -209,7 +209,7 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     }
     std::vector<fs::path> unpacked;
     try {
-        if (const auto bytes = cache.read(key)) unpacked = unpack(folder_, *bytes);
+        if (const auto bytes = turn_.read(cache, key)) unpacked = unpack(folder_, *bytes);
     } catch (const std::exception&) {
         unpacked.clear();  // the disk is full by now: PoCL compiles the missing files
     }
@@ -265,6 +265,14 @@ void PoclFolder::publish_changes(const DiskCache& cache) {
 void PoclFolder::publish(const DiskCache& cache) {
     const std::lock_guard guard(mutex_);
     publish_changes(cache);
+    turn_.release();
+}
+
+void PoclFolder::share(const DiskCache& cache) {
+    const std::lock_guard guard(mutex_);
+    if (!turn_.is_taken()) return;
+    publish_changes(cache);
+    turn_.release();
 }
 
 }  // namespace voxelume

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/base/disk_cache.hpp"
+#include "runtime/opencl/compile_turn.hpp"
 
 namespace voxelume {
 
@@ -26,8 +27,9 @@ struct ProgramPart {
 ///
 /// So every process has a folder of its own. Before a program is built, its files of earlier runs
 /// are restored from a checksummed entry of our cache. When a device is closed, new files (PoCL
-/// compiles a kernel at its first launch) become the entry. A user who sets POCL_CACHE_DIR gets
-/// PoCL's own behaviour.
+/// compiles a kernel at its first launch) become the entry; a process that has the turn to compile
+/// shares them after its first frame already. A user who sets POCL_CACHE_DIR gets PoCL's own
+/// behaviour.
 class PoclFolder {
   public:
     /// The process's folder.
@@ -52,6 +54,9 @@ class PoclFolder {
     /// Writes to `cache` what PoCL compiled since the last call.
     void publish(const DiskCache& cache);
 
+    /// Likewise where other processes may wait for it, and ends their waiting.
+    void share(const DiskCache& cache);
+
     PoclFolder(const PoclFolder&) = delete;
     PoclFolder& operator=(const PoclFolder&) = delete;
 
@@ -74,6 +79,7 @@ class PoclFolder {
     int lock_ = -1;  ///< held while the process lives: a folder without a held lock is stale
     int process_;    ///< a forked child does not touch the folder
     std::map<std::string, ProgramFiles> programs_;  ///< by key
+    CompileTurn turn_;  ///< from the first program that the cache lacks until it has it
 };
 
 }  // namespace voxelume

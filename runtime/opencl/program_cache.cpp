@@ -13,6 +13,7 @@
 
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/compile_turn.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/kernel_slice.hpp"
 #include "runtime/opencl/kernel_source.hpp"
@@ -74,7 +75,8 @@ std::string log_of(const cl::Program& program, const cl::Device& device) {
     }
 }
 
-cl::Program compile(const Device& device, const ProgramText& text) {
+cl::Program compile(const Device& device, const std::string& label, const ProgramText& text) {
+    const DeviceCall call(device.info(), "compiling ", label);
     const auto& [source, options] = text;
     cl::Program program(device.context(), source);
     const cl_device_id id = device.handle()();
@@ -93,19 +95,22 @@ cl::Program compile(const Device& device, const ProgramText& text) {
 /// The same with PoCL, which reads its 17,000 declarations for each program: 80 ms. So it is told
 /// that it has read them (_OPENCL_H_), and given those that kernels use. Where that doesn't
 /// compile, because of the source or the version of PoCL, it compiles as other drivers do.
-cl::Program compile_with_pocl(const Device& device, const ProgramText& text) {
+cl::Program compile_with_pocl(const Device& device, const std::string& label,
+                              const ProgramText& text) {
     try {
-        return compile(device, {declarations() + text.source, text.options + " -D_OPENCL_H_"});
+        return compile(device, label,
+                       {declarations() + text.source, text.options + " -D_OPENCL_H_"});
     } catch (const Error&) {
-        return compile(device, text);
+        return compile(device, label, text);
     }
 }
 
 /// The program from the bytes that its driver gave us in an earlier run; empty if the driver now
 /// rejects them.
-std::optional<cl::Program> from_binary(const Device& device, const std::string& bytes,
-                                       const std::string& options) {
+std::optional<cl::Program> from_binary(const Device& device, const std::string& label,
+                                       const std::string& bytes, const std::string& options) {
     try {
+        const DeviceCall call(device.info(), "compiling ", label);
         const cl::Program::Binaries binaries = {{bytes.begin(), bytes.end()}};
         cl::Program program(device.context(), {device.handle()}, binaries);
         program.build(device.handle(), options.c_str());
@@ -116,15 +121,17 @@ std::optional<cl::Program> from_binary(const Device& device, const std::string& 
 }
 
 /// Builds with an ordinary driver: its binary is read right after the build.
-cl::Program build_with_binary(const Device& device, const ProgramText& text) {
+cl::Program build_with_binary(const Device& device, const std::string& label,
+                              const ProgramText& text) {
     const DiskCache store = program_store();
     const std::string key = key_of(device.info(), "program", text);
-    if (const auto bytes = store.read(key))
-        if (auto program = from_binary(device, *bytes, text.options)) {
+    CompileTurn turn;
+    if (const auto bytes = turn.read(store, key))
+        if (auto program = from_binary(device, label, *bytes, text.options)) {
             ++device.counters().programs_from_cache;
             return std::move(*program);
         }
-    cl::Program program = compile(device, text);
+    cl::Program program = compile(device, label, text);
     try {
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.size() == 1 && !binaries[0].empty())
@@ -137,11 +144,12 @@ cl::Program build_with_binary(const Device& device, const ProgramText& text) {
 
 /// Builds with PoCL, which compiles twice if asked for a binary, and keeps its own files: see
 /// PoclFolder.
-cl::Program build_with_pocl(const Device& device, const ProgramText& text) {
+cl::Program build_with_pocl(const Device& device, const std::string& label,
+                            const ProgramText& text) {
     cl::Program program;
     const bool ready = PoclFolder::instance().build_with_files(
         program_store(), key_of(device.info(), "program", text), parts_of(device.info(), text),
-        [&] { program = compile_with_pocl(device, text); });
+        [&] { program = compile_with_pocl(device, label, text); });
     if (ready) ++device.counters().programs_from_cache;
     return program;
 }
@@ -153,14 +161,13 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     const uint64_t from_cache = device.counters().programs_from_cache;
     cl::Program program;
     try {
-        const DeviceCall call(device.info(), "compiling ", label);
         if (device.info().platform == kPoclPlatform)
-            program = build_with_pocl(device, text);
+            program = build_with_pocl(device, label, text);
         else if (device.info().platform == "Oclgrind")  // it interprets code; a binary would lose
                                                         // the line numbers
-            program = compile(device, text);
+            program = compile(device, label, text);
         else
-            program = build_with_binary(device, text);
+            program = build_with_binary(device, label, text);
     } catch (const Error& error) {
         throw Error(ErrorKind::build, "{} does not compile on \"{}\" with {}: {}", label,
                     device.info().name, text.options, error.what());
@@ -184,6 +191,10 @@ std::vector<std::string> program_sources(const Device& device) {
 
 void keep_compiled_kernels(const DeviceInfo& info) {
     if (info.platform == kPoclPlatform) PoclFolder::instance().publish(program_store());
+}
+
+void share_compiled_kernels(const DeviceInfo& info) {
+    if (info.platform == kPoclPlatform) PoclFolder::instance().share(program_store());
 }
 
 }  // namespace voxelume

@@ -8,6 +8,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/memory/plan.hpp"
+#include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/light_passes.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -152,6 +153,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         has_passes_ = !passes.empty() && !shown.render.noise.is_given();
         Image image = sampled_image(shown, world, report, weighted, sampled);
         add_passes(passes, world, weighted, sampled, report, image);
+        share_compiled_kernels(device_.info());
         if (!follows_) hits_.clear();
         if (!passes.empty()) finish_passes(shown, image);
         if (adds_color)

@@ -10,6 +10,7 @@
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
@@ -220,6 +221,7 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
     else
         render_lattice(work, volume);
     device.finish();  // so that kernels' times are known
+    share_compiled_kernels(device.info());
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;
     report.image_seconds +=

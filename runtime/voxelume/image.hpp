@@ -144,6 +144,7 @@ struct ChannelDifference {
     uint64_t unmatched = 0;  ///< of these, pixels with a value that isn't finite: in no mean
     uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; numbers of
                              ///< objects: unequal ones
+    bool is_id = false;      ///< ids, those of Cryptomatte among them: equal or unequal, never far
 };
 
 /// How far two images are apart.

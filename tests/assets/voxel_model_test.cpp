@@ -135,7 +135,9 @@ TEST_F(VoxelModels, ThatAreDamagedOrAnotherSurfaceAreRefusedInOneSentence) {
     expect_refused("a.vdb", Surface::smooth, "has no level set");
     expect_refused("a.vdb", Surface::exact, "no exact surface");
     expect_refused("b.vdb", Surface::cubes, "not a readable OpenVDB file");
-    expect_refused("c.vxm", Surface::cubes, "is of no format of voxels that voxelume reads");
+    expect_refused("c.vxm", Surface::cubes, "too short for a voxelume model");
+    put_bytes(folder / "c.ball", "solid");
+    expect_refused("c.ball", Surface::cubes, "is of no format of voxels that voxelume reads");
     expect_refused("d.vxm", Surface::cubes, "d.vxm");
     for (size_t i = 0; i < bytes.size(); i += 97) {
         std::string changed = bytes;

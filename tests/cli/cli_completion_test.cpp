@@ -76,6 +76,19 @@ TEST_F(CliCompletionTest, BashCompletesCommandsOptionsAndTheirWords) {
     EXPECT_EQ(completed("voxelume render --size tr"), "\n");
     put_bytes(folder / "two words.json", "");
     EXPECT_EQ(completed("voxelume render tw"), "two words.json\n");
+    EXPECT_EQ(completed("voxelume render a.json --device a"), "auto all\n");
+    EXPECT_EQ(completed("voxelume doctor --device a"), "auto\n");
+    EXPECT_THAT(completed("voxelume voxelize a.obj --device ''"), HasSubstr("gpu 0"));
+    EXPECT_EQ(completed("voxelume render --channels Crypto"), "CryptoObject CryptoMaterial\n");
+    EXPECT_EQ(completed("voxelume render --channels RGBA,Z,obj"), "RGBA,Z,objectId\n");
+    EXPECT_EQ(completed("voxelume render --channels = RGBA,P"), "RGBA,P\n");
+    EXPECT_EQ(completed("voxelume diff --channels R,object"), "R,objectId\n");
+    EXPECT_EQ(completed("voxelume render --view is"), "iso\n");
+    EXPECT_EQ(completed("voxelume stress --only ties,ran"), "ties,random\n");
+    EXPECT_EQ(completed("voxelume bench --only sph"), "sphere\n");
+    EXPECT_EQ(completed("voxelume bench --placement world,ins"), "world,instance\n");
+    EXPECT_EQ(completed("voxelume render --light ="), "local global\n");
+    EXPECT_EQ(completed("voxelume render --light = g"), "global\n");
 }
 
 TEST_F(CliCompletionTest, ZshAndFishOfferTheWordsOfArguments) {

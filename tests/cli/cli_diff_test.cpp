@@ -244,8 +244,35 @@ TEST_F(CliDiffTest, FramesTellWhatIsMissingOrNotFinite) {
     EXPECT_EQ(rows[1]["unmatched"], 2);
     EXPECT_EQ(rows[1]["channels"][2]["unmatched"], 2);
     EXPECT_THAT(run("diff a#.exr b#.exr").out, AllOf(HasSubstr("unmatched"), HasSubstr("G Z")));
-    EXPECT_THAT(run("diff a#.exr b#.exr --frames 1-3 -o d#.exr").err, HasSubstr("a3.exr: no such"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "d1.exr"));
+}
+
+TEST_F(CliDiffTest, FramesThatCantBeComparedStopNoOthers) {
+    for (const int frame : {1, 2, 3, 4}) {
+        put_exr(fmt::format("a{}.exr", frame), frame == 4 ? 7 : 0, 0.5f);
+        put_exr(fmt::format("b{}.exr", frame), 0, 0);
+    }
+    std::filesystem::remove(folder / "b2.exr");
+    const ProgramResult missing = run("diff a#.exr b#.exr --json -o d#.exr");
+    EXPECT_EQ(missing.exit_code, 4);
+    EXPECT_EQ(missing.err, "voxelume: b2.exr: no such file\n");
+    const Json report = Json::parse(missing.out);
+    EXPECT_EQ(report["not compared"], Json{2});
+    ASSERT_EQ(report["frames"].size(), 3u);
+    EXPECT_EQ(report["frames"][2]["frame"], 4);
+    EXPECT_EQ(report["frames"][2]["above"], 7);
+    EXPECT_TRUE(std::filesystem::exists(folder / "d4.exr"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "d2.exr"));
+    put_bytes(folder / "a3.exr", "no image");
+    const ProgramResult damaged = run("diff a#.exr b#.exr --fail-above 6 --frames 2-5");
+    EXPECT_EQ(damaged.exit_code, 4);
+    EXPECT_THAT(damaged.out, AllOf(HasSubstr("worst"), HasSubstr("not compared    2 3 5\n")));
+    EXPECT_THAT(damaged.err, AllOf(HasSubstr("b2.exr: no such file; 3 frames can't be compared; "),
+                                   HasSubstr("frame 4: 7 of 1000 pixels are above")));
+    write_exr(folder / "b2.exr", Image{2, 1, {{"R", {1, 2}}}, {}, {}});
+    const ProgramResult other_size = run("diff a#.exr b#.exr --frames 1,2");
+    EXPECT_EQ(other_size.exit_code, 1);
+    EXPECT_THAT(other_size.out, HasSubstr("not compared    2\n"));
+    EXPECT_EQ(run("diff a#.exr b#.exr --frames 5").exit_code, 4);
 }
 
 }  // namespace

@@ -76,6 +76,12 @@ TEST_F(CliShellsTest, ZshCompletesCommandsOptionsAndTheirValues) {
     EXPECT_THAT(asked_zsh(render + "--progress j"), HasSubstr("--progress json >"));
     EXPECT_THAT(asked_zsh(render + "--view-transform "),
                 AllOf(HasSubstr("agx"), HasSubstr("filmic"), HasSubstr("srgb")));
+    EXPECT_THAT(asked_zsh(render + "--device "),
+                AllOf(HasSubstr("gpu"), HasSubstr("all"), testing::ContainsRegex("0 +-- ")));
+    EXPECT_THAT(asked_zsh("voxelume doctor --device cp"), HasSubstr("--device cpu >"));
+    EXPECT_THAT(asked_zsh(render + "--channels RGBA,dis"), HasSubstr("RGBA,distance"));
+    EXPECT_THAT(asked_zsh("voxelume stress --only ties,ran"), HasSubstr("ties,random"));
+    EXPECT_THAT(asked_zsh(render + "--view is"), HasSubstr("--view iso >"));
     EXPECT_THAT(asked_zsh("voxelume render p"), HasSubstr("<voxelume render picture.json >"));
     EXPECT_THAT(asked_zsh("voxelume render tw"), HasSubstr("two\\ words.json >"));
     EXPECT_THAT(asked_zsh(render + "--stats-json pic"), HasSubstr("picture.json >"));
@@ -103,6 +109,13 @@ TEST_F(CliShellsTest, FishCompletesCommandsOptionsAndTheirValues) {
     EXPECT_EQ(asked_fish("voxelume render pic"), "picture.json ");
     EXPECT_EQ(asked_fish("voxelume render --stats-json pic"), "picture.json ");
     EXPECT_EQ(asked_fish("voxelume render --size pic"), "");
+    EXPECT_THAT(asked_fish("voxelume render --device "),
+                AllOf(HasSubstr("auto "), HasSubstr("all "), HasSubstr("0 ")));
+    EXPECT_THAT(asked_fish("voxelume doctor --device "), Not(HasSubstr("all ")));
+    EXPECT_EQ(asked_fish("voxelume render --channels RGBA,dis"), "RGBA,distance ");
+    EXPECT_EQ(asked_fish("voxelume render --channels dis"), "distance ");
+    EXPECT_EQ(asked_fish("voxelume bench --only sphere,bun"), "sphere,bunny ");
+    EXPECT_EQ(asked_fish("voxelume render --view is"), "iso ");
     // A file that has a command's name isn't one.
     EXPECT_EQ(asked_fish("voxelume render bench --no-ov"), "--no-overlap ");
     EXPECT_EQ(asked_fish("voxelume render bench --csv"), "");

@@ -87,4 +87,64 @@ TEST_F(CliVoxelFilesTest, VoxelizedCubesAreWrittenForOtherPrograms) {
     EXPECT_THAT(run("voxelize a.obj --resolution 20 -o c.vox").err, HasSubstr("cubes alone"));
 }
 
+TEST_F(CliVoxelFilesTest, DamagedFilesAreRefusedByTheReaderThatTheirNameNames) {
+    put_ball();
+    put_bytes(folder / "t.obj", "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n");
+    ASSERT_EQ(
+        run("voxelize t.obj --resolution 4 --surface cubes -o a.vxm -o a.vdb -o a.vox -o a.kv6 "
+            "-o a.binvox -o a.npy -o a.nrrd")
+            .exit_code,
+        0);
+    const std::pair<const char*, const char*> kinds[] = {
+        {"npy", "not a numpy array"},     {"nrrd", "not a NRRD file"},
+        {"kv6", "not a KV6 file"},        {"binvox", "not a binvox file"},
+        {"gox", "not a Goxel file"},      {"qb", "not a Qubicle file"},
+        {"vox", "not a MagicaVoxel"},     {"vxm", "not a voxelume model"},
+        {"vdb", "readable OpenVDB file"}, {"nii", "too short for a NIfTI file"}};
+    const auto expect = [&](const std::string& file, const char* words) {
+        for (const char* command : {"info {}", "check {}", "render {} -q -o o.png",
+                                    "convert {} o.vox", "voxelize {} -o o.vxm"}) {
+            const std::string line = fmt::format(fmt::runtime(command), file);
+            const ProgramResult result = run(line);
+            EXPECT_EQ(result.exit_code, 4) << line;
+            EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << line << result.err;
+            EXPECT_THAT(result.err, HasSubstr(file)) << line;
+            EXPECT_EQ(result.err.find("OpenVDB") == std::string::npos,
+                      !file.ends_with(".vdb") || line.starts_with("voxelize"))
+                << line << result.err;
+            const char* said = line.starts_with("voxelize") ? "that of a mesh" : words;
+            EXPECT_THAT(result.err, HasSubstr(said)) << line;
+            EXPECT_FALSE(std::filesystem::exists(folder / "o.png")) << line;
+            EXPECT_FALSE(std::filesystem::exists(folder / "o.vox")) << line;
+        }
+    };
+    for (const auto& [ending, words] : kinds) {
+        const std::string whole = std::string("a.") + ending;
+        put_bytes(folder / ("b." + std::string(ending)),
+                  "words that are no voxels, forty at least");
+        expect(std::string("b.") + ending, words);
+        if (!std::filesystem::exists(folder / whole)) continue;
+        const std::string bytes = bytes_of(folder / whole);
+        ASSERT_EQ(run("info " + whole).exit_code, 0) << whole;
+        put_bytes(folder / ("c." + std::string(ending)), "XXXX" + bytes.substr(4));
+        expect(std::string("c.") + ending, words);
+        put_bytes(folder / ("d." + std::string(ending)), bytes.substr(0, bytes.size() / 3));
+        expect(std::string("d.") + ending, "");
+    }
+}
+
+TEST_F(CliVoxelFilesTest, ARenamedFileIsReadByWhatItBeginsWith) {
+    put_bytes(folder / "t.obj", "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n");
+    ASSERT_EQ(
+        run("voxelize t.obj --resolution 4 --surface cubes -o a.vxm -o a.vdb -o a.vox -o a.npy")
+            .exit_code,
+        0);
+    for (const char* ending : {"vxm", "vdb", "vox"}) {
+        const std::string copy = std::string(ending) + ".npy";
+        std::filesystem::copy_file(folder / (std::string("a.") + ending), folder / copy);
+        EXPECT_EQ(run("info " + copy).exit_code, 0) << ending;
+        EXPECT_EQ(run("convert " + copy + " o.vox").exit_code, 0) << ending;
+    }
+}
+
 }  // namespace voxelume

@@ -133,7 +133,8 @@ TEST(MeshReader, TheContentDecidesWhereItSaysWhatItIs) {
         }
     }
     EXPECT_EQ(parse_mesh(samples::obj(false), "SCAN.OBJ").triangles.size(), 6u);
-    EXPECT_THAT(refusal(samples::obj(false), "scan.txt"), HasSubstr(".obj, .ply and .stl"));
+    EXPECT_THAT(refusal(samples::obj(false), "scan.txt"),
+                HasSubstr(".obj, .ply, .stl, .gltf and .glb are read"));
 }
 
 TEST(MeshReader, TrianglesWithoutAreaAndUnusedVerticesAreKept) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -158,6 +159,16 @@ TEST_F(ProgramCacheFiles, EightProcessesShareAColdFolder) {
         if (!device_keeps_programs()) continue;
         EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
     }
+}
+
+TEST_F(ProgramCacheFiles, OfProcessesThatStartTogetherOneCompiles) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    std::vector<int> compiled = compiled_by_processes(4, environment);
+    std::ranges::sort(compiled);
+    EXPECT_EQ(compiled, (std::vector<int>{0, 0, 0, 2}));
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "programs"))
+        EXPECT_NE(entry.path().extension(), ".turn") << entry.path();
 }
 
 TEST_F(ProgramCacheFiles, DamagedEntriesAreCompiledAgain) {

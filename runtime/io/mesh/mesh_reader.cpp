@@ -107,7 +107,9 @@ Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
         throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh of {} bytes",
                     SourcePlace(source.name), bytes.size());
     }
-    source.fail("neither name nor content is that of a mesh; .obj, .ply and .stl can be read");
+    source.fail(
+        "neither name nor content is that of a mesh; .obj, .ply, .stl, .gltf and .glb are "
+        "read, and `convert` turns files of voxels into others");
 }
 
 std::string read_mesh_bytes(const fs::path& path) {

@@ -52,9 +52,10 @@ struct Voxel {
 static_assert(sizeof(Voxel) == kVoxelBytes);
 
 Kv6Summary read_head(const InputFile& file) {
-    if (file.size() < kHeadBytes) file.refuse("the file ends too early; it is truncated");
     std::array<int32_t, 8> words{};  // magic, sizes, pivot, voxels
-    file.read(0, words.data(), sizeof words);
+    file.read(0, words.data(), std::min<uint64_t>(file.size(), sizeof words));
+    if (std::memcmp(words.data(), "Kvxl", 4) != 0) file.refuse("not a KV6 file");
+    if (file.size() < kHeadBytes) file.refuse("the file ends too early; it is truncated");
     std::array<float, 3> pivot{};
     std::memcpy(pivot.data(), &words[4], sizeof pivot);
     for (int axis = 0; axis < 3; ++axis) {

@@ -22,7 +22,8 @@ struct BinvoxHeader {
 };
 
 BinvoxHeader take_header(ByteReader& reader) {
-    if (!reader.take_line().starts_with("#binvox")) reader.refuse("not a binvox file");
+    if (reader.take_bytes(7) != "#binvox") reader.refuse("not a binvox file");
+    reader.take_line();
     BinvoxHeader header;
     for (int i = 0; i < 64; ++i) {
         std::istringstream line{std::string(reader.take_line())};
