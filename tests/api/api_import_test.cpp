@@ -96,7 +96,8 @@ TEST_F(ApiImport, NamedSidesAreThoseOfTheFile) {
     EXPECT_NEAR(sides(90, 0), 3.0 / 5, 0.03);
     EXPECT_NEAR(sides(0, 90), 7.0 / 3, 0.05);
     // The corner that is missing is at the top left of the front.
-    const Image front = picture({.longitude = 0, .latitude = 0, .parallel = true});
+    const Image front =
+        picture({.longitude = 0, .latitude = 0, .parallel = true, .size = {200, 200}});
     const Taken taken = pixels_of(front, 1);
     const auto at = [&](int x, int y) {
         return front.object_ids()[size_t(y) * size_t(front.width()) + size_t(x)];
