@@ -55,7 +55,7 @@ endfunction()
 # compares rays with exact answers, and what compiling takes. The optimizer changes no bit (golden_test, matrix_test,
 # determinism_test), and takes half of the time of most tests.
 set(optimized_tests golden_test shipped_scenes_test determinism_test all_features_test accuracy_test stress_again_test
-                    whitted_test noise_test voxelize_open_test
+                    whitted_test noise_test voxelize_open_test animation_frames_test
                     matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test
                     api_compiling_test cli_cache_test cli_interrupt_test)
 
