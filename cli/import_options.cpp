@@ -95,6 +95,7 @@ Vec3 spacing_of(const std::string& text, const char* command) {
 
 std::vector<std::string> view_names() {
     std::vector<std::string> names;
+    names.reserve(std::size(kViews));
     for (const NamedView& view : kViews) names.emplace_back(view.name);
     return names;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/kernel_slice.hpp"
 
+#include <algorithm>
 #include <map>
-#include <ranges>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -15,8 +15,8 @@ namespace {
 /// A compiler's -D constants as directives, by name.
 std::map<std::string, std::string, std::less<>> constants_of(std::string_view options) {
     std::map<std::string, std::string, std::less<>> constants;
-    for (const auto word : std::views::split(options, ' ')) {
-        std::string option(word.begin(), word.end());
+    for (const std::string_view given : separate_options(options)) {
+        std::string option(given);
         if (!option.starts_with("-D")) continue;
         const size_t sign = option.find('=');
         std::string name = option.substr(2, sign == std::string::npos ? sign : sign - 2);
@@ -110,6 +110,16 @@ class PartGraph {
 };
 
 }  // namespace
+
+std::vector<std::string_view> separate_options(std::string_view options) {
+    std::vector<std::string_view> separate;
+    while (!options.empty()) {
+        const size_t end = std::min(options.find(' '), options.size());
+        if (end > 0) separate.push_back(options.substr(0, end));
+        options.remove_prefix(std::min(end + 1, options.size()));
+    }
+    return separate;
+}
 
 std::vector<KernelSlice> slice_kernels(std::string_view source, std::string_view options) {
     const std::vector<SourcePart> parts = source_parts(source);

@@ -8,6 +8,9 @@
 
 namespace voxelume {
 
+/// A compiler's options, which blanks separate.
+std::vector<std::string_view> separate_options(std::string_view options);
+
 /// A kernel and the text that it is made of.
 struct KernelSlice {
     std::string kernel;  ///< its name

@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <utility>
 #include <vector>
@@ -49,10 +48,8 @@ std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramT
 /// The options of a compiler without its -D constants.
 std::string without_constants(std::string_view options) {
     std::string others;
-    for (const auto word : std::views::split(options, ' ')) {
-        const std::string_view option(word.begin(), word.end());
+    for (const std::string_view option : separate_options(options))
         if (!option.starts_with("-D")) others.append(option).append(" ");
-    }
     return others;
 }
 

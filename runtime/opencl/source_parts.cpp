@@ -114,12 +114,11 @@ std::string without_cplusplus(std::string_view source) {
         const size_t end = std::min(source.find('\n'), source.size() - 1) + 1;
         const std::string_view line = source.substr(0, end);
         source.remove_prefix(end);
+        if (skipped_depth > 0 && line.starts_with("#endif")) --skipped_depth;
         if (skipped_depth == 0 && line.starts_with("#ifdef __cplusplus")) {
             text += "#if 1\n";
             skipped_depth = 1;
         } else if (skipped_depth == 0) {
-            text += line;
-        } else if (line.starts_with("#endif") && --skipped_depth == 0) {
             text += line;
         } else if (line.starts_with("#else") && skipped_depth == 1) {
             skipped_depth = 0;
