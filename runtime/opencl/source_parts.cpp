@@ -2,19 +2,21 @@
 #include "runtime/opencl/source_parts.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <utility>
 
 namespace voxelume {
 namespace {
 
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
 bool is_of_identifier(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    return is_digit(c) || c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
 bool is_space(char c) {
-    return std::isspace(static_cast<unsigned char>(c)) != 0;
+    return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 /// The words after `#` of a directive.
@@ -169,8 +171,7 @@ std::vector<std::string_view> identifiers(std::string_view text) {
     for (size_t at = 0; at < text.size();) {
         const size_t start = at;
         while (at < text.size() && is_of_identifier(text[at])) ++at;
-        if (at > start && std::isdigit(static_cast<unsigned char>(text[start])) == 0)
-            found.push_back(text.substr(start, at - start));
+        if (at > start && !is_digit(text[start])) found.push_back(text.substr(start, at - start));
         if (at == start) ++at;
     }
     return found;
