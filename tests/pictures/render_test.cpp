@@ -221,16 +221,16 @@ TEST(Render, SamplesCoverAPixelEvenly) {
 }
 
 TEST(Render, LetsOtherProcessesWaitForItsKernelsUntilTheFirstTilesAreDoneAlone) {
-    if (test_device().info().platform != kPoclPlatform) GTEST_SKIP() << "PoCL's cache is filled so";
+    const Device device = test_device();
+    if (device.info().platform != kPoclPlatform) GTEST_SKIP() << "PoCL's cache is filled so";
     // What no cache has makes this process the one that compiles.
     const auto now = std::chrono::system_clock::now().time_since_epoch().count();
-    Program::from_text(test_device(),
-                       fmt::format("kernel void of_{}_{}(void) {{}}\n", getpid(), now), {});
+    Program::from_text(device, fmt::format("kernel void of_{}_{}(void) {{}}\n", getpid(), now), {});
     ASSERT_TRUE(PoclFolder::instance().has_turn());
     const Scene scene = scene_of(box_scene("cubes", ""));
     RenderReport report;
     int looks = 0;
-    render(test_device(), scene, report, [&looks](uint32_t, uint32_t) {
+    render(device, scene, report, [&looks](uint32_t, uint32_t) {
         ++looks;
         EXPECT_FALSE(PoclFolder::instance().has_turn());
     });
