@@ -16,13 +16,15 @@ Usage: ./bootstrap.sh COMMAND
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
-  farm    try the recipes for Slurm and GNU parallel of scenes/farm with the real programs
+  farm    try the recipes of scenes/farm with the real Slurm, GNU parallel and OpenJD
+  readers open what is written with the programs that people open it with, and their files here;
+          with --blender in Blender too, which pip brings in 400 MB
   lint    check the format of the code, the host code and each kernel
   python  build the Python package, build/python/wheels, and test it in a fresh environment
   package make build/package/voxelume_*.deb and check it; with --install, also install, use and
           purge it in a bare Debian, and make what the container holds, which takes minutes and root
   docs    write the library's reference to build/docs/html/index.html
-  packages  install what all of these but drivers and farm need
+  packages  install what all of these but drivers, farm and readers need
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
 TEXT
@@ -117,6 +119,40 @@ docs() {
     echo "The reference is build/docs/html/index.html."
 }
 
+# pip_environment NAME PACKAGE...: build/NAME, a virtual environment with packages of pip, whose
+# programs are found before all others.
+pip_environment() {
+    local environment=$PWD/build/$1
+    shift
+    [ -x "$environment/bin/pip" ] || python3 -m venv "$environment"
+    "$environment/bin/pip" install -q "$@"
+    PATH=$environment/bin:$PATH
+}
+
+# run_each_test OPTION...: tests of ctest that skip themselves where a program is missing, which is
+# a fault here.
+run_each_test() {
+    local log=$build/run_each_test.log
+    ctest --test-dir "$build" --output-on-failure "$@" | tee "$log"
+    if grep -q 'Skipped' "$log"; then
+        echo "bootstrap.sh: a test was skipped" >&2
+        return 1
+    fi
+}
+
+farm() {
+    build_targets voxelume
+    pip_environment farm openjd-cli
+    run_each_test -C farm -R '^farm\.'
+}
+
+# readers [--blender]
+readers() {
+    build_targets voxelume
+    pip_environment readers numpy OpenEXR trimesh pygltflib nibabel pynrrd ${1:+bpy}
+    run_each_test -V -R '\.readers$'
+}
+
 # What `cmake --install` installs.
 installed='voxelume voxelume_shared voxelume_vdb voxelume_vdb_reader'
 
@@ -165,6 +201,7 @@ case "$*" in
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;
     farm) install_packages packages.txt .ci/farm_packages.txt ;;
+    readers | 'readers --blender') install_packages packages.txt .ci/readers_packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
     packages)
         install_packages packages.txt .ci/packages.txt .ci/{docs,package,python}_packages.txt
@@ -193,10 +230,8 @@ case "$1" in
         build_targets voxelume pictures_tests kernels_tests
         .ci/drivers "$build"
         ;;
-    farm)
-        build_targets voxelume
-        ctest --test-dir "$build" --output-on-failure -C farm -R '^farm\.'
-        ;;
+    farm) farm ;;
+    readers) readers "${2:-}" ;;
     docs) docs ;;
     packages) ;; # they are there
     python) python_package ;;

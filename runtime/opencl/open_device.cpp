@@ -44,7 +44,7 @@ std::string new_fault(const Device& device) {
     try {
         std::string fault = find_fault(device);
         keep_fault(device.info(), fault);
-        share_compiled_kernels(device.info());
+        share_compiled_kernels(device);
         return fault;
     } catch (const Error& error) {
         const std::string text = error.what();

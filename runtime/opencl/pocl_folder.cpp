@@ -268,6 +268,11 @@ void PoclFolder::publish(const DiskCache& cache) {
     turn_.release();
 }
 
+bool PoclFolder::has_turn() {
+    const std::lock_guard guard(mutex_);
+    return turn_.is_taken();
+}
+
 void PoclFolder::share(const DiskCache& cache) {
     const std::lock_guard guard(mutex_);
     if (!turn_.is_taken()) return;

@@ -28,8 +28,8 @@ struct ProgramPart {
 /// So every process has a folder of its own. Before a program is built, its files of earlier runs
 /// are restored from a checksummed entry of our cache. When a device is closed, new files (PoCL
 /// compiles a kernel at its first launch) become the entry; a process that has the turn to compile
-/// shares them after its first frame already. A user who sets POCL_CACHE_DIR gets PoCL's own
-/// behaviour.
+/// shares them after its first batch of tiles already. A user who sets POCL_CACHE_DIR gets PoCL's
+/// own behaviour.
 class PoclFolder {
   public:
     /// The process's folder.
@@ -54,7 +54,10 @@ class PoclFolder {
     /// Writes to `cache` what PoCL compiled since the last call.
     void publish(const DiskCache& cache);
 
-    /// Likewise where other processes may wait for it, and ends their waiting.
+    /// Whether other processes may wait for what this one compiles.
+    bool has_turn();
+
+    /// Writes it for them, and ends their waiting.
     void share(const DiskCache& cache);
 
     PoclFolder(const PoclFolder&) = delete;

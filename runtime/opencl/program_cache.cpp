@@ -190,8 +190,10 @@ void keep_compiled_kernels(const DeviceInfo& info) {
     if (info.platform == kPoclPlatform) PoclFolder::instance().publish(program_store());
 }
 
-void share_compiled_kernels(const DeviceInfo& info) {
-    if (info.platform == kPoclPlatform) PoclFolder::instance().share(program_store());
+void share_compiled_kernels(const Device& device) {
+    if (device.info().platform != kPoclPlatform || !PoclFolder::instance().has_turn()) return;
+    device.finish();
+    PoclFolder::instance().share(program_store());
 }
 
 }  // namespace voxelume

@@ -31,8 +31,9 @@ std::vector<std::string> program_sources(const Device& device);
 /// Called when a device is closed; nothing may run on it.
 void keep_compiled_kernels(const DeviceInfo& info);
 
-/// Saves it where other processes may wait for it: see CompileTurn. To be called when a first
-/// frame's kernels have run.
-void share_compiled_kernels(const DeviceInfo& info);
+/// Saves it where other processes may wait for it, after what was enqueued has run: see
+/// CompileTurn. To be called when every kernel of a kind of work was enqueued once, such as of a
+/// batch of tiles.
+void share_compiled_kernels(const Device& device);
 
 }  // namespace voxelume

@@ -153,7 +153,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         has_passes_ = !passes.empty() && !shown.render.noise.is_given();
         Image image = sampled_image(shown, world, report, weighted, sampled);
         add_passes(passes, world, weighted, sampled, report, image);
-        share_compiled_kernels(device_.info());
+        share_compiled_kernels(device_);
         if (!follows_) hits_.clear();
         if (!passes.empty()) finish_passes(shown, image);
         if (adds_color)
@@ -165,6 +165,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
 /// Tells whoever shares or watches the tiles that these are done.
 void Renderer::note_done(const TileRange& range, const Tiles& tiles) const {
     tiles.taken.push_back(range);
+    share_compiled_kernels(device_);
     if (!tiles.share.is_watched()) return;
     device_.finish();
     tiles.share.done(range);

@@ -132,6 +132,7 @@ void render_rays(Work& work, Volume& volume) {
         else if (!work.features.transmission)
             keep_layer(batch, rays, true, {batch.radiance, {}, batch.stride});
         work.report.sight_rays += rays;
+        share_compiled_kernels(work.device);
         if (work.progress) {
             work.device.finish();
             work.progress(first + now, tiles);
@@ -221,7 +222,7 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
     else
         render_lattice(work, volume);
     device.finish();  // so that kernels' times are known
-    share_compiled_kernels(device.info());
+    share_compiled_kernels(device);
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;
     report.image_seconds +=

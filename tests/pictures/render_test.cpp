@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/renderer.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 
+#include "runtime/opencl/pocl_folder.hpp"
 #include "tests/pictures/box_scene.hpp"
 
 namespace voxelume {
@@ -214,6 +218,23 @@ TEST(Render, SamplesCoverAPixelEvenly) {
     const Rendered r = rendered(scene);
     for (const float a : r.image.planes.at("A")) covered += double(a);
     EXPECT_NEAR(covered / 15, 0.7 * 0.5 / (1.6 * 1.2), 0.01);
+}
+
+TEST(Render, LetsOtherProcessesWaitForItsKernelsUntilTheFirstTilesAreDoneAlone) {
+    const Device device = test_device();
+    if (device.info().platform != kPoclPlatform) GTEST_SKIP() << "PoCL's cache is filled so";
+    // What no cache has makes this process the one that compiles.
+    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+    Program::from_text(device, fmt::format("kernel void of_{}_{}(void) {{}}\n", getpid(), now), {});
+    ASSERT_TRUE(PoclFolder::instance().has_turn());
+    const Scene scene = scene_of(box_scene("cubes", ""));
+    RenderReport report;
+    int looks = 0;
+    render(device, scene, report, [&looks](uint32_t, uint32_t) {
+        ++looks;
+        EXPECT_FALSE(PoclFolder::instance().has_turn());
+    });
+    EXPECT_GT(looks, 0);
 }
 
 }  // namespace
