@@ -32,26 +32,37 @@ TEXT
 
 say() { printf '\n== %s\n' "$*"; }
 
-# install_packages FILE...: every package named in the files, when one is missing.
-install_packages() {
-    local wanted missing
-    wanted=$(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d')
-    missing=$(comm -23 <(sort -u <<<"$wanted") \
+# missing_packages FILE...: those named in the files that aren't installed.
+missing_packages() {
+    comm -23 <(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d' | sort -u) \
         <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null |
-            sed -n 's/^installed //p' | sort -u))
-    [ -n "$missing" ] || return 0
+            sed -n 's/^installed //p' | sort -u)
+}
+
+# install_packages FILE...: every package named in the files, when one is missing. One bootstrap.sh
+# at a time installs: apt doesn't wait for another.
+install_packages() {
+    [ -n "$(missing_packages "$@")" ] || return 0
     local root=()
     if [ "$(id -u)" -ne 0 ]; then
         if ! command -v sudo >/dev/null; then
-            echo "bootstrap.sh: these packages are missing; install them as root:" $missing >&2
+            echo "bootstrap.sh: these packages are missing; install them as root:" \
+                $(missing_packages "$@") >&2
             exit 1
         fi
         root=(sudo)
     fi
-    say "Installing" $missing
-    "${root[@]}" apt-get update -q
-    "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
-        apt-get install -q -y --no-install-recommends $missing
+    {
+        flock 9
+        local missing
+        missing=$(missing_packages "$@")
+        [ -n "$missing" ] || return 0
+        say "Installing" $missing
+        # Without the lock, which services that are started would keep.
+        "${root[@]}" apt-get update -q 9<&-
+        "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+            apt-get install -q -y --no-install-recommends $missing 9<&-
+    } 9<bootstrap.sh
 }
 
 # Configures once; afterwards ninja itself notices changed CMake files and new sources.
