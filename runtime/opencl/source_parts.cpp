@@ -7,12 +7,12 @@
 namespace voxelume {
 namespace {
 
-bool is_digit(char c) {
+bool is_decimal_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
 bool is_of_identifier(char c) {
-    return is_digit(c) || c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    return is_decimal_digit(c) || c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
 bool is_space(char c) {
@@ -171,7 +171,8 @@ std::vector<std::string_view> identifiers(std::string_view text) {
     for (size_t at = 0; at < text.size();) {
         const size_t start = at;
         while (at < text.size() && is_of_identifier(text[at])) ++at;
-        if (at > start && !is_digit(text[start])) found.push_back(text.substr(start, at - start));
+        if (at > start && !is_decimal_digit(text[start]))
+            found.push_back(text.substr(start, at - start));
         if (at == start) ++at;
     }
     return found;
