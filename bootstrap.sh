@@ -140,10 +140,11 @@ pip_environment() {
     PATH=$environment/bin:$PATH
 }
 
-# run_each_test OPTION...: tests of ctest that skip themselves where a program is missing, which is
-# a fault here.
+# run_each_test NAME OPTION...: tests of ctest that skip themselves where a program is missing, which
+# is a fault here. NAME.log is theirs alone, since CI runs two of these at a time.
 run_each_test() {
-    local log=$build/run_each_test.log
+    local log=$build/$1.log
+    shift
     ctest --test-dir "$build" --output-on-failure "$@" | tee "$log"
     if grep -q 'Skipped' "$log"; then
         echo "bootstrap.sh: a test was skipped" >&2
@@ -154,14 +155,14 @@ run_each_test() {
 farm() {
     build_targets voxelume
     pip_environment farm openjd-cli
-    run_each_test -C farm -R '^farm\.'
+    run_each_test farm -C farm -R '^farm\.'
 }
 
 # readers [--blender]
 readers() {
     build_targets voxelume
     pip_environment readers numpy OpenEXR trimesh pygltflib nibabel pynrrd ${1:+bpy}
-    run_each_test -V -R '\.readers$'
+    run_each_test readers -V -R '\.readers$'
 }
 
 # What `cmake --install` installs.

@@ -14,10 +14,11 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Names of groups of channels, as `render --channels` takes them.
-Words group_names() {
+/// The names in the rows of a table.
+template <auto table>
+Words names_of() {
     Words names;
-    for (const ChannelRow& row : channel_table()) names.emplace_back(row.name);
+    for (const auto& row : table()) names.emplace_back(row.name);
     return names;
 }
 
@@ -27,18 +28,6 @@ Words plane_names() {
     for (const ChannelRow& row : channel_table())
         for (const std::string_view plane : row.planes)
             if (!plane.ends_with('_')) names.emplace_back(plane);
-    return names;
-}
-
-Words test_names() {
-    Words names;
-    for (const StressTest& test : stress_tests()) names.emplace_back(test.name);
-    return names;
-}
-
-Words scene_names() {
-    Words names;
-    for (const BenchScene& scene : bench_scenes()) names.emplace_back(scene.name);
     return names;
 }
 
@@ -61,10 +50,10 @@ struct KnownValues {
     bool is_list;
 };
 
-constexpr std::array kKnownValues = {KnownValues{"CHANNELS", group_names, true},
+constexpr std::array kKnownValues = {KnownValues{"CHANNELS", names_of<channel_table>, true},
                                      KnownValues{"PLANES", plane_names, true},
-                                     KnownValues{"TESTS", test_names, true},
-                                     KnownValues{"SCENES", scene_names, true},
+                                     KnownValues{"TESTS", names_of<stress_tests>, true},
+                                     KnownValues{"SCENES", names_of<bench_scenes>, true},
                                      KnownValues{"PLACEMENTS", placement_names, true},
                                      KnownValues{"VIEW", view_names, false},
                                      KnownValues{"DEVICE", device_kinds, false},

@@ -194,7 +194,7 @@ void PoclFolder::take_kernels(const DiskCache& cache, ProgramFiles& program) con
 }
 
 bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
-                                  std::vector<ProgramPart> parts,
+                                  const std::function<std::vector<ProgramPart>()>& parts,
                                   const std::function<void()>& build) {
     // One build at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
     const std::lock_guard guard(mutex_);
@@ -218,8 +218,9 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     const fs::path folder = new_program_folder();
     if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
         unpacked.clear();
-    ProgramFiles program = {folder, unpacked.size(), std::move(parts)};
+    ProgramFiles program = {folder, unpacked.size(), {}};
     if (!folder.empty()) {
+        program.parts = parts();
         publish_changes(cache);  // includes kernels that this process compiled
         take_kernels(cache, program);
         if (!unpacked.empty())

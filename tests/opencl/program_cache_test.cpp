@@ -57,6 +57,25 @@ TEST(ProgramCacheProcess, DISABLED_BuildsAndRuns) {
     if (!HasFailure()) std::exit(10 + compiled);
 }
 
+/// Runs a kernel with functions that lib/lanes/declared.h doesn't declare. Returns how many
+/// programs were compiled.
+int call_other_functions() {
+    const Device device = test_device();
+    const Program program = Program::from_text(
+        device, "kernel void f(global uint* x) { *x = rotate(*x, 4u) + add_sat(*x, 1u); }\n");
+    Buffer<uint32_t> number(device, "number", 1);
+    number.fill(0xFFFFFFF5u);
+    program.kernel("f").launch(WorkItem::heavy, 1, number);
+    EXPECT_EQ(number.read()[0], 0xFFFFFF5Fu + 0xFFFFFFF6u);
+    return int(device.counters().programs_built - device.counters().programs_from_cache);
+}
+
+/// Run in its own process; the exit code is 10 + the programs compiled.
+TEST(ProgramCacheProcess, DISABLED_CallsOtherFunctions) {
+    const int compiled = call_other_functions();
+    if (!HasFailure()) std::exit(10 + compiled);
+}
+
 /// The number of compiled files of the kernel `keep_words` that are ready for PoCL.
 int count_ready() {
     int count = 0;
@@ -129,6 +148,13 @@ TEST_F(ProgramCacheFiles, ASecondRunCompilesNothing) {
 }
 
 /// The content of an entry must also serve kernels that no earlier run has launched.
+TEST_F(ProgramCacheFiles, SoDoesOneWithAFunctionThatOurKernelsDoNotUse) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    EXPECT_EQ(compiled_by_processes(1, environment, "CallsOtherFunctions"), std::vector<int>{1});
+    EXPECT_EQ(compiled_by_processes(1, environment, "CallsOtherFunctions"), std::vector<int>{0});
+}
+
 TEST_F(ProgramCacheFiles, AKernelFirstLaunchedByALaterRunIsMadeOfTheKeptBitcode) {
     if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
     const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();

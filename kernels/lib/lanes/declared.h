@@ -60,7 +60,7 @@ VXL_VECTORS(float, float)
 size_t VXL_FUNCTION get_global_id(uint);
 size_t VXL_FUNCTION get_global_size(uint);
 
-// DECLARE(type, n) for numbers, where n is empty, and for vectors.
+// These write declare(type, n) for numbers, whose n is empty, and for vectors.
 #define VXL_VECTOR_SIZES(declare, type) \
     declare(type, 2) declare(type, 3) declare(type, 4) declare(type, 8) declare(type, 16)
 #define VXL_SIZES(declare, type) declare(type, ) VXL_VECTOR_SIZES(declare, type)
