@@ -251,6 +251,7 @@ case "$1" in
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json
+        pip_environment lint clang-tidy==23.1.4
         .ci/lint "$build"
         ;;
 esac

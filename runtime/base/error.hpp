@@ -55,7 +55,7 @@ class Error : public std::runtime_error {
     template <class... Args>
     Error(ErrorKind kind, fmt::format_string<Args...> format,
           Args&&... args) requires(sizeof...(Args) > 0)
-        : Error(place_among(args...), kind, fmt::format(format, std::forward<Args>(args)...)) {}
+        : Error(place_among(args...), kind, fmt::vformat(format, fmt::make_format_args(args...))) {}
 
     ErrorKind kind() const noexcept { return kind_; }
     int exit_code() const noexcept { return static_cast<int>(kind_); }

@@ -94,8 +94,10 @@ double quantile(std::vector<Chord>& chords) {
     double sum = 0;
     for (const Chord& chord : chords) sum += chord.area;
     double so_far = 0;
-    for (const Chord& chord : chords)
-        if ((so_far += chord.area) >= kThinShare * sum) return chord.thickness;
+    for (const Chord& chord : chords) {
+        so_far += chord.area;
+        if (so_far >= kThinShare * sum) return chord.thickness;
+    }
     return 0;
 }
 

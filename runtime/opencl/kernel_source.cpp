@@ -41,7 +41,7 @@ void append_text(const std::string& label, std::string_view rest, std::set<std::
             append_text("kernels/" + path, file_text(path), seen, source);
             source += fmt::format("#line {} \"{}\"\n", number + 1, label);
         } else {
-            source += "\n";
+            source += '\n';
         }
     }
 }

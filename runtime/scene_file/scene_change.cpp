@@ -49,9 +49,9 @@ std::optional<JsonValue> numbers_of(std::string_view text) {
 }
 
 std::string_view name_of(JsonType type) {
-    static constexpr std::string_view kNames[] = {"null",   "true or false", "a number",
-                                                  "a text", "a list",        "an object"};
-    return kNames[size_t(type)];
+    static constexpr std::string_view kTypeNames[] = {"null",   "true or false", "a number",
+                                                      "a text", "a list",        "an object"};
+    return kTypeNames[size_t(type)];
 }
 
 /// Follows a change's path through a document and puts its value there.

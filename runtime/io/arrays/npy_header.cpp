@@ -47,7 +47,7 @@ CellType npy_type(std::string_view text, const InputFile& file) {
                                              {"i8", CellType::i64},
                                              {"f4", CellType::f32},
                                              {"f8", CellType::f64}}};
-    if (text.starts_with("[")) file.refuse("its values are records; save one field of them");
+    if (text.starts_with('[')) file.refuse("its values are records; save one field of them");
     const size_t end = text.size() > 1 ? text.find(text[0], 1) : std::string_view::npos;
     const std::string_view code = end == std::string_view::npos ? "" : text.substr(1, end - 1);
     for (const Row& row : kCodes)
@@ -61,7 +61,7 @@ CellType npy_type(std::string_view text, const InputFile& file) {
 std::vector<uint64_t> shape_of(std::string_view text, const InputFile& file) {
     std::vector<uint64_t> shape;
     const size_t end = text.find(')');
-    if (!text.starts_with("(") || end == std::string_view::npos)
+    if (!text.starts_with('(') || end == std::string_view::npos)
         file.refuse("its header has no shape");
     uint64_t number = 0;
     bool is_number = false;

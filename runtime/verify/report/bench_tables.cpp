@@ -184,7 +184,7 @@ std::string peers_text(const BenchReport& report) {
                               name_of(row->placement), row->resolution, row->seconds.total * 1e3)
                 : fmt::format("{:>9}\n", "-");
     }
-    text += "\n";
+    text += '\n';
     for (const FrontComparison& comparison : front_comparisons(report))
         text += sentence_of(comparison) + "\n";
     return text;
