@@ -7,16 +7,10 @@
 #include <algorithm>
 #include <csignal>
 
+#include "runtime/base/sanitizers.hpp"
+
 namespace voxelume {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kHasSanitizer = true;
-#elif defined(__has_feature)
-constexpr bool kHasSanitizer = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kHasSanitizer = false;
-#endif
 
 /// Lowers a limit; one that is lower already stays. The process may raise it again by `grace`, or
 /// ignore the system's signal for so long.

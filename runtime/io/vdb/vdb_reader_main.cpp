@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "runtime/base/helper_calls.hpp"
 #include "runtime/base/helper_limits.hpp"
 #include "runtime/base/helper_wire.hpp"
 #include "runtime/io/vdb/vdb_client.hpp"
@@ -106,6 +107,7 @@ int serve(int count, char** arguments) {
             return 3;
         // The stacks and heaps of a large machine's threads would take all of the address space.
         const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+        forbid_system_calls();
         answer(sender, file, arguments[3], count > 4 ? arguments[4] : "");
     } catch (const Error& error) {
         refuse(sender, error.what());
