@@ -2,6 +2,7 @@
 // KHR_draco_mesh_compression and EXT_meshopt_compression: what a glTF file has compressed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
