@@ -227,7 +227,8 @@ TEST_F(GltfSkinTest, PartsThatDontGoTogetherAreRefused) {
                 HasSubstr("6 joints and 5 matrices"));
     EXPECT_THAT(changed("/meshes/1/primitives/0/attributes/WEIGHTS_0", 0),
                 HasSubstr("isn't of the type"));
-    EXPECT_THAT(changed("/skins", Json::array()), HasSubstr("nodes[24].skin: is 0, and the file has 0 of these"));
+    EXPECT_THAT(changed("/skins", Json::array()),
+                HasSubstr("nodes[24].skin: is 0, and the file has 0 of these"));
     GltfWriter shorter = tree.writer;
     const Json& attributes = shorter.json["meshes"][1]["primitives"][0]["attributes"];
     shorter.json["accessors"][attributes["JOINTS_1"].get<size_t>()]["count"] = kVertices - 1;
