@@ -10,7 +10,7 @@ set(test_cache ${CMAKE_BINARY_DIR}/test_cache)
 function(add_test_program name)
     add_executable(${name} ${ARGN})
     target_link_libraries(${name} PRIVATE voxelume_runtime voxelume_oracles GTest::gmock_main)
-    add_dependencies(${name} voxelume_vdb voxelume_vdb_reader)
+    add_dependencies(${name} ${voxelume_helpers})
     target_compile_definitions(${name} PRIVATE VXL_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                VXL_BINARY="$<TARGET_FILE:voxelume>")
     if(CMAKE_UNITY_BUILD) # A unit includes test files, whose anonymous types are their own.

@@ -39,6 +39,13 @@ JsonValue list_of(std::vector<JsonValue> items) {
     return list;
 }
 
+JsonValue tree(const std::vector<double>& numbers) {
+    std::vector<JsonValue> items;
+    items.reserve(numbers.size());
+    for (const double number : numbers) items.push_back(tree(number));
+    return list_of(std::move(items));
+}
+
 ObjectTree::ObjectTree() : value_(json_value(JsonType::object)) {}
 
 ObjectTree& ObjectTree::put(std::string_view key, JsonValue value) {

@@ -29,6 +29,7 @@ JsonValue tree(const std::array<Number, count>& numbers) {
 }
 
 JsonValue list_of(std::vector<JsonValue> items);
+JsonValue tree(const std::vector<double>& numbers);
 
 /// An object of the document, key by key in the order of calls.
 class ObjectTree {

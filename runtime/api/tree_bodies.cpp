@@ -67,12 +67,26 @@ void add_file_size(const std::optional<double>& fit, const std::optional<v1::Uni
 
 JsonValue tree_of_morph(const v1::Morph& morph) {
     ObjectTree object;
-    object.add("amount", morph.amount).add_text("mesh", morph.mesh.string());
+    const bool is_of_file = !morph.weights.empty() || morph.skin;
+    if (!morph.weights.empty()) object.add("weights", morph.weights);
+    object.add("skin", morph.skin).add_text("clip", morph.clip).add("time", morph.time);
+    if (!is_of_file || morph.amount != 0) object.add("amount", morph.amount);
+    object.add_text("mesh", morph.mesh.string());
     return object.add("center", morph.center).add("radius", morph.radius).take();
 }
 
+JsonValue list_of_parents(const std::vector<v1::Parent>& parents) {
+    std::vector<JsonValue> items;
+    for (const v1::Parent& parent : parents) {
+        ObjectTree object;
+        add_pose(parent, object);
+        items.push_back(object.take());
+    }
+    return list_of(std::move(items));
+}
+
 void add_mesh(const v1::MeshFile& mesh, ObjectTree& object) {
-    object.add("mesh", mesh.file.string());
+    object.add("mesh", mesh.file.string()).add("part", mesh.part);
     add_file_size(mesh.fit, mesh.unit, object);
     if (mesh.sequence) object.put("sequence", tree(*mesh.sequence));
     if (mesh.morph) object.put("morph", tree_of_morph(*mesh.morph));
@@ -125,6 +139,7 @@ JsonValue tree(const v1::Object& placed) {
         object.put("materials", groups.take());
     }
     add_pose(placed, object);
+    if (!placed.parents.empty()) object.put("parents", list_of_parents(placed.parents));
     object.add("priority", placed.priority).add("visible", placed.visible);
     object.add("spots", placed.light_samples);
     return object.add("placement", kPlacements.at(size_t(placed.placement))).take();

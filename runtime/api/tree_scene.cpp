@@ -27,13 +27,23 @@ JsonValue tree_of_density(const v1::GridDensity& density) {
     ObjectTree object;
     object.add("kind", "grid").add("file", density.file.string()).add("grid", density.grid);
     if (density.sequence) object.put("sequence", tree(*density.sequence));
-    add_pose(density, object);
+    std::vector<JsonValue> points;
+    for (const v1::TransferPoint& point : density.transfer) {
+        ObjectTree item;
+        item.add("value", point.value).add("absorption", point.absorption);
+        points.push_back(item.add("color", point.color).take());
+    }
+    if (!points.empty()) object.put("transfer", list_of(std::move(points)));
+    add_pose(density, object.add("lit", density.lit));
     return object.take();
 }
 
 JsonValue tree_of_medium(const v1::Medium& medium) {
     ObjectTree object;
-    object.add("absorption", medium.absorption).add("color", medium.color);
+    const auto* const grid = std::get_if<v1::GridDensity>(&medium.density);
+    if (!grid || grid->transfer.empty() || medium.absorption != v1::Color{})
+        object.add("absorption", medium.absorption);
+    object.add("color", medium.color);
     std::visit(
         [&object](const auto& density) {
             if constexpr (!std::is_same_v<std::decay_t<decltype(density)>, std::monostate>)
@@ -130,13 +140,14 @@ JsonValue tree_of_display(const v1::Display& display) {
 }
 
 JsonValue tree_of_track(const v1::Track& track) {
-    constexpr std::array kInterpolations = {"step", "linear", "cubic", "slerp"};
+    constexpr std::array kInterpolations = {"step", "linear", "cubic", "slerp", "spline"};
     std::vector<JsonValue> items;
     std::visit(
         [&items](const auto& keys) {
             for (const auto& key : keys) {
                 ObjectTree object;
-                items.push_back(object.add("frame", key.frame).add("value", key.value).take());
+                object.add("frame", key.frame).add("value", key.value);
+                items.push_back(object.add("in", key.in).add("out", key.out).take());
             }
         },
         track.keys);

@@ -5,10 +5,8 @@
 #include "runtime/assets/load_timer.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/file_map.hpp"
-#include "runtime/geometry/mesh_morph.hpp"
 #include "runtime/geometry/winding_number.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
-#include "runtime/io/gltf/gltf_targets.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
@@ -118,44 +116,6 @@ MeshShape AssetStore::shape_of(const Model& model) {
     return {scale * shape.sharp_length, scale * shape.thickness};
 }
 
-AssetStore::Morphed& AssetStore::morphed(const Model& model) {
-    used_.insert({model.mesh, model.morph->mesh});
-    used_morphs_.insert(model.name);
-    const auto found = morphed_.find(model.name);
-    if (found != morphed_.end() && found->second.file == model.mesh &&
-        found->second.map == model.object_from_file && found->second.morph == *model.morph)
-        return found->second;
-    Morphed fresh{model.mesh, model.object_from_file, *model.morph, {}, {}};
-    return morphed_.insert_or_assign(model.name, std::move(fresh)).first->second;
-}
-
-const Mesh& AssetStore::morphed_mesh(const Model& model) {
-    Morphed& entry = morphed(model);
-    if (entry.mesh) return *entry.mesh;
-    const Morph& morph = *model.morph;
-    const FileMap& map = model.object_from_file;
-    const Mesh& from = mesh(model.mesh, map, model.part);
-    if (!morph.weights.empty())
-        return entry.mesh.emplace(
-            moved_by_targets(from, targets_of(model), morph.weights, map.scale));
-    entry.mesh = morph.mesh.empty()
-                     ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
-                     : ::voxelume::morphed(from, mesh(morph.mesh, map), morph.amount, model.where);
-    return *entry.mesh;
-}
-
-const std::vector<MorphTarget>& AssetStore::targets_of(const Model& model) {
-    std::optional<std::vector<MorphTarget>>& targets = file({model.mesh, model.part}).targets;
-    if (!targets) {
-        const LoadTimer timer(load_seconds_);
-        targets = gltf_targets(gltf_file(model.mesh), model.part);
-    }
-    if (model.morph->weights.size() > targets->size())
-        throw Error(ErrorKind::input, "{}: has {} weights, and its mesh has {} targets",
-                    model.where, model.morph->weights.size(), targets->size());
-    return *targets;
-}
-
 const MeshSummary& AssetStore::morphed_summary(const Model& model) {
     Morphed& entry = morphed(model);
     if (entry.summary) return *entry.summary;
@@ -222,9 +182,8 @@ Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
         plain.surface = surface_of_voxels(plain).surface;
     const Bounds box = plain.voxels.empty() ? summary_of_file({name, plain.part}).surface
                                             : occupied_bounds(voxels(plain));
-    const bool has_targets = model.morph && !model.morph->weights.empty();
-    const Bounds reached =
-        has_targets ? box_of_targets(box, targets_of(model), model.morph->weights) : box;
+    const bool is_moved = model.morph && model.morph->is_of_file();
+    const Bounds reached = is_moved ? box_moved_by_file(model, box) : box;
     if (!keeps && !was_loaded) forget(name);
     return reached;
 }

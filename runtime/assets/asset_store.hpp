@@ -19,6 +19,7 @@
 #include "runtime/geometry/mesh_targets.hpp"
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/gltf/gltf_file.hpp"
+#include "runtime/io/gltf/gltf_skin.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
 #include "runtime/scene/scene.hpp"
 
@@ -88,6 +89,8 @@ class AssetStore {
         std::optional<MeshSummary> summary;
         std::optional<MeshShape> shape;
         std::optional<std::vector<MorphTarget>> targets;
+        std::map<std::pair<int, std::string>, std::shared_ptr<const GltfSkin>>
+            skins;  ///< by number and clip
         std::map<MapKey, MappedMesh> mapped;
 
         void forget_meshes();
@@ -129,6 +132,10 @@ class AssetStore {
     const MeshSummary& morphed_summary(const Model& model);
     /// The targets of a morph by weights, which has at most as many weights.
     const std::vector<MorphTarget>& targets_of(const Model& model);
+    /// The skin of a morph that has one.
+    const GltfSkin& skin_of(const Model& model);
+    Mesh mesh_moved_by_file(const Model& model);
+    Bounds box_moved_by_file(const Model& model, const Bounds& box);
 
     ModelCache cache_;
     std::map<MeshName, MeshFile> files_;

@@ -7,6 +7,7 @@ namespace voxelume {
 void AssetStore::MeshFile::forget_meshes() {
     mesh.reset();
     targets.reset();
+    skins.clear();
     for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
 }
 
@@ -19,6 +20,7 @@ uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
         if (file.targets)
             for (const MorphTarget& target : *file.targets)
                 bytes += (target.positions.size() + target.normals.size()) * sizeof(glm::vec3);
+        for (const auto& [key, skin] : file.skins) bytes += skin->bytes();
         for (const auto& [map, mapped] : file.mapped)
             if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
     }

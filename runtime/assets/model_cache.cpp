@@ -100,6 +100,7 @@ std::string morph_source(const std::string& from, const std::string& to, const M
     CacheKey words;
     words.add_all(morph.center).add(morph.radius).add(morph.amount);
     for (const double weight : morph.weights) words.add(weight);
+    if (morph.skin > 0) words.add(morph.skin).add_text(morph.clip).add(morph.time);
     return key_of({from, to, words.bytes()});
 }
 

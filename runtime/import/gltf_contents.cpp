@@ -99,7 +99,10 @@ class SceneOfGltf {
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
         if (!has_faces(mesh)) return;
-        std::vector<glm::dmat4> maps = frames_.maps_of(node);
+        // Its joints place what has a skin, whatever its node does.
+        const bool is_skinned = node.skin >= 0;
+        std::vector<glm::dmat4> maps =
+            is_skinned ? std::vector{glm::dmat4(1)} : frames_.maps_of(node);
         std::erase_if(maps, [](const glm::dmat4& map) { return !can_be_placed(map); });
         if (maps.empty()) return;
         Model model;
@@ -111,14 +114,14 @@ class SceneOfGltf {
         const std::string wanted = node.name.empty() ? mesh.text("name") : node.name;
         const std::string name = objects_.unique(wanted.empty() ? "object" : wanted);
         MeshModel& shown = model_of(node, mesh);
-        std::string place = place_text(node, name);
+        std::string place = is_skinned ? "" : place_text(node, name);
         contents_.objects.push_back(fmt::format("{{\"name\": {}, \"model\": {}{}{}}}",
                                                 json_text(name), json_text(shown.name),
                                                 materials_member(summary), place));
-        const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface);
+        const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface, frames_.count);
         for (const glm::dmat4& map : maps) {
             add_box(map, box);
-            if (motion_.moves(node.number))
+            if (!is_skinned && motion_.moves(node.number))
                 shown.stretch = std::max(shown.stretch, stretch_of(glm::dmat3(map)).max);
         }
     }
@@ -144,7 +147,7 @@ class SceneOfGltf {
     /// The model of the node's mesh, which nodes with weights of their own don't share.
     MeshModel& model_of(const GltfNode& node, const GltfValue& mesh) {
         GltfMorph morph = gltf_morph(gltf_, clip_, node);
-        const std::pair key(node.mesh, morph.owner);
+        const std::array key = {node.mesh, morph.owner, morph.skin};
         const auto [entry, is_new] = model_numbers_.try_emplace(key, models_.size());
         if (!is_new) return models_[entry->second];
         const std::string wanted = mesh.text("name");
@@ -153,6 +156,8 @@ class SceneOfGltf {
         if (morph.keys)
             contents_.tracks.push_back(
                 keys_track(fmt::format("models.{}.morph.weights", target_name(name)), *morph.keys));
+        if (!morph.clip.empty() && clip_.seconds > 0)
+            contents_.tracks.push_back(skin_track(name, clip_.seconds));
         models_.push_back({name, node.mesh, 0, std::move(morph)});
         return models_.back();
     }
@@ -197,10 +202,10 @@ class SceneOfGltf {
     GltfMotion motion_;
     GltfFrames frames_;
     Contents contents_;
-    std::map<std::pair<int, int>, size_t> model_numbers_;  ///< by mesh and owner of weights
-    std::vector<MeshModel> models_;                        ///< in the order of their first objects
-    std::map<std::string, size_t> material_numbers_;       ///< by group
-    std::map<std::string, std::string> materials_;         ///< by group
+    std::map<std::array<int, 3>, size_t> model_numbers_;  ///< by mesh, owner of weights, skin
+    std::vector<MeshModel> models_;                       ///< in the order of their first objects
+    std::map<std::string, size_t> material_numbers_;      ///< by group
+    std::map<std::string, std::string> materials_;        ///< by group
     NameList objects_{{"ground"}}, model_names_{{"ground"}};
     NameList material_names_{{"default", "ground"}};
     bool has_textures_ = false, has_colors_ = false;

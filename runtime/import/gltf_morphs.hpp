@@ -17,6 +17,8 @@ struct GltfMorph {
     int owner = kNobody;          ///< number of the node whose weights they are, or one of these
     std::vector<double> weights;  ///< empty: the mesh has no targets, or none pulls
     const Keyframes* keys = nullptr;  ///< of a clip; times are seconds
+    int skin = -1;                    ///< number in the file; -1: none
+    std::string clip;                 ///< that moves the skin's joints; empty: none does
 };
 
 /// The morph of a node that shows a mesh. Throws Error::input where the file has more or fewer
@@ -26,7 +28,12 @@ GltfMorph gltf_morph(const GltfFile& file, const GltfClip& clip, const GltfNode&
 /// `, "morph": {...}` of a model; empty where nothing pulls.
 std::string morph_member(const GltfMorph& morph);
 
-/// A box around a mesh in `box` and all that the keys' weights make of it.
-Bounds reach_of(const GltfMorph& morph, const GltfFile& file, int mesh, const Bounds& box);
+/// The track of the time by which a clip of so many seconds moves a model's skin.
+std::string skin_track(const std::string& model, double seconds);
+
+/// A box around a mesh in `box` and all that the keys' weights make of it, and a skin at each of so
+/// many frames.
+Bounds reach_of(const GltfMorph& morph, const GltfFile& file, int mesh, const Bounds& box,
+                int frames);
 
 }  // namespace voxelume

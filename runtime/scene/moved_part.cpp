@@ -2,12 +2,25 @@
 #include "runtime/scene/moved_part.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/track_values.hpp"
 
 namespace voxelume {
+namespace {
+
+/// What a track's scale passes on its way through 0: a sheet of a ten-thousandth of its longest
+/// side, on the side of 0 where it is.
+glm::dvec3 without_flatness(glm::dvec3 scale) {
+    const double least = 1e-4 * std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(scale[axis]) < least) scale[axis] = std::copysign(least, scale[axis]);
+    return scale;
+}
+
+}  // namespace
 
 MovedPart::MovedPart(const MovingPart& part, const std::string& file, double frame, Scene& scene)
     : part_(part), file_(file), frame_(frame), scene_(scene), placements_(part.placements) {
@@ -66,11 +79,23 @@ void MovedPart::place_object() {
     std::vector<glm::dmat4> links = part_.links;
     for (const MovingPlacement& placement : placements_) {
         const std::vector<size_t>& parent = placement.solid.parts;
-        links[parent.empty() ? links.size() - 1 : parent.front()] = placed(placement);
+        Factors factors = placement.factors;
+        if (has_scale_track(placement.solid)) factors.scale = without_flatness(factors.scale);
+        links[parent.empty() ? links.size() - 1 : parent.front()] = affine_from_factors(factors);
     }
     const glm::dmat4 map = product_of(links);
-    if (links.size() > 1) check_map(map, "parents", refusal(""));
-    scene_.objects[part_.place].world_from_object = map;
+    Object& object = scene_.objects[part_.place];
+    if (is_safely_invertible(stretch_of(glm::dmat3(map))))
+        object.world_from_object = map;
+    else
+        object.visible = false;
+}
+
+bool MovedPart::has_scale_track(const SolidPath& solid) const {
+    return std::ranges::any_of(part_.tracks, [&](const Track& track) {
+        const auto* const row = std::get_if<const ValueRow<Factors>*>(&track.value);
+        return row && (*row)->key == "scale" && track.solid == solid;
+    });
 }
 
 void MovedPart::form_model() {

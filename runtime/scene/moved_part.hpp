@@ -22,6 +22,7 @@ class MovedPart {
     void form();
     void build_world();
     void place_object();
+    bool has_scale_track(const SolidPath& solid) const;
     void form_model();
     void form_display(Observer& observer);
 

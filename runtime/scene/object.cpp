@@ -12,11 +12,12 @@ std::span<const ValueRow<Model>> model_rows() {
 }
 
 std::span<const ValueRow<Morph>> morph_rows() {
-    static constexpr std::array<ValueRow<Morph>, 4> rows = {
+    static constexpr std::array<ValueRow<Morph>, 5> rows = {
         {{"weights", &Morph::weights, {-1000, 1000}},
          {"amount", &Morph::amount, kRatio},
          {"center", &Morph::center, kCoordinate},
-         {"radius", &Morph::radius, kLength}}};
+         {"radius", &Morph::radius, kLength},
+         {"time", &Morph::time, {0, 1e6}}}};
     return rows;
 }
 

@@ -32,7 +32,13 @@ struct Morph {
     double amount = 0;           ///< share of the way, 0..1
     /// Of each target of a glTF file's mesh, instead: how far it pulls. Empty: the way above.
     std::vector<double> weights{};
+    int skin = 0;        ///< number of a skin of that file, from 1 on, which then moves it; 0: none
+    std::string clip{};  ///< of that file, which moves the skin's joints; empty: they stand still
+    double time = 0;     ///< seconds of the clip, >= 0
     bool operator==(const Morph&) const = default;
+
+    /// Whether what moves the mesh is in its own file.
+    bool is_of_file() const { return !weights.empty() || skin > 0; }
 };
 
 /// The map from the coordinates of a model's files to object space.

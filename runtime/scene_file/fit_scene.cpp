@@ -96,7 +96,7 @@ class ObjectsBox {
     /// gone.
     Bounds file_model_box(const Model& model, bool is_first) {
         // The file's box holds what weights reach, and changes with them.
-        if (model.morph && !model.morph->weights.empty())
+        if (model.morph && model.morph->is_of_file())
             return model.object_from_file(file_boxes_(model, is_first));
         const Bounds box = model.object_from_file(file_box(model, is_first));
         if (!model.morph) return box;

@@ -7,16 +7,16 @@
 namespace voxelume {
 namespace {
 
-/// What places the object of a part: little is copied for each key of thousands of objects.
-JsonValue placement_of(const JsonValue& object) {
+/// What places the object of a part, or all the rest.
+JsonValue members_of(const JsonValue& object, bool is_placement) {
     static constexpr std::string_view kKeys[] = {"position", "turn", "scale", "matrix", "parents"};
-    JsonValue placement;
-    placement.type = object.type;
-    placement.at = object.at;
+    JsonValue members;
+    members.type = object.type;
+    members.at = object.at;
     for (const JsonMember& member : object.members)
-        if (std::ranges::find(kKeys, member.key) != std::end(kKeys))
-            placement.members.push_back(member);
-    return placement;
+        if ((std::ranges::find(kKeys, member.key) != std::end(kKeys)) == is_placement)
+            members.members.push_back(member);
+    return members;
 }
 
 /// Reads a part and keeps nothing but the messages.
@@ -27,13 +27,16 @@ class PartCheck {
           scene_(scene),
           search_{search.scene_folder, search.assets, false},
           file_(scene.file.string()),
-          value_(part.only_placed ? placement_of(*part.value) : *part.value) {}
+          // Little is copied for each key of thousands of objects.
+          value_(part.only_placed ? members_of(*part.value, true) : *part.value) {}
 
     void check(double frame) {
         try {
             JsonValue value = value_;
-            for (const DocumentTrack& track : part_.tracks)
+            for (const DocumentTrack& track : part_.tracks) {
+                if (may_be_flat(track, frame)) continue;
                 put_value(value, track.target.steps, value_at(track, frame));
+            }
             read(SceneValue(value, part_.path, file_));
         } catch (const Error& error) {
             throw at_frame(error, frame);
@@ -41,6 +44,13 @@ class PartCheck {
     }
 
   private:
+    /// Whether it is the scale of an object that the track has on its way from key to key.
+    bool may_be_flat(const DocumentTrack& track, double frame) const {
+        if (part_.part != ScenePart::object) return false;
+        const auto is_scale = [](const PathStep& step) { return step.key == "scale"; };
+        return std::ranges::any_of(track.target.steps, is_scale) &&
+               std::ranges::find(track.keys.frames, frame) == track.keys.frames.end();
+    }
     void read(const SceneValue& value) {
         switch (part_.part) {
             case ScenePart::world:
@@ -53,10 +63,11 @@ class PartCheck {
                 read_model(part_.name, value, {search_, scene_.world.voxel_size});
                 return;
             case ScenePart::object:
-                if (part_.only_placed) {
-                    read_object_place(SceneFields(value, "object"));
-                } else {
-                    ObjectReader(scene_).read(value, part_.place);
+                // What flattens an object between keys, or by its parents together, hides it.
+                read_links(SceneFields(value, "object"));
+                if (!part_.only_placed) {
+                    const JsonValue rest = members_of(value.json(), false);
+                    ObjectReader(scene_).read(SceneValue(rest, part_.path, file_), part_.place);
                 }
                 return;
             case ScenePart::light:

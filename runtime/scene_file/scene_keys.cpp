@@ -65,7 +65,8 @@ std::vector<KeyTable> make_tables() {
     tables.push_back(
         {"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface", "iso", "label"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
-    tables.push_back({"morph", {"mesh", "center", "radius", "amount", "weights"}});
+    tables.push_back(
+        {"morph", {"mesh", "center", "radius", "amount", "weights", "skin", "clip", "time"}});
     add_kinds("model", {"shape"}, solid_types(), lattice, tables);
     add_kinds("part", {"shape"}, solid_types(), placement, tables);
     tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",

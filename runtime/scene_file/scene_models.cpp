@@ -94,17 +94,34 @@ void read_mesh_part(const SceneFields& fields, Model& model) {
     model.part = part->integer(1, 1'000'000);
 }
 
+/// What the mesh's own file moves it by: weights of its targets, a skin, or both.
+void read_file_morph(const SceneFields& fields, Morph& morph) {
+    const bool has_skin = fields.has("skin");
+    for (const std::string_view key : {"mesh", "center", "radius", "amount"})
+        if (const auto found = fields.find(key))
+            found->fail(fmt::format("is no part of a morph by \"{}\"; leave it out",
+                                    has_skin ? "skin" : "weights"));
+    if (const auto weights = fields.find("weights")) {
+        if (weights->items().empty()) weights->fail("needs a number for each target");
+        weights->read_into(&morph.weights, find_row(morph_rows(), "weights")->range, false);
+    }
+    for (const std::string_view key : {"clip", "time"})
+        if (const auto found = fields.find(key); found && !has_skin)
+            found->fail("moves a \"skin\", and there is none");
+    morph.skin = fields.integer("skin", 1, 1'000'000, 0);
+    if (const auto clip = fields.find("clip")) morph.clip = clip->text();
+    morph.time = fields.number("time", find_row(morph_rows(), "time")->range, 0);
+}
+
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     const SceneFields fields(value, "morph");
     Morph morph;
-    if (const auto weights = fields.find("weights")) {
-        for (const std::string_view key : {"mesh", "center", "radius", "amount"})
-            if (const auto found = fields.find(key))
-                found->fail("is no part of a morph by \"weights\"; leave it out");
-        if (weights->items().empty()) weights->fail("needs a number for each target");
-        weights->read_into(&morph.weights, find_row(morph_rows(), "weights")->range, false);
+    if (fields.has("weights") || fields.has("skin")) {
+        read_file_morph(fields, morph);
         return morph;
     }
+    for (const std::string_view key : {"clip", "time"})
+        if (const auto found = fields.find(key)) found->fail("moves a \"skin\", and there is none");
     morph.amount = fields.number("amount", kRatio, 0);
     if (const auto mesh = fields.find("mesh")) {
         for (const std::string_view key : {"center", "radius"}) {
@@ -174,9 +191,11 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         read_file_size(fields, model);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
-        if (model.morph && !model.morph->weights.empty() && model.part == 0)
+        if (model.morph && model.morph->is_of_file() && model.part == 0)
             fields.get("morph").fail(
-                "has weights, which are those of one mesh of a glTF file; name its \"part\"");
+                fmt::format("has {}, which {} of one mesh of a glTF file; name its \"part\"",
+                            model.morph->skin > 0 ? "a skin" : "weights",
+                            model.morph->skin > 0 ? "is that" : "are those"));
         read_lattice(fields, context.world_voxel_size, model);
         model.shading = read_shading(fields);
         if (const auto cut = fields.find("cut")) {

@@ -17,6 +17,9 @@ template <class Value>
 struct Key {
     double frame = 1;  ///< 1 is the first; fractions are allowed
     Value value{};     ///< the track's value there
+    /// Of Interpolation::spline: the slope with which the value arrives, and that with which it
+    /// leaves, per second; 0 without them.
+    std::optional<Value> in{}, out{};
 };
 
 template <class Value>
@@ -28,7 +31,8 @@ enum class Interpolation {
     step,    ///< the earlier key's value
     linear,  ///< number by number, at an even speed
     cubic,   ///< number by number, smoothly, and never beyond the two keys' values
-    slerp    ///< of a `turn`: the shorter way round one axis, at an even speed
+    slerp,   ///< of a `turn`: the shorter way round one axis, at an even speed
+    spline   ///< number by number, with the slopes that the keys have
 };
 
 /// One value of the scene over time. Before the first key its value holds, after the last one the
@@ -42,8 +46,9 @@ enum class Interpolation {
 struct Track {
     std::string target{};  ///< as scene files name it: "objects.ball.position"
     std::variant<Keys<double>, Keys<std::array<double, 2>>, Keys<Vec3>, Keys<bool>,
-                 Keys<std::string>>
-        keys{};  ///< in the order of time, one or more
+                 Keys<std::string>, Keys<std::array<double, 4>>, Keys<std::vector<double>>>
+        keys{};  ///< in the order of time, one or more; four numbers are a quaternion of a `turn`,
+                 ///< a vector is the weights of a morph
     std::optional<Interpolation>
         interpolation{};  ///< without it linear, or step of texts and bools
 };

@@ -92,6 +92,12 @@ struct Morph {
     /// Instead of a mesh, a sphere that each vertex reaches straight away from its centre.
     std::optional<Vec3> center{};
     std::optional<double> radius{};  ///< metres
+    /// Instead of all these: how far each target of a glTF file's mesh pulls.
+    std::vector<double> weights{};
+    /// With them or alone: number of a skin of that file, from 1 on, whose joints move the mesh.
+    std::optional<int> skin{};
+    std::string clip{};  ///< of that file, which moves the joints; empty: they stand still
+    std::optional<double> time{};  ///< seconds of the clip
 };
 
 /// The normals by which light falls on an exact mesh, or on cubes with those of their mesh.
@@ -114,9 +120,9 @@ enum class Unit {
     yard
 };
 
-/// Triangles of an OBJ, PLY or STL file. Files are looked for in SceneOptions::assets.
+/// Triangles of an OBJ, PLY, STL or glTF file. Files are looked for in SceneOptions::assets.
 struct MeshFile {
-    std::filesystem::path file{};        ///< .obj, .ply or .stl
+    std::filesystem::path file{};        ///< .obj, .ply, .stl, .gltf or .glb
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<Morph> morph{};        ///< moves its vertices
     std::vector<Part> cuts{};            ///< taken away from the mesh; not of an exact one
@@ -126,6 +132,7 @@ struct MeshFile {
     std::optional<Shading> shading{};      ///< of an exact mesh, or of cubes with the normals of
                                            ///< the mesh; without it automatic
     std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
+    std::optional<int> part{};  ///< number of a mesh in a glTF file, from 1 on; without it all
 };
 
 /// Voxels that are there already: a .vxm of `voxelize`, an OpenVDB or a MagicaVoxel file, an array
@@ -193,6 +200,14 @@ enum class Placement {
     instance    ///< rays are transformed into the object's own voxels
 };
 
+/// A place in the world, or in another place.
+struct Parent {
+    Vec3 position{};                 ///< metres
+    Vec3 turn{};                     ///< degrees [psi, theta, gamma]
+    Vec3 scale{1, 1, 1};             ///< negative numbers mirror
+    std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
+};
+
 /// A model in the world. Scaling comes first, then turning, then shifting.
 struct Object {
     std::string name{};      ///< for messages and tracks; empty: "objects[n]"
@@ -210,6 +225,8 @@ struct Object {
         light_samples{};  ///< points that its emission lights the world from, 0..16384
     Placement placement =
         Placement::automatic;  ///< in the world's voxels, as an instance, or whichever suits
+    /// Each stands in the one before it, and the object in the last.
+    std::vector<Parent> parents{};
 };
 
 }  // namespace voxelume::v1

@@ -32,6 +32,13 @@ struct BallDensity {
     double falloff = 0;  ///< metres of the rim over which the density falls smoothly, up to radius
 };
 
+/// What light meets where a file has a value; see GridDensity::transfer.
+struct TransferPoint {
+    double value = 0;              ///< of the file; above that of the point before
+    double absorption = 0;         ///< per metre, times the medium's
+    std::optional<Color> color{};  ///< radiance of an infinitely deep medium; without it white
+};
+
 /// A float grid of an OpenVDB file, in metres by its own transform and then placed.
 struct GridDensity {
     std::filesystem::path file{};        ///< .vdb
@@ -41,11 +48,14 @@ struct GridDensity {
     Vec3 turn{};          ///< degrees [psi, theta, gamma]: R_y(psi) * R_x(theta) * R_z(gamma)
     Vec3 scale{1, 1, 1};  ///< negative ones mirror
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
+    /// The file's values are no densities, but what these points say, linear between them.
+    std::vector<TransferPoint> transfer{};
+    std::optional<Vec3> lit{};  ///< with a transfer: where light travels that brings out surfaces
 };
 
 /// What fills the space between the objects.
 struct Medium {
-    Color absorption{};  ///< per metre at density 1, at least 0
+    Color absorption{};  ///< per metre at density 1, at least 0; with a transfer 0 stands for 1
     Color color{};       ///< radiance that an infinitely deep medium shows, at least 0
     /// The density at each voxel of the world; monostate: 1 everywhere.
     std::variant<std::monostate, HeightDensity, BallDensity, GridDensity> density{};

@@ -2,58 +2,13 @@
 // Scenes built from plain structs equal those that files describe.
 #include <gmock/gmock.h>
 
-#include "runtime/api/handles.hpp"
-#include "runtime/scene/scene_animation.hpp"
-#include "tests/api/api_environment.hpp"
+#include "tests/api/scene_pairs.hpp"
 
 namespace voxelume {
 namespace {
 
 using v1::Keys;
 using v1::Vec3;
-
-/// The scene without its places in files and texts and without its tracks, so that scenes of
-/// different sources compare equal.
-Scene without_places(Scene scene) {
-    const auto strip = [](auto& parts) {
-        for (auto& part : parts) part.where = {};
-    };
-    scene.file.clear();
-    scene.world.where = scene.observer.where = {};
-    strip(scene.models);
-    strip(scene.objects);
-    strip(scene.lights);
-    for (Object& object : scene.objects) strip(object.groups);
-    scene.motion = nullptr;
-    return scene;
-}
-
-/// Expects that both scenes have the same values in the first frame and at a later time.
-void expect_same(const v1::SceneDescription& description, const std::string& text) {
-    const Scene built = api::inside(v1::Scene::build(description));
-    const Scene read = api::inside(v1::Scene::parse(text));
-    EXPECT_EQ(without_places(built), without_places(read));
-    EXPECT_EQ(moves(built), moves(read));
-    EXPECT_EQ(without_places(scene_at(built, 2.5)), without_places(scene_at(read, 2.5)));
-}
-
-/// The parts that every scene needs.
-v1::SceneDescription empty_scene() {
-    v1::SceneDescription scene;
-    scene.world = {.voxel_size = {0.5, 0.25, 0.125}, .min = {-1, -2, -3}, .max = {3, 2, 1}};
-    scene.observer.emplace().position = {0.5, 1, -6};
-    return scene;
-}
-
-/// A scene text with empty_scene()'s members and the given ones.
-std::string text_with(
-    const std::string& members,
-    const std::string& observer = R"({"position": [0.5, 1, -6], "display": {"shape": "pyramid"}})",
-    const std::string& world = "") {
-    return R"({"voxelume": 1, "world": {"voxel_size": [0.5, 0.25, 0.125],
-               "bounds": {"min": [-1, -2, -3], "max": [3, 2, 1]})" +
-           world + "}, \"observer\": " + observer + (members.empty() ? "" : ", ") + members + "}";
-}
 
 }  // namespace
 

@@ -35,6 +35,10 @@ expect 4 "voxelume-vdb-reader can't be started: No such file or directory; insta
 printf '#!/bin/sh\nkill -SEGV $$\n' >"$reader"
 chmod +x "$reader"
 expect 4 "a.vdb: not a readable OpenVDB file: its reader ended: Segmentation fault, so it is damaged" info a.vdb
+compressed=/usr/share/assimp/models/glTF2/draco/2CylinderEngine.gltf
+expect 0 'triangles' info $compressed
+rm "$(find . -name voxelume-mesh-decoder)"
+expect 4 "its compressed meshes can't be read: voxelume-mesh-decoder can't be started" info $compressed
 rm "$(find . -name libvoxelume_vdb.so)"
 gone="the part of voxelume for OpenVDB can't be loaded: libvoxelume_vdb.so:"
 expect 4 "a.vdb: can't be read: $gone" info a.vdb

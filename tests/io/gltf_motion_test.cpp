@@ -123,6 +123,28 @@ TEST_F(GltfMotionTest, ObjectsThatVanishByTheirScaleBecomeTiny) {
     EXPECT_EQ(scene_at(scene, 25).objects[0].world_from_object[0].x, 2);
 }
 
+TEST_F(GltfMotionTest, ObjectsThatAScaleTurnsInsideOutAreThereInEveryFrame) {
+    GltfWriter writer = moved_triangle("scale", {0, 1}, {1, 2, 3, -1, 2, -3});
+    writer.json["nodes"].push_back({{"children", {0}}});
+    writer.json["scenes"][0]["nodes"] = {1};
+    Json channel = writer.json["animations"][0]["channels"][0];
+    channel["target"]["node"] = 1;
+    const std::string one = text_of(writer);
+    writer.json["animations"][0]["channels"].push_back(channel);
+    for (const std::string& text : {one, text_of(writer)}) {
+        const Scene scene = scene_in(text);
+        for (int frame = 1; frame <= 25; ++frame) {
+            const Object object = scene_at(scene, frame).objects[0];
+            const double share = 1 - (frame - 1) / 12.0, x = text == one ? share : share * share;
+            if (object.visible)
+                EXPECT_NEAR(object.world_from_object[0].x, x, 2.1e-4) << frame;
+            else
+                EXPECT_EQ(frame, 13);
+        }
+        EXPECT_EQ(scene_at(scene, 13).objects[0].visible, text == one);
+    }
+}
+
 TEST_F(GltfMotionTest, ThatLeavesTheReachOfScenesIsRefused) {
     EXPECT_THAT(error_of([&] {
                     text_of(moved_triangle("translation", {0, 1}, {0, 0, 0, 1e9F, 0, 0}));

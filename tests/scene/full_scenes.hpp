@@ -73,6 +73,7 @@ inline std::vector<nlohmann::json> full_scenes() {
             "materials": {"a": {"ior": 1.5}},
             "models": {"m": {"mesh": "m.obj", "fit": 2, "morph": {"mesh": "m.obj", "amount": 0.5}, "surface": "smooth"},
                        "w": {"mesh": "m.glb", "part": 2, "morph": {"weights": [0.5, -1]}, "surface": "smooth"},
+                       "k": {"mesh": "m.glb", "part": 2, "morph": {"skin": 1, "clip": "walk", "time": 0.25}, "surface": "smooth"},
                        "b": {"mesh": "m.obj", "morph": {"center": [1, 2, 3], "radius": 1}, "surface": "smooth",
                              "cut": [{"shape": "sphere", "radius": 1, "position": [1, 2, 3]}]},
                        "s": {"voxels": "s.#.vdb", "part": 7, "unit": "mm", "label": "each", "sequence": {"first": 1, "last": 2, "start": 3, "loop": true}},

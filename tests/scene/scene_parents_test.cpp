@@ -72,6 +72,28 @@ TEST(Parents, TurnByQuaternions) {
     EXPECT_LT(glm::distance(moved(scene, 5, {1, 1, 1}), glm::dvec3(5, -4, 6)), 1e-14);
 }
 
+TEST(Parents, WhoseScalesPassZeroAreSheetsThere) {
+    const Scene scene = scene_of_arm(
+        R"({"target": "objects.arm.scale",
+            "keys": [{"frame": 1, "value": [1, 1, 1]}, {"frame": 5, "value": [1, -1, 1]}]},
+           {"target": "objects.arm.position", "keys": [{"frame": 3, "value": [0, 1, 0]}]})");
+    EXPECT_EQ(moved(scene, 1, {1, 1, 1}), glm::dvec3(-3, 8, 6));
+    EXPECT_LT(glm::distance(moved(scene, 3, {1, 1, 1}), moved(scene, 3, {1, 0, 1})), 3e-4);
+    EXPECT_GT(glm::distance(moved(scene, 3, {1, 1, 1}), moved(scene, 3, {1, 0, 1})), 1e-4);
+    EXPECT_TRUE(scene_at(scene, 3).objects[0].visible);
+    EXPECT_NE(moved(scene, 5, {1, 1, 1}), glm::dvec3(-3, 8, 6));
+}
+
+TEST(Parents, WhoseScalesPassZeroTogetherHideTheObject) {
+    const char* const keys = R"("keys": [{"frame": 1, "value": 1}, {"frame": 5, "value": -1}])";
+    const Scene scene = scene_of_arm(fmt::format(R"({{"target": "objects.arm.scale", {0}}},
+                                    {{"target": "objects.arm.parents[0].scale", {0}}})",
+                                                 keys));
+    EXPECT_TRUE(scene_at(scene, 2).objects[0].visible);
+    EXPECT_FALSE(scene_at(scene, 3).objects[0].visible);
+    EXPECT_TRUE(scene_at(scene, 4).objects[0].visible);
+}
+
 TEST(Parents, ThatAreWrongSaySo) {
     EXPECT_THAT(
         message_of(

@@ -182,10 +182,10 @@ TEST(Tracks, WithValuesThatTheirTargetRefusesPointAtTheKey) {
 }
 
 TEST(Tracks, ThatGoWrongBetweenKeysSayWhereWhenTheFrameIsMade) {
-    const Scene scene =
-        parse_scene(scene_with_tracks(track("objects.b.scale", R"({"frame": 1, "value": -1},
-            {"frame": 9, "value": 1})")),
-                    "s.json", {});
+    const Scene scene = parse_scene(
+        scene_with_tracks(track("observer.look_at", R"({"frame": 1, "value": [0, 0, -7]},
+            {"frame": 9, "value": [0, 0, 1]})")),
+        "s.json", {});
     EXPECT_NO_THROW(scene_at(scene, 4));
     try {
         scene_at(scene, 5);
@@ -193,7 +193,7 @@ TEST(Tracks, ThatGoWrongBetweenKeysSayWhereWhenTheFrameIsMade) {
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::scene);
         EXPECT_THAT(error.what(), StartsWith("s.json:13:"));
-        EXPECT_THAT(error.what(), HasSubstr("objects[0].scale: is singular"));
+        EXPECT_THAT(error.what(), HasSubstr("observer.look_at: is the position itself"));
         EXPECT_THAT(error.what(), HasSubstr("(at frame 5)"));
     }
 }

@@ -90,13 +90,6 @@ struct Elements {
     }
 };
 
-uint64_t type_of(const GltfValue& accessor) {
-    const uint64_t type = accessor.count("componentType", 0);
-    if (type < kByte || type > kFloat || type == kUnsignedShort + 1)
-        accessor.fail(fmt::format("{} is no type of components", type));
-    return type;
-}
-
 /// Takes the bytes of `count` elements from a buffer view. Throws where they don't lie in it.
 void place(const GltfFile& file, const GltfValue& at, uint64_t count, Elements& elements) {
     if (!at.has("bufferView")) return;
@@ -136,7 +129,7 @@ void read_sparse(const GltfFile& file, const GltfValue& accessor, uint64_t count
     const uint64_t changed = sparse.count("count", 0);
     if (changed > count) sparse.fail(fmt::format("changes {} of {} elements", changed, count));
     Elements indices;
-    indices.type = type_of(places);
+    indices.type = gltf_component_type(places);
     if (indices.type == kFloat) places.fail("indices are whole numbers");
     place(file, places, changed, indices);
     elements.first = nullptr;
@@ -148,7 +141,26 @@ void read_sparse(const GltfFile& file, const GltfValue& accessor, uint64_t count
     }
 }
 
+/// Takes the elements that a Draco primitive fills. False where there are none.
+bool take_decoded(const GltfFile& file, const GltfValue& accessor, size_t number, uint64_t count,
+                  Elements& elements) {
+    const std::vector<uint8_t>* const decoded = file.decoded_accessor(number);
+    if (!decoded) return false;
+    elements.stride = size_of(elements.type) * size_t(elements.components);
+    if (elements.rows != elements.components || decoded->size() / elements.stride < count)
+        accessor.fail("its Draco data have another type than it");
+    elements.first = decoded->data();
+    return true;
+}
+
 }  // namespace
+
+uint64_t gltf_component_type(const GltfValue& accessor) {
+    const uint64_t type = accessor.count("componentType", 0);
+    if (type < kByte || type > kFloat || type == kUnsignedShort + 1)
+        accessor.fail(fmt::format("{} is no type of components", type));
+    return type;
+}
 
 GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* key,
                        std::initializer_list<int> components) {
@@ -159,14 +171,15 @@ GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* 
         std::ranges::find(components, kind->components) == components.end())
         accessor.fail(fmt::format("isn't of the type that {} needs", key));
     Elements elements;
-    elements.type = type_of(accessor);
+    elements.type = gltf_component_type(accessor);
     elements.is_normalized = accessor.boolean("normalized", false);
     elements.components = kind->components;
     elements.rows = kind->rows;
     GltfValues found;
     found.count = count_of(accessor);
     found.components = kind->components;
-    place(file, accessor, found.count, elements);
+    if (!take_decoded(file, accessor, size_t(from.index(key, SIZE_MAX)), found.count, elements))
+        place(file, accessor, found.count, elements);
     if (!elements.first && found.count > (uint64_t{1} << 26))
         accessor.fail("more than 2^26 elements without a buffer view");
     found.values.resize(found.count * uint64_t(found.components));
@@ -187,12 +200,19 @@ std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, 
                                    uint64_t limit) {
     const GltfValue accessor = accessor_of(file, from, key);
     Elements elements;
-    elements.type = type_of(accessor);
+    elements.type = gltf_component_type(accessor);
     if (accessor.text("type") != "SCALAR" || elements.type == kFloat || elements.type == kByte ||
         elements.type == kShort)
         accessor.fail("indices are unsigned whole numbers");
-    const uint64_t count = count_of(accessor);
-    place(file, accessor, count, elements);
+    uint64_t count = count_of(accessor);
+    const auto number = size_t(from.index(key, SIZE_MAX));
+    if (const auto* const decoded = file.decoded_accessor(number)) {
+        elements.type = kUnsignedInt;
+        count = std::min<uint64_t>(count, decoded->size() / 4);
+        take_decoded(file, accessor, number, count, elements);
+    } else {
+        place(file, accessor, count, elements);
+    }
     if (!elements.first && count > (uint64_t{1} << 26))
         accessor.fail("more than 2^26 elements without a buffer view");
     std::vector<uint32_t> indices(count);

@@ -28,6 +28,9 @@ GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* 
 /// How many elements the accessor has that `key` of `from` names; reads none of them.
 uint64_t count_gltf_values(const GltfFile& file, const GltfValue& from, const char* key);
 
+/// The number of an accessor's type of components. Throws Error::input for a number that is none.
+uint64_t gltf_component_type(const GltfValue& accessor);
+
 /// Reads the indices that `key` of `from` names; each is below `limit`.
 std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, const char* key,
                                    uint64_t limit);

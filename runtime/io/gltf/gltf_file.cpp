@@ -23,7 +23,7 @@ constexpr size_t kMaxBuffers = size_t{16} << 30;
 constexpr int kMaxLevels = 64;
 
 /// Extensions that are shown, or that change nothing that is shown.
-constexpr std::array<std::string_view, 13> kKnown = {"KHR_lights_punctual",
+constexpr std::array<std::string_view, 16> kKnown = {"KHR_lights_punctual",
                                                      "KHR_materials_transmission",
                                                      "KHR_materials_ior",
                                                      "KHR_materials_volume",
@@ -35,7 +35,10 @@ constexpr std::array<std::string_view, 13> kKnown = {"KHR_lights_punctual",
                                                      "EXT_mesh_gpu_instancing",
                                                      "KHR_xmp_json_ld",
                                                      "KHR_materials_specular",
-                                                     "KHR_materials_clearcoat"};
+                                                     "KHR_materials_clearcoat",
+                                                     "KHR_draco_mesh_compression",
+                                                     "EXT_meshopt_compression",
+                                                     "KHR_meshopt_compression"};
 
 bool is_known(const std::string& extension) {
     return std::ranges::find(kKnown, extension) != kKnown.end();
@@ -131,6 +134,8 @@ GltfFile::GltfFile(std::string bytes, const std::filesystem::path& path)
     check_json();
     material_names_ = names_of_materials(root().items("materials"));
     read_buffers();
+    decode_gltf_views(*this, decoded_);
+    decode_gltf_primitives(*this, decoded_);
 }
 
 void GltfFile::parse_json(std::string_view text) {
@@ -188,6 +193,10 @@ void GltfFile::read_buffers() {
     for (const GltfValue& buffer : all) {
         const uint64_t length = buffer.count("byteLength", 0);
         std::string_view bytes = chunk_;
+        if (is_gltf_fallback(buffer)) {
+            buffers_.emplace_back();
+            continue;
+        }
         if (buffer.has("uri")) {
             bytes = read_.emplace_back(bytes_of_uri(buffer, buffer.text("uri")));
         } else if (!buffers_.empty()) {
@@ -207,7 +216,17 @@ void GltfFile::read_buffers() {
 std::span<const uint8_t> GltfFile::view(const GltfValue& which, const char* key) const {
     const int number = which.index(key, root().size("bufferViews"));
     if (number < 0) return {};
-    const GltfValue view = root().item("bufferViews", size_t(number));
+    const auto decoded = decoded_.views.find(size_t(number));
+    if (decoded != decoded_.views.end()) return decoded->second;
+    return bytes_in_buffer(root().item("bufferViews", size_t(number)));
+}
+
+const std::vector<uint8_t>* GltfFile::decoded_accessor(size_t number) const {
+    const auto found = decoded_.accessors.find(number);
+    return found == decoded_.accessors.end() ? nullptr : &found->second;
+}
+
+std::span<const uint8_t> GltfFile::bytes_in_buffer(const GltfValue& view) const {
     const int buffer = view.index("buffer", buffers_.size());
     if (buffer < 0) view.fail("has no buffer");
     const std::span<const uint8_t> bytes = buffers_[size_t(buffer)];

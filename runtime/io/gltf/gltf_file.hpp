@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/io/gltf/gltf_compression.hpp"
+
 namespace voxelume {
 
 /// A part of a glTF file's JSON, with its place for messages: "meshes[3].primitives[0]".
@@ -59,8 +61,8 @@ class GltfFile {
   public:
     /// Takes the file's bytes. `path` opens messages; buffers and images lie in its folder. Throws
     /// Error::input for what is no glTF 2.0, for a required extension that isn't known, and for
-    /// buffers that are missing or too short; Error::limit for more than 64 MiB of JSON, 64 levels
-    /// or 16 GiB of buffers.
+    /// buffers that are missing or too short, or whose compressed data are damaged; Error::limit
+    /// for more than 64 MiB of JSON, 64 levels or 16 GiB of buffers.
     GltfFile(std::string bytes, const std::filesystem::path& path);
 
     GltfFile(const GltfFile&) = delete;  // views of its bytes are kept
@@ -68,8 +70,12 @@ class GltfFile {
 
     const std::filesystem::path& path() const { return path_; }
     GltfValue root() const { return {name_, json_, ""}; }
-    /// The bytes of a buffer view. `which` names it.
+    /// The bytes of a buffer view, decoded. `which` names it.
     std::span<const uint8_t> view(const GltfValue& which, const char* key) const;
+    /// The bytes that a view, or what stands for one, has in its buffer.
+    std::span<const uint8_t> bytes_in_buffer(const GltfValue& view) const;
+    /// The elements of an accessor that a Draco primitive fills; null for all others.
+    const std::vector<uint8_t>* decoded_accessor(size_t number) const;
     std::span<const uint8_t> buffer(size_t number) const { return buffers_[number]; }
     size_t buffer_count() const { return buffers_.size(); }
     /// The bytes of an image: its file's, a data URI's or a buffer view's.
@@ -97,6 +103,7 @@ class GltfFile {
     std::vector<std::string> read_;  ///< buffers from elsewhere
     std::vector<std::span<const uint8_t>> buffers_;
     std::vector<std::string> material_names_;
+    GltfDecoded decoded_;
 };
 
 /// True for names that end in .gltf or .glb.

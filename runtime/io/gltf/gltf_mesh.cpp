@@ -12,6 +12,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/io/gltf/gltf_skin.hpp"
 #include "runtime/io/gltf/gltf_textures.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
@@ -46,6 +47,14 @@ class MeshBuilder {
         for (const GltfValue& primitive :
              file_.root().item("meshes", size_t(number)).items("primitives"))
             add_primitive(primitive, map);
+    }
+
+    /// Adds a mesh whose joints stand where the file's nodes do.
+    void add_skinned_mesh(const GltfNode& node) {
+        const size_t first = mesh_.positions.size();
+        add_mesh(node.mesh, glm::dmat4(1));
+        GltfSkin(file_, node.mesh + 1, node.skin, "").move(mesh_, first, 0);
+        for (size_t i = first; i < mesh_.positions.size(); ++i) check_finite(mesh_.positions[i]);
     }
 
     Mesh mesh() {
@@ -91,13 +100,17 @@ class MeshBuilder {
                     SourcePlace(file_.path().string()), kMaxTriangles);
     }
 
+    void check_finite(const glm::vec3& p) const {
+        if (!std::isfinite(p.x + p.y + p.z))
+            throw Error(ErrorKind::input, "{}: a vertex isn't finite",
+                        SourcePlace(file_.path().string()));
+    }
+
     void add_positions(const GltfValues& positions, const glm::dmat4& map) {
         for (size_t i = 0; i < positions.count; ++i) {
             const float* const p = &positions.values[3 * i];
             const glm::vec3 at(map * glm::dvec4(p[0], p[1], p[2], 1));
-            if (!std::isfinite(at.x + at.y + at.z))
-                throw Error(ErrorKind::input, "{}: a vertex isn't finite",
-                            SourcePlace(file_.path().string()));
+            check_finite(at);
             mesh_.positions.push_back(at);
         }
     }
@@ -205,7 +218,10 @@ Mesh gltf_mesh(const GltfFile& file, int part) {
         return builder.mesh();
     }
     for (const GltfNode& node : gltf_nodes(file))
-        if (node.mesh >= 0) builder.add_mesh(node.mesh, node.world_from_node);
+        if (node.skin >= 0)
+            builder.add_skinned_mesh(node);
+        else if (node.mesh >= 0)
+            builder.add_mesh(node.mesh, node.world_from_node);
     return builder.mesh();
 }
 

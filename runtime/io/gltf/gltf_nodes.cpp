@@ -133,6 +133,8 @@ class Walk {
         found.mesh = node.index("mesh", root_.size("meshes"));
         found.camera = node.index("camera", root_.size("cameras"));
         found.light = node.extension("KHR_lights_punctual").index("light", lights_);
+        if (found.mesh >= 0 && has_gltf_joints(root_.item("meshes", size_t(found.mesh))))
+            found.skin = node.index("skin", root_.size("skins"));
         if (found.mesh < 0 && found.camera < 0 && found.light < 0) return;
         found.name = node.text("name");
         for (const glm::dmat4& map : instances_of(file_, node)) {
@@ -168,6 +170,14 @@ class Walk {
 
 std::vector<GltfValue> gltf_lights(const GltfFile& file) {
     return file.root().extension("KHR_lights_punctual").items("lights");
+}
+
+bool has_gltf_joints(const GltfValue& mesh) {
+    return std::ranges::any_of(mesh.items("primitives"), [](const GltfValue& primitive) {
+        const GltfValue attributes = primitive.at("attributes");
+        return primitive.count("mode", 4) >= 4 && attributes.has("POSITION") &&
+               attributes.has("JOINTS_0") && attributes.has("WEIGHTS_0");
+    });
 }
 
 std::vector<GltfNode> gltf_nodes(const GltfFile& file) {

@@ -17,6 +17,7 @@ struct GltfNode {
     int number = 0;                    ///< of the node in the file
     glm::dmat4 node_from_instance{1};  ///< of EXT_mesh_gpu_instancing; part of world_from_node
     int mesh = -1, camera = -1, light = -1;  ///< numbers in the file; -1: none
+    int skin = -1;                           ///< likewise; its joints, not the node, place the mesh
 };
 
 /// The most nodes and instances of a file that show something.
@@ -37,6 +38,9 @@ glm::dvec4 gltf_rotation(const GltfValue& node);  ///< a quaternion x, y, z, w
 glm::dvec3 gltf_scale(const GltfValue& node);
 /// By these three or by its matrix.
 glm::dmat4 gltf_parent_from_node(const GltfValue& node);
+
+/// Whether some primitive of a mesh with triangles has joints, so that a skin moves it.
+bool has_gltf_joints(const GltfValue& mesh);
 
 /// The lights of KHR_lights_punctual.
 std::vector<GltfValue> gltf_lights(const GltfFile& file);

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/mesh_codec/mesh_codec.hpp"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/helper_program.hpp"
+#include "runtime/base/helper_wire.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint64_t kMaxElements = uint64_t{1} << 31;
+constexpr uint64_t kMaxDecoded = uint64_t{16} << 30;
+
+/// How often data may be smaller than what they decode to. meshoptimizer's vertices take at least 2
+/// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no least size; regular
+/// meshes of a million triangles have been seen at 0.02 bits a triangle.
+uint64_t most_of_a_byte(MeshCodec codec) {
+    return codec == MeshCodec::draco ? 8192 : codec == MeshCodec::meshopt_vertices ? 64 : 12;
+}
+
+void check(const std::filesystem::path& file, const CodecJob& job) {
+    const CodecTask& task = job.task;
+    const SourcePlace place(file.string());
+    if (task.count >= kMaxElements || task.indices >= kMaxElements)
+        throw Error(ErrorKind::limit,
+                    "{}: {}: {} elements and {} indices; fewer than 2^31 are read", place,
+                    job.place, task.count, task.indices);
+    if (task.decoded_bytes() / most_of_a_byte(task.codec) > job.input.size())
+        throw Error(ErrorKind::input,
+                    "{}: {}: declares {} bytes, more than its {} compressed ones can hold; it is "
+                    "damaged",
+                    place, job.place, task.decoded_bytes(), job.input.size());
+}
+
+/// A file in memory, for the helper alone.
+class RequestFile {
+  public:
+    RequestFile() : descriptor_(memfd_create("voxelume", MFD_CLOEXEC)) {
+        if (descriptor_ < 0) fail();
+    }
+    ~RequestFile() { close(descriptor_); }
+    RequestFile(const RequestFile&) = delete;
+    RequestFile& operator=(const RequestFile&) = delete;
+
+    int descriptor() const { return descriptor_; }
+    void append(const void* data, size_t size) const {
+        const char* from = static_cast<const char*>(data);
+        while (size > 0) {
+            const ssize_t written = write(descriptor_, from, size);
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) fail();
+            from += written;
+            size -= size_t(written);
+        }
+    }
+
+  private:
+    [[noreturn]] static void fail() {
+        throw Error(ErrorKind::input, "no memory for compressed meshes: {}", std::strerror(errno));
+    }
+    int descriptor_;
+};
+
+CodecArrays receive(WireReceiver& receiver, const CodecTask& task) {
+    CodecArrays arrays;
+    const auto take = [&](uint64_t least, uint64_t most) {
+        arrays.push_back(receiver.values<uint8_t>(most));
+        if (arrays.back().size() < least) WireReceiver::fail();
+    };
+    if (task.codec != MeshCodec::draco) {
+        take(task.count * task.stride, task.count * task.stride);
+        return arrays;
+    }
+    take(0, 4 * task.indices);
+    for (size_t i = 0; i < task.attribute_count; ++i) {
+        const uint64_t bytes = task.count * task.attributes[i].bytes();
+        take(bytes, bytes);
+    }
+    return arrays;
+}
+
+void send(const RequestFile& request, const CodecRequest& header, std::span<const CodecJob> jobs) {
+    request.append(&header, sizeof header);
+    uint64_t first_byte = sizeof header + jobs.size() * sizeof(CodecTask);
+    for (const CodecJob& job : jobs) {
+        CodecTask task = job.task;
+        task.first_byte = first_byte;
+        task.bytes = job.input.size();
+        first_byte += task.bytes;
+        request.append(&task, sizeof task);
+    }
+    for (const CodecJob& job : jobs) request.append(job.input.data(), job.input.size());
+}
+
+std::vector<CodecArrays> ask(const std::filesystem::path& file, const RequestFile& request,
+                             const CodecRequest& header, std::span<const CodecJob> jobs) {
+    HelperProcess helper(helper_program(kMeshDecoderName), {VXL_VERSION}, request.descriptor(),
+                         2.0 * double(codec_seconds(header)) + 20);
+    WireReceiver receiver(helper);
+    std::vector<CodecArrays> results;
+    for (const CodecJob& job : jobs) {
+        const auto answer = receiver.value<CodecAnswer>();
+        if (answer == CodecAnswer::refusal)
+            throw Error(ErrorKind::input, "{}: {}: {}", SourcePlace(file.string()), job.place,
+                        receiver.text(1 << 12));
+        if (answer != CodecAnswer::content) WireReceiver::fail();
+        results.push_back(receive(receiver, job.task));
+    }
+    return results;
+}
+
+}  // namespace
+
+uint64_t CodecTask::decoded_bytes() const {
+    if (codec != MeshCodec::draco) return count * stride;
+    uint64_t sum = 4 * indices;
+    for (size_t i = 0; i < attribute_count; ++i) sum += count * attributes[i].bytes();
+    return sum;
+}
+
+std::vector<CodecArrays> decode_meshes(const std::filesystem::path& file,
+                                       std::span<const CodecJob> jobs) {
+    CodecRequest header{jobs.size(), 0};
+    for (const CodecJob& job : jobs) {
+        check(file, job);
+        header.decoded_bytes += job.task.decoded_bytes();
+        if (header.decoded_bytes > kMaxDecoded)
+            throw Error(ErrorKind::limit, "{}: its meshes have more than 16 GiB once decoded",
+                        SourcePlace(file.string()));
+    }
+    if (jobs.empty()) return {};
+    const RequestFile request;
+    send(request, header, jobs);
+    try {
+        return ask(file, request, header, jobs);
+    } catch (const HelperFailure& failure) {
+        if (failure.cause() == HelperFailure::Cause::missing)
+            throw Error(ErrorKind::input, "{}: its compressed meshes can't be read: {}",
+                        SourcePlace(file.string()), failure.what());
+        throw Error(ErrorKind::input,
+                    "{}: its compressed meshes can't be read: {}, so the file is damaged; use "
+                    "another copy of it",
+                    SourcePlace(file.string()), failure.what());
+    }
+}
+
+}  // namespace voxelume
