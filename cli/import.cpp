@@ -8,6 +8,7 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/import_options.hpp"
+#include "cli/slice_names.hpp"
 #include "cli/tell.hpp"
 
 namespace voxelume::cli {
@@ -22,18 +23,18 @@ struct ImportCommand {
 int run(const ImportCommand& command) {
     const Size size = command.size.empty() ? Size{} : parse_size(command.size, "import");
     if (!command.output.empty()) check_output(command.output, {".json"}, "import");
-    if (!is_model_file(command.file))
+    const std::string file = first_slice(command.file);
+    if (!is_model_file(file))
         fail_usage("import: {} isn't the name of a model file, such as .obj, .ply, .stl or .vdb",
-                   quote(command.file));
+                   quote(file));
     const std::filesystem::path folder = std::filesystem::path(command.output).parent_path();
-    const std::string text =
-        import_file(command.file, folder, options_of(command.choices, size, "import"));
+    const std::string text = import_file(file, folder, options_of(command.choices, size, "import"));
     if (command.output.empty()) {
         fmt::print("{}", text);
         return 0;
     }
     write_file(command.output, text);
-    const auto home = std::filesystem::canonical(command.file).parent_path();
+    const auto home = std::filesystem::canonical(file).parent_path();
     const auto inside =
         home.lexically_relative(std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
     if (!command.quiet && (inside.empty() || *inside.begin() == ".."))

@@ -115,7 +115,8 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
         ->type_name("COLOR");
     app.add_flag_function(
         "--ground,!--no-ground", [&choices](int64_t given) { choices.ground = given > 0; },
-        "of a model file: whether it stands on a ground; it does by default");
+        "of a model file: whether it stands on a ground; it does by default unless a .vox has "
+        "none");
     app.add_option("--fit", choices.fit,
                    "of a model file: length of its longest side in metres; the file's by default")
         ->check(in_range(1e-6, 1e6));
@@ -141,7 +142,7 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
                    command);
     options.angle = choices.angle.value_or(options.angle);
     options.own_camera = choices.view.empty() && !choices.angle;
-    options.ground = choices.ground.value_or(true);
+    options.ground = choices.ground;
     if (!choices.background.empty()) options.background = color_of(choices.background, command);
     options.clip = choices.clip;
     if (!choices.spacing.empty()) options.spacing = spacing_of(choices.spacing, command);

@@ -13,6 +13,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/complaint.hpp"
+#include "cli/slice_names.hpp"
 
 namespace voxelume::cli {
 
@@ -166,11 +167,12 @@ Scene load_scene(const std::string& name, const v1::SceneOptions& options) {
 
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
-    const bool is_model = is_model_file(options.scene);
+    const std::string input = first_slice(options.scene);
+    const bool is_model = is_model_file(input);
     if (!is_model) refuse_choices(options.import, command);
     const v1::SceneOptions files = files_of(options, size, command);
-    Scene scene = is_model ? scene_of_file(options.scene, import_of(options, size, command), files)
-                           : load_scene(options.scene, files);
+    Scene scene = is_model ? scene_of_file(input, import_of(options, size, command), files)
+                           : load_scene(input, files);
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.noise > 0 || options.time > 0)
         scene = scene.with_noise(options.noise, options.time,

@@ -7,6 +7,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/slice_names.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -22,11 +23,11 @@ struct ViewCommand {
 
 /// The volumetric image of a file, or of what a model file holds. OpenVDB files are the former.
 Volume volume_of(const ViewCommand& command) {
-    if (ending_of(command.from) == ".vdb" || !is_model_file(command.from))
-        return Volume::read(command.from);
+    const std::string from = first_slice(command.from);
+    if (ending_of(from) == ".vdb" || !is_model_file(from)) return Volume::read(from);
     ImportOptions options;
     options.lattice = true;
-    return render_volume(scene_of_file(command.from, options), {Device::open(command.device)});
+    return render_volume(scene_of_file(from, options), {Device::open(command.device)});
 }
 
 int run(const ViewCommand& command) {

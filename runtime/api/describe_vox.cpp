@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/api/describe.hpp"
+#include "runtime/import/vox_sight.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 
 namespace voxelume::api {
@@ -58,6 +59,49 @@ Report materials_of(const VoxFile& vox, const std::array<uint64_t, 256>& uses) {
     return rows;
 }
 
+Report numbers(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Report cameras_of(const VoxFile& vox) {
+    constexpr std::array kKinds = {"perspective", "free",      "orthographic",
+                                   "isometric",   "panoramic", "of an unknown kind"};
+    Report rows = Report::array();
+    for (const VoxCamera& camera : vox.cameras) {
+        if (!(camera.radius > 0)) continue;
+        rows.push_back({{"camera", kKinds[size_t(camera.kind)]},
+                        {"looks at", numbers(camera.focus)},
+                        {"from", camera.radius},
+                        {"angles", numbers(glm::dvec3(camera.pitch, camera.yaw, camera.roll))},
+                        {"fov", camera.angle.value_or(vox.render.angle)},
+                        {"shown", rows.empty()}});
+    }
+    return rows;
+}
+
+Report settings_of(const VoxRender& render) {
+    Report report = {
+        {"sun", render.sun}, {"sun's height", render.sun_pitch}, {"sun's turn", render.sun_yaw},
+        {"sky", render.sky}, {"exposure", render.exposure},      {"ground", render.has_ground}};
+    if (render.fog > 0) report["fog"] = render.fog;
+    return report;
+}
+
+/// What of the render settings a picture lacks or assumes, in words.
+void add_unlike(const VoxFile& vox, Report& list) {
+    const VoxRender& render = vox.render;
+    for (const std::string& name : render.not_shown) list.push_back(name);
+    if (render.sky_mode == 1) list.push_back("a picture of the sky, which is one colour here");
+    if (render.sky_mode == 2) list.push_back("the atmosphere of the sky, which is one colour here");
+    if (render.is_there && render.sun > 0 && render.sun_pitch <= 1)
+        list.push_back("a sun below the horizon");
+    if (render.fog > 0) list.push_back("the fog's own density: a likely one is shown");
+    const VoxCamera* camera = used_camera(vox);
+    if (camera == nullptr) return;
+    if (camera->kind == VoxCameraKind::other)
+        list.push_back("the camera's projection, which is perspective here");
+}
+
 /// What of the file a picture lacks, in words.
 Report not_shown(const VoxFile& vox, const std::array<uint64_t, 256>& uses) {
     Report list = Report::array();
@@ -69,10 +113,12 @@ Report not_shown(const VoxFile& vox, const std::array<uint64_t, 256>& uses) {
         if (uses[i] > 0) ++kinds[size_t(vox.materials[i].kind)];
     add(kinds[size_t(VoxMaterialKind::media)], "media, shown as surfaces that are seen through");
     add(kinds[size_t(VoxMaterialKind::blend)], "blends, shown as metals");
-    add(vox.cameras, "cameras");
+    const auto used = std::ranges::count_if(
+        vox.cameras, [](const VoxCamera& camera) { return camera.radius > 0; });
+    add(int(used) - 1, "more cameras");
+    add_unlike(vox, list);
     for (const auto& [letters, count] : vox.not_read)
-        add(count, letters == "rOBJ"   ? "render settings"
-                   : letters == "NOTE" ? "lists of palette notes"
+        add(count, letters == "NOTE"   ? "lists of palette notes"
                    : letters == "IMAP" ? "orders of the palette, which change no colour"
                                        : fmt::format("chunks {}", letters).c_str());
     return list;
@@ -100,6 +146,8 @@ Report describe_vox(const std::filesystem::path& path) {
     report["object list"] = objects_of(vox);
     if (Report rows = materials_of(vox, uses); !rows.empty())
         report["material list"] = std::move(rows);
+    if (Report rows = cameras_of(vox); !rows.empty()) report["camera list"] = std::move(rows);
+    if (vox.render.is_there) report["render settings"] = settings_of(vox.render);
     if (Report list = not_shown(vox, uses); !list.empty()) report["not shown"] = std::move(list);
     return report;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/geometry/file_map.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <glm/common.hpp>
@@ -23,11 +24,38 @@ SurfaceArea scaled(const SurfaceArea& area, double factor) {
     return {area.shadows * factor, area.total * factor};
 }
 
-/// Whether voxel `i` of the stored bricks has a part of the surface.
-bool is_shown(const VoxelModel& voxels, size_t slot, const glm::ivec3& cell, size_t i) {
-    if (!voxels.distance.empty()) return std::abs(voxels.distance[i]) < kDistanceUnitsPerVoxel;
-    const uint64_t mask = voxels.occupancy[slot * kLeavesPerBrick + leaf_in_brick(cell)];
-    return (mask & bit_in_leaf(cell)) != 0;
+/// The cells that some part of a surface lies in.
+class CellBounds {
+  public:
+    explicit CellBounds(const glm::ivec3& size) : first_(size) {}
+
+    void add(const glm::ivec3& cell) {
+        first_ = glm::min(first_, cell);
+        last_ = glm::max(last_, cell);
+    }
+    /// Whether none of a cube of cells can change the bounds.
+    bool hold(const glm::ivec3& corner, int size) const {
+        return glm::min(first_, corner) == first_ && glm::max(last_, corner + size - 1) == last_;
+    }
+    glm::ivec3 first() const { return last_.x < 0 ? glm::ivec3(0) : first_; }
+    glm::ivec3 last() const { return glm::max(last_, 0); }
+
+  private:
+    glm::ivec3 first_, last_{-1};
+};
+
+void add_occupied(const uint64_t* leaves, const glm::ivec3& corner, CellBounds& bounds) {
+    for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf) {
+        const glm::ivec3 start = corner + leaf_corner(leaf);
+        if (leaves[leaf] == 0 || bounds.hold(start, kLeafSize)) continue;
+        for (uint64_t mask = leaves[leaf]; mask != 0; mask &= mask - 1)
+            bounds.add(start + cell_in_leaf(std::countr_zero(mask)));
+    }
+}
+
+void add_surface(const int16_t* distances, const glm::ivec3& corner, CellBounds& bounds) {
+    for (size_t i = 0; i < kVoxelsPerBrick; ++i)
+        if (std::abs(distances[i]) < kDistanceUnitsPerVoxel) bounds.add(corner + cell_in_brick(i));
 }
 
 }  // namespace
@@ -61,20 +89,18 @@ MeshSummary mapped(const FileMap& map, const MeshSummary& summary) {
 
 Bounds occupied_bounds(const VoxelModel& voxels) {
     if (!voxels.mesh.triangles.empty()) return mesh_bounds(voxels.mesh);
-    glm::ivec3 first = voxels.frame.size, last(-1);
+    CellBounds bounds(voxels.frame.size);
     for (size_t slot = 0; slot < voxels.coordinates.size(); ++slot) {
-        const glm::ivec3 start = brick_corner(voxels.frame, voxels.coordinates[slot]);
-        for (size_t i = 0; i < kVoxelsPerBrick; ++i) {
-            const glm::ivec3 cell = cell_in_brick(i);
-            if (!is_shown(voxels, slot, cell, slot * kVoxelsPerBrick + i)) continue;
-            first = glm::min(first, start + cell);
-            last = glm::max(last, start + cell);
-        }
+        const glm::ivec3 corner = brick_corner(voxels.frame, voxels.coordinates[slot]);
+        if (bounds.hold(corner, kBrickSize)) continue;
+        if (voxels.distance.empty())
+            add_occupied(voxels.occupancy.data() + slot * kLeavesPerBrick, corner, bounds);
+        else
+            add_surface(voxels.distance.data() + slot * kVoxelsPerBrick, corner, bounds);
     }
-    if (last.x < 0) first = last = glm::ivec3(0);
     const GridFrame& frame = voxels.frame;
-    return {frame.origin + glm::dvec3(first) * frame.voxel_edge,
-            frame.origin + glm::dvec3(last + 1) * frame.voxel_edge};
+    return {frame.origin + glm::dvec3(bounds.first()) * frame.voxel_edge,
+            frame.origin + glm::dvec3(bounds.last() + 1) * frame.voxel_edge};
 }
 
 }  // namespace voxelume

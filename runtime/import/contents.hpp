@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "runtime/assets/asset_store.hpp"
+#include "runtime/import/file_light.hpp"
 #include "runtime/import/import_options.hpp"
 
 namespace voxelume {
@@ -25,12 +26,13 @@ struct Contents {
     std::vector<std::string> tracks;     ///< items; none: nothing moves
     int frames = 1;                      ///< of the animation
     double fps = 24;
-    std::string observer;             ///< `"observer": {...}` of the file's camera; empty: none
-    std::vector<std::string> lights;  ///< items; none: those of a studio
-    bool has_glass = false;           ///< shadows are to let light through
-    Bounds box;                       ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};         ///< of the world, metres
-    glm::dvec3 lattice{0};            ///< a corner of some voxel, metres
+    std::string observer;                 ///< `"observer": {...}` of the file's camera; empty: none
+    std::vector<std::string> lights;      ///< items; none: those of a studio
+    std::optional<FileLight> file_light;  ///< none: the studio's own
+    bool has_glass = false;               ///< shadows are to let light through
+    Bounds box;                           ///< around all that is visible, metres
+    glm::dvec3 voxel_size{0};             ///< of the world, metres
+    glm::dvec3 lattice{0};                ///< a corner of some voxel, metres
 };
 
 /// Names that are taken, so that each new one is another.

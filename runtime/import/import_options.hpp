@@ -15,22 +15,22 @@ namespace voxelume {
 enum class UpAxis : uint8_t { automatic, y, z };
 
 struct ImportOptions {
-    ViewFrom from;
+    ViewFrom from{};
     bool is_parallel = false;  ///< the observer's rays are parallel, as in isometric drawings
     /// The observer's display is a lattice around all that is shown, for a volumetric image, and
     /// there is no ground.
     bool is_lattice = false;
     /// The file's own camera, where it has one, is the observer.
     bool has_own_camera = true;
-    std::string clip;    ///< name of a glTF file's; empty: its first
+    std::string clip{};  ///< name of a glTF file's; empty: its first
     bool turns = false;  ///< all directions around show it from one distance, at one height
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
-    bool has_ground = true;
-    std::optional<glm::vec3> background;  ///< linear Rec. 709; the ground shows the same colour
-    double fit = 0;                       ///< metres of the longest side; 0: the file's own size
-    std::optional<glm::dvec3> spacing;    ///< metres from voxel to voxel, before `up` turns them
-    UpAxis up = UpAxis::automatic;        ///< Z for STL, Y for other meshes and voxels
-    glm::ivec2 size{800, 600};            ///< pixels
+    std::optional<bool> has_ground{};       ///< none: as the file says, or else one
+    std::optional<glm::vec3> background{};  ///< linear Rec. 709; the ground shows the same colour
+    double fit = 0;                         ///< metres of the longest side; 0: the file's own size
+    std::optional<glm::dvec3> spacing{};    ///< metres from voxel to voxel, before `up` turns them
+    UpAxis up = UpAxis::automatic;          ///< Z for STL, Y for other meshes and voxels
+    glm::ivec2 size{800, 600};              ///< pixels
 };
 
 }  // namespace voxelume

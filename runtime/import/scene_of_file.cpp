@@ -152,16 +152,19 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
 }
 
 std::string scene_of(const Contents& contents, const ImportOptions& options) {
-    const Studio studio = make_studio(contents.box, contents.voxel_size, options);
+    const Studio studio =
+        make_studio(contents.box, contents.voxel_size, options, contents.file_light);
     std::string text = "{\n  \"voxelume\": 1,\n";
-    text +=
-        fmt::format("  \"world\": {{\"voxel_size\": {}, \"background\": {}, \"ambient\": {}{}}},\n",
-                    json_size(contents.voxel_size), json_list(studio.background),
-                    json_list(studio.ambient), bounds_member(contents, studio.box));
+    text += fmt::format(
+        "  \"world\": {{\"voxel_size\": {}, \"background\": {}, \"ambient\": {}{}{}{}}},\n",
+        json_size(contents.voxel_size), json_list(studio.background), json_list(studio.ambient),
+        bounds_member(contents, studio.box), studio.sky, studio.medium);
     text += part("materials", '{', joined(contents.materials, studio.materials), '}');
     text += part("models", '{', joined(contents.models, studio.models), '}');
     text += part("objects", '[', joined(contents.objects, studio.objects), ']');
-    text += part("lights", '[', contents.lights.empty() ? studio.lights : contents.lights, ']');
+    const auto& lights = contents.lights.empty() ? studio.lights : contents.lights;
+    // Scenes without a list of lights get one.
+    text += lights.empty() ? "  \"lights\": [],\n" : part("lights", '[', lights, ']');
     if (!contents.tracks.empty())
         text += fmt::format(
             "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",

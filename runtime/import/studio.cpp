@@ -92,16 +92,16 @@ double ground_radius(const Bounds& box) {
     return rounded(std::hypot(size.x, size.z) / 2 + 1.6 * size.y + longest_side(box) / 8, 3);
 }
 
-/// Whether a world of such voxels has room for the ground.
-bool has_room(const Bounds& box, const glm::dvec3& voxel_size) {
-    constexpr double kMaxVoxels = 16000;  // of its radius
-    return ground_radius(box) <= kMaxVoxels * std::min(voxel_size.x, voxel_size.z);
+/// The largest radius of a disk for which a world of such voxels has room.
+double max_radius(const glm::dvec3& voxel_size) {
+    constexpr double kMaxVoxels = 16000;
+    return kMaxVoxels * std::min(voxel_size.x, voxel_size.z);
 }
 
-void add_ground(const Bounds& box, const glm::dvec3& color, Studio& studio) {
+void add_ground(const Bounds& box, double radius, const glm::dvec3& color, Studio& studio) {
     const glm::dvec3 middle = (box.min + box.max) / 2.0;
-    const double radius = ground_radius(box);
-    const double height = rounded(longest_side(box) / 32, 3);
+    // Of a thick disk, the side is seen by cameras that stand beside it.
+    const double height = rounded(longest_side(box) / 512, 3);
     const glm::dvec3 position(rounded(middle.x, 6), box.min.y - height / 2, rounded(middle.z, 6));
     studio.materials.push_back(fmt::format("\"ground\": {{\"color\": {}}}", json_list(color)));
     studio.models.push_back(
@@ -116,22 +116,69 @@ void add_ground(const Bounds& box, const glm::dvec3& color, Studio& studio) {
     studio.box = {glm::min(box.min, position - reach), glm::max(box.max, position + reach)};
 }
 
-}  // namespace
-
-Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options) {
-    Studio studio;
-    studio.box = box;
+/// Light of the studio's own. Returns what reaches the ground of it, per colour.
+glm::dvec3 add_own_light(const Bounds& box, double longitude, Studio& studio) {
     studio.ambient = glm::dvec3(kAmbient);
     glm::dvec3 on_ground = studio.ambient;
-    add_light({"sun", direction_of(options.from.longitude - kSunAside, kSunHeight), kSunColor, kSun,
-               kSunSpread, kSunSpots},
+    add_light({"sun", direction_of(longitude - kSunAside, kSunHeight), kSunColor, kSun, kSunSpread,
+               kSunSpots},
               box, studio, on_ground);
     add_light({"sky", {0, 1, 0}, kSkyColor, kSky, kSkySpread, kSkySpots}, box, studio, on_ground);
-    studio.background = options.background.value_or(kBackground);
+    return on_ground;
+}
+
+/// The light of a file. A sun that doesn't stand above the horizon doesn't shine.
+glm::dvec3 add_light_of(const FileLight& around, const Bounds& box, double longitude,
+                        Studio& studio) {
+    constexpr double kLowest = 0.02;  // sine of the sun's height
+    glm::dvec3 on_ground = around.sky;
+    const glm::dvec3 to_sun =
+        around.to_sun.value_or(direction_of(longitude - kSunAside, kSunHeight));
+    const double sun = std::max({around.sun.x, around.sun.y, around.sun.z});
+    if (sun > 0 && to_sun.y > kLowest)
+        add_light({"sun", to_sun, around.sun / sun, sun, around.sun_spread, kSunSpots}, box, studio,
+                  on_ground);
+    if (around.sky != glm::dvec3(0))
+        studio.sky = fmt::format(
+            ",\n            \"sky\": {{\"kind\": \"constant\", \"color\": {}, \"visible\": false}}",
+            json_list(rounded(around.sky, 4)));
+    if (around.fog != glm::dvec3(0))
+        studio.medium =
+            fmt::format(",\n            \"medium\": {{\"absorption\": {}, \"color\": {}}}",
+                        json_list(rounded(around.fog, 6)), json_list(rounded(around.fog_color, 4)));
+    return on_ground;
+}
+
+/// The ground's colour: the file's, unless the options choose the background.
+glm::dvec3 ground_color(const std::optional<glm::dvec3>& own, const glm::dvec3& background,
+                        const glm::dvec3& on_ground, const ImportOptions& options) {
+    if (own && !options.background) return rounded(*own, 4);
+    return rounded(glm::min(background / glm::max(on_ground, glm::dvec3(1e-3)), glm::dvec3(1)), 4);
+}
+
+}  // namespace
+
+Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options,
+                   const std::optional<FileLight>& file_light) {
+    constexpr double kFarGround = 30;  // longest sides to the end of a ground that has an end
+    Studio studio;
+    studio.box = box;
+    const FileLight around = file_light.value_or(FileLight());
+    const double longitude = options.from.longitude;
+    const glm::dvec3 on_ground = file_light ? add_light_of(around, box, longitude, studio)
+                                            : add_own_light(box, longitude, studio);
+    studio.background = kBackground;
+    if (around.background) studio.background = *around.background;
+    if (options.background) studio.background = *options.background;
     studio.background = rounded(studio.background, 4);
-    if (options.has_ground && !options.is_lattice && options.from.latitude >= 0 &&
-        has_room(box, voxel_size))
-        add_ground(box, rounded(glm::min(studio.background / on_ground, glm::dvec3(1)), 4), studio);
+    const double radius = ground_radius(box), most = max_radius(voxel_size);
+    const bool has_ground = options.has_ground.value_or(around.has_ground);
+    if (!has_ground || options.is_lattice || options.from.latitude < 0 || radius > most)
+        return studio;
+    const glm::dvec3 color = ground_color(around.ground, studio.background, on_ground, options);
+    const bool ends = around.ground && !options.background;
+    add_ground(box, ends ? std::min(rounded(kFarGround * longest_side(box), 3), most) : radius,
+               color, studio);
     return studio;
 }
 

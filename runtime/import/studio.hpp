@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/import/file_light.hpp"
 #include "runtime/import/import_options.hpp"
 
 namespace voxelume {
@@ -13,13 +14,16 @@ struct Studio {
     std::vector<std::string> materials, models, objects, lights;  ///< members and items of a scene
     glm::dvec3 ambient{0};
     glm::dvec3 background{0};
-    Bounds box;  ///< around what is shown and the ground
+    std::string sky, medium;  ///< `, "sky": {...}`, or empty
+    Bounds box;               ///< around what is shown and the ground
 };
 
 /// A room for what fills `box` in a world of such voxels, without a ground where that would be too
 /// large for the world. The sun comes from over the observer's left shoulder. Where light
 /// falls on the ground without hindrance, the ground has the radiance of the background, so that
-/// only shadows tell them apart.
-Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options);
+/// only shadows tell them apart. A file's light comes before all of that, and what the
+/// options say of ground and background before them.
+Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options,
+                   const std::optional<FileLight>& file_light);
 
 }  // namespace voxelume

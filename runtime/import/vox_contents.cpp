@@ -9,6 +9,7 @@
 #include "runtime/base/input_file.hpp"
 #include "runtime/import/contents.hpp"
 #include "runtime/import/vox_parts.hpp"
+#include "runtime/import/vox_sight.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 
 namespace voxelume {
@@ -81,6 +82,8 @@ class VoxContents {
         contents_.models = parts_.models();
         contents_.materials = parts_.materials();
         contents_.has_glass = parts_.has_glass();
+        contents_.observer = vox_observer(vox_, contents_.box, file_.options.size);
+        contents_.file_light = vox_file_light(vox_.render);
         return std::move(contents_);
     }
 

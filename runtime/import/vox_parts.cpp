@@ -7,6 +7,7 @@
 
 #include "runtime/image/srgb.hpp"
 #include "runtime/import/gloss.hpp"
+#include "runtime/import/vox_sight.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 
 namespace voxelume {
@@ -136,6 +137,7 @@ Contents whole_vox_contents(const ImportedFile& file) {
     }
     contents.objects.front().pop_back();
     contents.objects.front() += members_of(groups) + "}";
+    contents.file_light = vox_file_light(vox.render);
     return contents;
 }
 

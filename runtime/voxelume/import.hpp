@@ -28,16 +28,18 @@ struct ImportOptions {
     /// The display is a lattice of voxels around all that is shown, for render_volume. The observer
     /// is before the front then, and there is no ground.
     bool lattice = false;
-    /// The file's own camera, where it has one (glTF), is the observer, and longitude, latitude,
-    /// parallel and angle don't count.
+    /// The file's own camera, where it has one (glTF, .vox), is the observer, and longitude,
+    /// latitude, parallel and angle don't count.
     bool own_camera = true;
     /// Name of the clip (glTF's animation) that moves the file's nodes; empty: the first.
     std::string clip{};
     /// The model has room to turn: pictures of all longitudes show it from one distance.
     bool turns = false;
-    double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
-    bool ground = true;  ///< a ground that shadows fall on, where the observer is above it
-    /// Radiance of the background and of the ground; grey by default.
+    double angle = 40;  ///< degrees, horizontal opening of the observer's pyramid
+    /// A ground that shadows fall on, where the observer is above it. There is one by default
+    /// unless the file says otherwise (.vox).
+    std::optional<bool> ground{};
+    /// Radiance of the background and of the ground; the file's (.vox) or grey by default.
     std::optional<Color> background{};
     double fit = 0;  ///< metres of the longest side; 0: the file's own size
     /// Metres from voxel to voxel along X, Y and Z, before `up` turns them, instead of the file's

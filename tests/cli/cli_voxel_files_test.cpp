@@ -6,6 +6,7 @@
 
 #include "runtime/io/image/exr.hpp"
 #include "tests/support/array_writer.hpp"
+#include "tests/support/png_writer.hpp"
 #include "tests/support/program_runner.hpp"
 
 namespace voxelume {
@@ -31,6 +32,21 @@ class CliVoxelFilesTest : public ProgramTest {
         return nlohmann::json::parse(run("info --json " + name).out);
     }
 };
+
+TEST_F(CliVoxelFilesTest, ANameWithHashesIsAStackOfSlices) {
+    // The stack begins at 9 and goes on to 10; slice 4 lies apart, slice008x is another name.
+    const std::vector<std::string> rows = {std::string(1, '\7') + std::string(2, '\0')};
+    for (const char* name : {"s 009.png", "s 010.png", "s 1000.png", "s 008x.png", "s 0007.png"})
+        put_bytes(folder / name, png_of_rows(3, 8, 0, rows));
+    EXPECT_EQ(run("check 's ###.png'").exit_code, 0);
+    const auto scene = nlohmann::json::parse(run("import 's ###.png'").out);
+    EXPECT_EQ(scene.at("models").at("s 009").at("voxels"), "s 009.png");
+    EXPECT_EQ(scene.at("models").at("s 009").at("surface"), "cubes");
+    const ProgramResult none = run("render 't##.png' -o a.png");
+    EXPECT_EQ(none.exit_code, run("render none.json -o a.png").exit_code);
+    EXPECT_THAT(none.err, HasSubstr("no file has such a name"));
+    EXPECT_THAT(run("render none##.json -o a.png").err, HasSubstr("no such file"));
+}
 
 TEST_F(CliVoxelFilesTest, AnArrayOfValuesIsASmoothSurfaceWithoutAScene) {
     put_ball();

@@ -4,6 +4,7 @@
 
 Usage: make_seeds.py FOLDER
 """
+import bz2
 import gzip
 import pathlib
 import struct
@@ -22,7 +23,9 @@ def nrrd(encoding):
               "sizes: 2 3 4\nspace directions: (1,0,0) (0,2,0) (0,0,3)\nendian: little\n"
               f"encoding: {encoding}\nspace origin: (1,2,3)\nkey:=value\n\n")
     data = bytes(range(48))
-    return header.encode() + (gzip.compress(data, mtime=0) if encoding == "gzip" else data)
+    packed = {"raw": data, "gzip": gzip.compress(data, mtime=0), "bzip2": bz2.compress(data),
+              "text": " ".join(str(i) for i in range(24)).encode()}
+    return header.encode() + packed[encoding]
 
 
 def nii():
@@ -120,6 +123,19 @@ def vox():
     frame += struct.pack("<i", 2) + b"_r" + struct.pack("<i", 2) + b"20"
     body += chunk(b"nTRN", struct.pack("<6i", 2, 0, 3, -1, 0, 1) + frame)
     body += chunk(b"nSHP", struct.pack("<5i", 3, 0, 1, 0, 0))
+
+    def dictionary(**pairs):
+        texts = [t.encode() for pair in pairs.items() for t in pair]
+        return struct.pack("<i", len(pairs)) + b"".join(struct.pack("<i", len(t)) + t for t in texts)
+    body += chunk(b"rCAM", struct.pack("<i", 0) + dictionary(
+        _mode="orth", _focus="1 2 3", _angle="-30 320 0", _radius="10", _frustum="5", _fov="45"))
+    for settings in (dictionary(_type="_inf", _i="0.7", _k="255 255 0", _angle="50 50", _area="0.07"),
+                     dictionary(_type="_uni", _i="0.7", _k="9 9 9"),
+                     dictionary(_type="_fog_uni", _d="0.1", _k="255 0 0"),
+                     dictionary(_type="_film", _expo="1", _vig="0.1"),
+                     dictionary(_type="_ground", _color="80 80 80"),
+                     dictionary(_type="_setting", _ground="1", _bg_c="1")):
+        body += chunk(b"rOBJ", settings)
     return b"VOX " + struct.pack("<i", 150) + b"MAIN" + struct.pack("<2i", 0, len(body)) + body
 
 
@@ -132,7 +148,7 @@ PLANES = b"+Y 1 +X 8\n" + bytes([2, 2, 0, 8, 136, 7, 136, 6, 4, 1, 2, 3, 4, 132,
 MTL = b"newmtl a b\nKd 0.5 0.25 1\nKs 1 1 1\nNs 30\nd 0.5\nillum 7\nNi 1.5\nmap_Kd -s 2 2 t.png\n"
 
 SEEDS = {
-    "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip")],
+    "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip"), nrrd("bzip2"), nrrd("text")],
     "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
     "1.png": [png(5, 3)], "hdr": [hdr(FLAT), hdr(PLANES)],

@@ -6,9 +6,11 @@
 #include <fstream>
 
 #include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/arrays/array_density.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/fuzz/refusals.hpp"
 #include "tests/support/voxel_invariants.hpp"
 
@@ -31,6 +33,17 @@ void check_model(const std::filesystem::path& file, Surface surface, const Voxel
     });
 }
 
+/// What a .vox says of cameras and light gives a scene that can be read, too.
+void check_scene(const std::filesystem::path& file) {
+    check_refusal(file.string(), [&] {
+        AssetStore assets;
+        const std::string text = scene_of_file(file, file.filename().string(), {}, assets);
+        parse_scene(text, file, {}, [&](const Model& model, bool keeps) {
+            return assets.box_of_file(model, keeps);
+        });
+    });
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -41,6 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     above.iso = 3;
     labels.each_label = true;
     check_model(file, Surface::cubes, {});
+    if (file.extension() == ".vox") check_scene(file);
     const VoxelFileFormat* format = voxel_file_format(file);
     if (!format || !format->array) return 0;
     check_model(file, Surface::cubes, labels);

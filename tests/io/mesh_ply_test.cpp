@@ -29,7 +29,8 @@ const std::string kPlyFace = "property list uchar int vertex_indices\n";
 
 TEST(MeshPly, TakesPropertiesInAnyOrderAndSkipsOthers) {
     const Mesh mesh = parse_mesh(
-        "ply\r\nformat ascii 1.0\r\ncomment any\r\nelement vertex 4\r\nproperty list uchar float "
+        "ply\r\nformat ascii 1.0\r\ncomment any\r\nCreated by Blender3D 247\r\nelement vertex "
+        "4\r\nproperty list uchar float "
         "w\r\n"
         "property double z\r\nproperty uchar blue\r\nproperty float nx\r\nproperty uchar red\r\n"
         "property short x\r\nproperty uchar green\r\nproperty float y\r\nelement edge 1\r\n"

@@ -162,6 +162,41 @@ TEST_F(VoxTest, OfObjectsThatOverlapTheEarlierOneIsSeen) {
     EXPECT_EQ(shown_cells(file), cells);
 }
 
+// Rows that cross bricks, in files that list them along and against every axis, or in no order.
+TEST_F(VoxTest, TheOrderOfVoxelsInAFileChangesNothing) {
+    VoxSample sample;
+    sample.size = {37, 21, 35};
+    sample.voxels.clear();
+    for (int x = 0; x < 37; ++x)
+        for (int y = 0; y < 21; ++y)
+            for (int z = 0; z < 35; ++z)
+                if ((x * 7 + y * 3 + z * 5) % 11 < 8)
+                    sample.voxels.push_back({uint8_t(x), uint8_t(y), uint8_t(z),
+                                             uint8_t(1 + (x * 31 + y * 17 + z * 5) % 255)});
+    const int byte = 2 | 0 << 2 | 1 << 4 | 1 << 6;  // axes swapped and mirrored
+    VoxelCells expected;
+    add_oracle(sample, oracle_matrix(byte, {5, -3, 2}), odd_palette(), expected);
+    std::mt19937 random(3);
+    for (int order = 0; order < 7; ++order) {
+        const size_t axis = size_t(order / 2);
+        std::ranges::shuffle(sample.voxels, random);
+        if (axis < 3)
+            std::ranges::sort(sample.voxels, [&](const auto& a, const auto& b) {
+                const auto key = [&](const VoxWriter::Voxel& v) {
+                    return std::tuple(v[(axis + 2) % 3], v[(axis + 1) % 3], v[axis]);
+                };
+                return order % 2 == 0 ? key(a) < key(b) : key(b) < key(a);
+            });
+        VoxWriter writer;
+        writer.model(sample.size, sample.voxels);
+        writer.palette(odd_palette());
+        writer.transform(0, 1, -1, {}, {{{"_r", std::to_string(byte)}, {"_t", "5 -3 2"}}});
+        writer.shape(1, {{0, {}}});
+        EXPECT_TRUE(cells_of(read_voxel_model(put(writer.bytes()), Surface::cubes)) == expected)
+            << "order " << order;
+    }
+}
+
 TEST_F(VoxTest, PartsLieAroundTheirMiddleCorner) {
     const VoxSample sample;
     VoxWriter writer;

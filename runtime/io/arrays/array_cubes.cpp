@@ -7,6 +7,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/grid/brick_cells.hpp"
+#include "runtime/io/arrays/array_choice.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
@@ -50,27 +51,6 @@ Layout layout_of(const CellArray& array, const InputFile& file) {
     layout.frame.voxel_edge = array.voxel_edge;
     check_voxel_span(glm::dvec3(layout.frame.size), file);
     return layout;
-}
-
-/// Whether the values of a row are voxels, a byte each.
-template <class Value>
-void choose(const Value* row, size_t count, const CellArray& array, const VoxelValues& values,
-            uint8_t* chosen) {
-    const double slope = array.slope, intercept = array.intercept;
-    const bool is_plain = slope == 1 && intercept == 0;
-    if (values.label) {
-        const double label = *values.label;
-        for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept == label;
-    } else if (values.each_label && (std::is_floating_point_v<Value> || !is_plain)) {
-        for (size_t i = 0; i < count; ++i) chosen[i] = is_label(slope * double(row[i]) + intercept);
-    } else if (values.iso || (std::is_floating_point_v<Value> && !values.each_label)) {
-        const double iso = values.iso.value_or(0.5);
-        for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept >= iso;
-    } else if (is_plain) {
-        for (size_t i = 0; i < count; ++i) chosen[i] = row[i] != 0;
-    } else {
-        for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept != 0;
-    }
 }
 
 uint32_t code_of(double value, bool is_fraction) {

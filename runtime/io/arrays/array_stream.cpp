@@ -8,80 +8,20 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kBlock = 1 << 17;
-constexpr size_t kMaxPiece = size_t{1} << 30;  // zlib counts in 32 bits
-
 void swap_bytes(std::byte* data, size_t size, size_t each) {
     for (size_t i = 0; i < size; i += each) std::reverse(data + i, data + i + each);
 }
 
 }  // namespace
 
-ByteStream::ByteStream(const InputFile& file, uint64_t start, bool is_gzip)
-    : file_(file), position_(start), is_gzip_(is_gzip) {
-    constexpr int kGzipOrZlib = 15 + 32;
-    if (!is_gzip) return;
-    block_.resize(kBlock);
-    if (inflateInit2(&stream_, kGzipOrZlib) != Z_OK) file.refuse("zlib doesn't start");
-}
-
-ByteStream::~ByteStream() {
-    if (is_gzip_) inflateEnd(&stream_);
-}
-
-/// Inflates into what the stream has room for. False at the end of the file.
-bool ByteStream::inflate_block() {
-    if (stream_.avail_in == 0) {
-        const size_t size = position_ < file_.size()
-                                ? std::min<uint64_t>(block_.size(), file_.size() - position_)
-                                : 0;
-        if (size == 0) return false;
-        file_.read(position_, block_.data(), size);
-        position_ += size;
-        stream_.next_in = block_.data();
-        stream_.avail_in = uInt(size);
-    }
-    if (has_ended_) {
-        // Another member may follow, which begins with no zero, or zeros that fill a block up.
-        for (; stream_.avail_in > 0 && *stream_.next_in == 0; --stream_.avail_in) ++stream_.next_in;
-        if (stream_.avail_in == 0) return true;
-        if (inflateReset(&stream_) != Z_OK) file_.refuse("its compressed data are damaged");
-        has_ended_ = false;
-    }
-    const int code = inflate(&stream_, Z_NO_FLUSH);
-    if (code != Z_OK && code != Z_STREAM_END) file_.refuse("its compressed data are damaged");
-    has_ended_ = code == Z_STREAM_END;
-    return true;
-}
-
-size_t ByteStream::read_some(void* data, size_t size) {
-    if (!is_gzip_) {
-        const uint64_t left = position_ < file_.size() ? file_.size() - position_ : 0;
-        const size_t count = size_t(std::min<uint64_t>(size, left));
-        file_.read(position_, data, count);
-        position_ += count;
-        return count;
-    }
-    size_t done = 0;
-    while (done < size) {
-        const size_t piece = std::min(size - done, kMaxPiece);
-        stream_.next_out = static_cast<Bytef*>(data) + done;
-        stream_.avail_out = uInt(piece);
-        const bool goes_on = inflate_block();
-        done += piece - stream_.avail_out;
-        if (!goes_on) break;
-    }
-    return done;
-}
+ByteStream::ByteStream(const InputFile& file, uint64_t start, DataEncoding encoding, CellType type)
+    : file_(file), decoder_(byte_decoder(file, start, encoding, type)) {}
 
 void ByteStream::skip(uint64_t count) {
-    if (!is_gzip_) {
-        position_ += count;
-        return;
-    }
-    std::vector<char> passed(size_t(std::min<uint64_t>(count, kBlock)));
-    for (; count > 0; count -= std::min<uint64_t>(count, kBlock))
-        read(passed.data(), size_t(std::min<uint64_t>(count, kBlock)));
+    constexpr uint64_t kBlock = 1 << 17;
+    std::vector<char> passed(size_t(std::min(count, kBlock)));
+    for (; count > 0; count -= std::min(count, kBlock))
+        read(passed.data(), size_t(std::min(count, kBlock)));
 }
 
 void ByteStream::read(void* data, size_t size) {
@@ -89,7 +29,10 @@ void ByteStream::read(void* data, size_t size) {
 }
 
 ArraySlabs::ArraySlabs(const CellArray& array, const InputFile& data, int thickness)
-    : array_(array), file_(data), stream_(data, array.start, array.is_gzip), thickness_(thickness) {
+    : array_(array),
+      file_(data),
+      stream_(data, array.start, array.encoding, array.type),
+      thickness_(thickness) {
     stream_.skip(array.skip);
 }
 

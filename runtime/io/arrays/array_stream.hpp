@@ -2,39 +2,32 @@
 // The values of an array, a slab of cells at a time, from plain or compressed files.
 #pragma once
 
-#include <zlib.h>
-
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "runtime/base/input_file.hpp"
+#include "runtime/io/arrays/byte_decoder.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
 
 namespace voxelume {
 
-/// Bytes of a file from a position on, through gzip where it is compressed. Never takes more memory
-/// than a block and what it is asked for.
+/// Bytes of values from a position of a file on. Never takes more memory than a few blocks and what
+/// it is asked for.
 class ByteStream {
   public:
-    ByteStream(const InputFile& file, uint64_t start, bool is_gzip);
-    ~ByteStream();
-    ByteStream(const ByteStream&) = delete;
-    ByteStream& operator=(const ByteStream&) = delete;
+    ByteStream(const InputFile& file, uint64_t start, DataEncoding encoding,
+               CellType type = CellType::u8);
 
     /// Fills `data`. Throws Error::input where the file ends before that, or is damaged.
     void read(void* data, size_t size);
     /// Fills `data` with up to `size` bytes, fewer only at the file's end. Returns how many.
-    size_t read_some(void* data, size_t size);
+    size_t read_some(void* data, size_t size) { return decoder_->read_some(data, size); }
     void skip(uint64_t count);
 
   private:
-    bool inflate_block();
-
     const InputFile& file_;
-    uint64_t position_;
-    bool is_gzip_, has_ended_ = false;
-    z_stream stream_{};
-    std::vector<Bytef> block_;
+    std::unique_ptr<ByteDecoder> decoder_;
 };
 
 /// Layers of an array along the file's last axis.

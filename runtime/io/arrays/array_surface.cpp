@@ -14,7 +14,7 @@ namespace {
 constexpr int kPad = 4;       // nodes around the array, as around other models
 constexpr size_t kReach = 4;  // nodes from a crossing that gradients and resampling read
 constexpr uint64_t kMaxCells = uint64_t{1} << 30;
-constexpr uint64_t kMaxGzipCells = uint64_t{1} << 28;  // few bytes tell many of them
+constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // few bytes tell many of them
 constexpr float kMaxUnits = 32767;
 constexpr double kMaxStep = 1e37;  // of which floats hold sums
 
@@ -35,11 +35,11 @@ class ArraySurface {
         if (array.cells() > kMaxCells)
             file_.refuse(fmt::format("it has {} cells; a smooth surface runs through {} at most",
                                      array.cells(), kMaxCells));
-        if (array.is_gzip && array.cells() > kMaxGzipCells)
+        if (array.is_compressed() && array.cells() > kMaxCompressedCells)
             file_.refuse(
-                fmt::format("it has {} cells in gzip; a smooth surface runs through {} at "
-                            "most: save it raw",
-                            array.cells(), kMaxGzipCells));
+                fmt::format("it has {} compressed cells; a smooth surface runs through {} "
+                            "at most: save it raw",
+                            array.cells(), kMaxCompressedCells));
         frame_.size = array.size() + 2 * kPad;
         check_voxel_span(glm::dvec3(frame_.size), file_);
         frame_.voxel_edge = array.voxel_edge;

@@ -2,6 +2,7 @@
 // What the values of an array come to.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
@@ -50,10 +51,10 @@ double otsu_bin(const std::array<uint64_t, kBins>& bins) {
     return double(first + last) / 2 + 1;
 }
 
-}  // namespace
-
-ArraySummary summary_of_array(const CellArray& array) {
-    if (array.is_color()) InputFile(array.data).refuse("it holds colours, which have no values");
+/// What values come to that `for_each` calls a function with, and with how often each occurs in a
+/// row.
+template <class ForEach>
+ArraySummary summary_of(const ForEach& for_each) {
     ArraySummary summary;
     summary.min = INFINITY;
     summary.max = -INFINITY;
@@ -64,17 +65,17 @@ ArraySummary summary_of_array(const CellArray& array) {
         if (run > 0 && last != 0) summary.labels[last] += run;
         run = 0;
     };
-    for_each_value(array, [&](double v) {
+    for_each([&](double v, uint64_t count) {
         if (!std::isfinite(v)) {
-            ++summary.not_finite;
+            summary.not_finite += count;
             return;
         }
         summary.min = std::min(summary.min, v);
         summary.max = std::max(summary.max, v);
-        summary.zeros += v == 0;
+        if (v == 0) summary.zeros += count;
         if (!has_labels) return;
         if (run > 0 && v == last) {
-            ++run;
+            run += count;
             return;
         }
         count_run();
@@ -83,7 +84,7 @@ ArraySummary summary_of_array(const CellArray& array) {
             return;
         }
         last = int(v);
-        run = 1;
+        run = count;
     });
     count_run();
     if (!has_labels || summary.labels.size() > kMaxLabels) summary.labels.clear();
@@ -98,11 +99,68 @@ ArraySummary summary_of_array(const CellArray& array) {
         summary.threshold = std::isinf(width) ? summary.min / 2 + summary.max / 2 : summary.max;
         return summary;
     }
-    for_each_value(array, [&](double v) {
-        if (std::isfinite(v)) ++bins[std::min(size_t((v - summary.min) / width), kBins - 1)];
+    for_each([&](double v, uint64_t count) {
+        if (std::isfinite(v)) bins[std::min(size_t((v - summary.min) / width), kBins - 1)] += count;
     });
     summary.threshold = summary.min + otsu_bin(bins) * width;
     return summary;
+}
+
+/// Counts values of 8 bits, of which many in a row are often alike.
+void count_bytes(const uint8_t* values, size_t count, std::vector<uint64_t>& counts) {
+    size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        uint64_t eight = 0;
+        std::memcpy(&eight, values + i, 8);
+        if (eight == values[i] * 0x0101010101010101u) {
+            counts[values[i]] += 8;
+            continue;
+        }
+        for (size_t k = i; k < i + 8; ++k) ++counts[values[k]];
+    }
+    for (; i < count; ++i) ++counts[values[i]];
+}
+
+/// How often each code of 8 or 16 bits occurs. 512^3 bytes take 40 ms, and one by one 1 s.
+std::vector<uint64_t> count_codes(const CellArray& array) {
+    const InputFile file(array.data);
+    ArraySlabs slabs(array, file, 1);
+    const size_t layer = size_t(array.counts.x) * size_t(array.counts.y);
+    const bool is_byte = bytes_of(array.type) == 1;
+    std::vector<uint64_t> counts(is_byte ? 256 : 65536);
+    while (slabs.next() > 0) {
+        if (is_byte) {
+            count_bytes(reinterpret_cast<const uint8_t*>(slabs.values()), layer, counts);
+            continue;
+        }
+        const auto* codes = reinterpret_cast<const uint16_t*>(slabs.values());
+        for (size_t i = 0; i < layer; ++i) ++counts[codes[i]];
+    }
+    return counts;
+}
+
+/// Calls `use` with the value of each code that occurs, and how often.
+template <class Use>
+void for_each_code(const CellArray& array, const std::vector<uint64_t>& counts, const Use& use) {
+    const bool is_signed = array.type == CellType::i8 || array.type == CellType::i16;
+    for (size_t code = 0; code < counts.size(); ++code) {
+        if (counts[code] == 0) continue;
+        const bool is_negative = is_signed && code >= counts.size() / 2;
+        const double value = double(code) - (is_negative ? double(counts.size()) : 0.0);
+        use(array.slope * value + array.intercept, counts[code]);
+    }
+}
+
+}  // namespace
+
+ArraySummary summary_of_array(const CellArray& array) {
+    if (array.is_color()) InputFile(array.data).refuse("it holds colours, which have no values");
+    if (bytes_of(array.type) <= 2) {
+        const std::vector<uint64_t> counts = count_codes(array);
+        return summary_of([&](const auto& use) { for_each_code(array, counts, use); });
+    }
+    return summary_of(
+        [&](const auto& use) { for_each_value(array, [&](double v) { use(v, uint64_t{1}); }); });
 }
 
 uint32_t label_color(int label) {

@@ -99,6 +99,26 @@ void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellAr
             fmt::format("its axes are turned by {:.1f} degrees, and are set straight", angle));
 }
 
+namespace {
+
+/// The bytes that the values take in a file at least.
+uint64_t min_bytes(const CellArray& array) {
+    constexpr uint64_t kMaxBzip2 = 1'500'000;  // a block of zeros is as much shorter
+    switch (array.encoding) {
+        case DataEncoding::gzip:
+            return array.bytes() / kMaxDeflated;
+        case DataEncoding::bzip2:
+            return array.bytes() / kMaxBzip2;
+        case DataEncoding::text:  // a digit each, and blanks between them
+            return 2 * array.cells() * uint64_t(array.channels) - 1;
+        case DataEncoding::raw:
+            break;
+    }
+    return array.bytes();
+}
+
+}  // namespace
+
 void check_array(const CellArray& array, const InputFile& data) {
     if (std::min({array.counts.x, array.counts.y, array.counts.z}) < 1)
         data.refuse("its array has no cells");
@@ -108,7 +128,7 @@ void check_array(const CellArray& array, const InputFile& data) {
                                 array.skip, kMaxSkip));
     if (!array.slices.empty()) return;  // each is checked as it is read
     const uint64_t stored = data.size() > array.start ? data.size() - array.start : 0;
-    if (array.is_gzip ? array.bytes() / kMaxDeflated > stored : array.bytes() > stored)
+    if (min_bytes(array) > stored)
         data.refuse(
             fmt::format("its array takes {} bytes, and the file has {} for it; it is "
                         "truncated",

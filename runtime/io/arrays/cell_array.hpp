@@ -21,6 +21,9 @@ size_t bytes_of(CellType type);
 std::string_view name_of(CellType type);
 bool is_float(CellType type);
 
+/// How a file has the bytes of values; `text` is numbers in words.
+enum class DataEncoding : uint8_t { raw, gzip, bzip2, text };
+
 /// The array's values, and where its cells lie. Axes of the file are numbered from the one whose
 /// neighbours are closest in the file; axes of the model are x, y and z with Y up.
 struct CellArray {
@@ -28,7 +31,7 @@ struct CellArray {
     /// PNG slices along the file's last axis, of which `data` is the first; empty for other files.
     std::vector<std::filesystem::path> slices;
     uint64_t start = 0;  ///< byte of the first value, or of the compressed data
-    bool is_gzip = false;
+    DataEncoding encoding = DataEncoding::raw;
     uint64_t skip = 0;        ///< bytes after `start`, and after decompression, before the values
     bool is_swapped = false;  ///< the bytes of a value are in the order of other machines
     CellType type = CellType::u8;
@@ -44,6 +47,9 @@ struct CellArray {
     std::string orientation;         ///< in words, for people
     std::vector<std::string> notes;  ///< what was assumed, and what isn't shown
 
+    bool is_compressed() const {
+        return encoding == DataEncoding::gzip || encoding == DataEncoding::bzip2;
+    }
     uint64_t cells() const { return uint64_t(counts.x) * uint64_t(counts.y) * uint64_t(counts.z); }
     uint64_t bytes() const { return cells() * uint64_t(channels) * bytes_of(type); }
     bool is_color() const { return channels > 1; }

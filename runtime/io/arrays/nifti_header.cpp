@@ -27,8 +27,8 @@ constexpr Places kVersion2 = {540, 16, 12, 104, 168, 176, 184, 344, 348, 352, 37
 
 class NiftiHeader {
   public:
-    NiftiHeader(const InputFile& file, bool is_gzip) {
-        ByteStream stream(file, 0, is_gzip);
+    NiftiHeader(const InputFile& file, DataEncoding encoding) {
+        ByteStream stream(file, 0, encoding);
         const size_t count = stream.read_some(bytes_.data(), bytes_.size());
         if (count < kVersion1.header) file.refuse("too short for a NIfTI file");
         places_ = &kVersion1;
@@ -177,8 +177,8 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
     file.read(0, mark.data(), 2);
     CellArray array;
     array.data = path;
-    array.is_gzip = mark[0] == 0x1f && mark[1] == 0x8b;
-    const NiftiHeader header(file, array.is_gzip);
+    if (mark[0] == 0x1f && mark[1] == 0x8b) array.encoding = DataEncoding::gzip;
+    const NiftiHeader header(file, array.encoding);
     const Places& places = header.places();
     array.is_swapped = header.is_swapped();
     set_type(header, file, array);
@@ -199,7 +199,7 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
                                          : header.real(places.vox_offset);
     if (!(offset >= 0 && offset <= 1e15))
         file.refuse("its header gives no place where its data begin; it is damaged");
-    (array.is_gzip ? array.skip : array.start) =
+    (array.is_compressed() ? array.skip : array.start) =
         std::max(uint64_t(offset), uint64_t(places.header));
     const double slope = header.real(places.slope);
     if (slope != 0 && !array.is_color()) {

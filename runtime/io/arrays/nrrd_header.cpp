@@ -37,6 +37,24 @@ CellType nrrd_type(const std::string& name, const InputFile& file) {
     file.refuse(fmt::format("its values are of the type {}, which isn't read", quote(name)));
 }
 
+DataEncoding nrrd_encoding(const std::string& name, const InputFile& file) {
+    constexpr std::array<std::pair<std::string_view, DataEncoding>, 8> kNames = {
+        {{"raw", DataEncoding::raw},
+         {"gzip", DataEncoding::gzip},
+         {"gz", DataEncoding::gzip},
+         {"bzip2", DataEncoding::bzip2},
+         {"bz2", DataEncoding::bzip2},
+         {"text", DataEncoding::text},
+         {"txt", DataEncoding::text},
+         {"ascii", DataEncoding::text}}};
+    for (const auto& [known, encoding] : kNames)
+        if (name == known) return encoding;
+    file.refuse(
+        fmt::format("its encoding is {}; raw, gzip, bzip2 and text can be read: save it again as "
+                    "one of them",
+                    quote(name)));
+}
+
 /// Sets the counts and channels. Returns the number of the first axis of space.
 size_t set_sizes(const NrrdFields& fields, const InputFile& file, CellArray& array) {
     const std::vector<double> sizes = fields.numbers("sizes"),
@@ -74,16 +92,12 @@ size_t set_sizes(const NrrdFields& fields, const InputFile& file, CellArray& arr
 
 /// Finds the file with the data and the byte at which they begin.
 void set_data(const NrrdFields& fields, const InputFile& file, CellArray& array) {
-    const std::string encoding = fields.text("encoding");
-    array.is_gzip = encoding == "gzip" || encoding == "gz";
-    if (!array.is_gzip && encoding != "raw")
-        file.refuse(
-            fmt::format("its encoding is {}; raw and gzip can be read: save it again as "
-                        "one of them",
-                        quote(encoding)));
-    const std::string endian = fields.text("endian");
-    if (endian.empty() && bytes_of(array.type) > 1) file.refuse("its header lacks \"endian\"");
-    array.is_swapped = endian == "big" && bytes_of(array.type) > 1;
+    array.encoding = nrrd_encoding(fields.text("encoding"), file);
+    if (array.encoding != DataEncoding::text && bytes_of(array.type) > 1) {
+        const std::string endian = fields.text("endian");
+        if (endian.empty()) file.refuse("its header lacks \"endian\"");
+        array.is_swapped = endian == "big";
+    }
     std::string name = fields.text("data file");
     if (name.empty()) name = fields.text("datafile");
     array.start = fields.end();
@@ -101,10 +115,10 @@ void set_data(const NrrdFields& fields, const InputFile& file, CellArray& array)
     const std::vector<double> skip = fields.numbers("byte skip");
     if (skip.empty() || skip[0] == 0) return;
     const InputFile data(array.data);
-    if (skip[0] == -1 && !array.is_gzip)
+    if (skip[0] == -1 && array.encoding == DataEncoding::raw)
         array.start = data.size() - std::min(data.size(), array.bytes());
     else if (skip[0] > 0 && skip[0] <= 1e9)
-        (array.is_gzip ? array.skip : array.start) += uint64_t(skip[0]);
+        (array.is_compressed() ? array.skip : array.start) += uint64_t(skip[0]);
     else
         file.refuse(fmt::format("can't skip {} bytes", fields.text("byte skip")));
 }

@@ -100,6 +100,10 @@ class HeaderParser {
         if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") {
             return parse_comment();
         }
+        // Blender 2.47 left the first word of its comment out.
+        if (words_[0] == "Created") {
+            return;
+        }
         if (words_[0] == "element" && words_.size() == 3) {
             header_.elements.push_back({std::string(words_[1]), count(words_[2]), {}});
         } else if (words_[0] == "property" && words_.size() == 3) {

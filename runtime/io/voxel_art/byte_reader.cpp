@@ -26,7 +26,7 @@ std::string read_all_inflated(const InputFile& file, size_t max) {
     if (file.size() < sizeof mark) file.refuse("the file ends too early; it is truncated");
     file.read(0, mark, sizeof mark);
     const bool is_gzip = mark[0] == '\x1f' && mark[1] == '\x8b';
-    ByteStream stream(file, 0, is_gzip);
+    ByteStream stream(file, 0, is_gzip ? DataEncoding::gzip : DataEncoding::raw);
     std::string bytes;
     for (size_t got = kPiece; got == kPiece;) {
         const size_t before = bytes.size();

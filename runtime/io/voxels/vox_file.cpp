@@ -93,13 +93,10 @@ class VoxReader {
         const std::string& letters = chunk.letters;
         if (letters == "MAIN" || letters == "PACK") return;
         if (letters == "XYZI") return read_voxels(chunk);
-        if (letters == "rCAM") {
-            ++vox_.cameras;
-            return;
-        }
         const bool is_known = letters == "SIZE" || letters == "RGBA" || letters == "MATL" ||
                               letters == "MATT" || letters == "LAYR" || letters == "nTRN" ||
-                              letters == "nGRP" || letters == "nSHP";
+                              letters == "nGRP" || letters == "nSHP" || letters == "rCAM" ||
+                              letters == "rOBJ";
         if (!is_known) {
             ++vox_.not_read[printable(letters)];
             return;
@@ -110,6 +107,8 @@ class VoxReader {
         if (letters == "MATL") take_material(content, vox_.materials);
         if (letters == "MATT") take_old_material(content, vox_.materials);
         if (letters == "LAYR") read_layer(content);
+        if (letters == "rCAM") read_camera(content);
+        if (letters == "rOBJ") take_render_settings(content, vox_.render);
         if (letters == "nTRN") take_node(VoxNodeKind::transform, content, graph_);
         if (letters == "nGRP") take_node(VoxNodeKind::group, content, graph_);
         if (letters == "nSHP") take_node(VoxNodeKind::shape, content, graph_);
@@ -143,6 +142,12 @@ class VoxReader {
         // The first colour is that of index 1; index 0 is no voxel.
         std::memcpy(vox_.palette.data() + 1, content.bytes().data(), 4 * 255);
         vox_.has_palette = true;
+    }
+
+    void read_camera(VoxContent& content) {
+        constexpr size_t kMaxCameras = 1000;  // MagicaVoxel has ten
+        const VoxCamera camera = take_camera(content);
+        if (vox_.cameras.size() < kMaxCameras) vox_.cameras.push_back(camera);
     }
 
     void read_layer(VoxContent& content) {

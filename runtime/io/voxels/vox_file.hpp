@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/io/voxels/vox_render.hpp"
+
 namespace voxelume {
 
 class InputFile;
@@ -87,7 +89,8 @@ struct VoxFile {
     std::array<VoxMaterial, 256> materials;
     int frames = 1;  ///< of the animation
     int layers = 0, hidden_layers = 0;
-    int cameras = 0;
+    std::vector<VoxCamera> cameras;
+    VoxRender render;
     std::map<std::string, int> not_read;  ///< numbers of chunks that nothing is read of, by letters
 };
 

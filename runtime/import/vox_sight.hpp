@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cameras and render settings of a MagicaVoxel file, as an observer and as light.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "runtime/import/file_light.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
+#include "runtime/scene/bounds.hpp"
+
+namespace voxelume {
+
+/// The first camera that is used; null where the file has none.
+const VoxCamera* used_camera(const VoxFile& vox);
+
+/// `"observer": {...}` of the file's camera, who sees what is in the box; empty where it has none.
+std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size);
+
+/// The light of MagicaVoxel with the file's settings, or its usual ones where it has none.
+FileLight vox_file_light(const VoxRender& render);
+
+}  // namespace voxelume

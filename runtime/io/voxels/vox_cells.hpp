@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Voxels of a .vox file -> cells of palette indices, brick by brick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
+
+namespace voxelume {
+
+/// A model where it stands, in the file's coordinates.
+struct VoxStanding {
+    const VoxModel* model;
+    VoxRotation rotation;
+    glm::ivec3 translation;
+};
+
+/// The file's axes after the turn that brings Z up to Y up, which no box needs more than.
+inline const VoxRotation kVoxYUp{{0, 2, 1}, {1, 1, -1}};
+
+struct CellBox {
+    glm::ivec3 low{1 << 30}, high{-(1 << 30)};  ///< high is one past the last
+};
+
+/// The cells that a model may fill, with Y up.
+CellBox box_of(const VoxStanding& standing);
+
+/// Cells where some model may have voxels.
+class VoxCells {
+  public:
+    /// Throws Error::input for a box that spans more than a model may.
+    VoxCells(const CellBox& box, const InputFile& file);
+
+    /// Makes room for a box of cells. Throws Error::input for more bricks than a model may have.
+    void add_box(const CellBox& box);
+    void allocate();
+
+    /// Sets the cells of a model's voxels to their palette indices. Throws Error::input for voxels
+    /// outside of their model.
+    void add_voxels(const VoxStanding& standing);
+
+    /// Writes what is there to the model, by the palette's colours and groups.
+    void fill(const std::array<uint32_t, 256>& colors, const std::array<uint32_t, 256>& groups,
+              bool has_groups, VoxelModel& model) const;
+
+    /// The palette indices that some cell has.
+    std::array<bool, 256> used() const;
+
+  private:
+    /// What a coordinate of a model's voxel adds to the place of its cell.
+    struct Step {
+        uint32_t brick = 0, cell = 0;
+    };
+    /// By axis of the model. A place is the sum of the steps of three coordinates.
+    struct Steps {
+        std::array<std::array<Step, 256>, 3> of;
+        std::array<int, 3> stride{};  ///< from cell to cell in a brick, negative if mirrored
+
+        /// How many cells lie in a row in one brick, from a coordinate on, up or down the axis.
+        size_t room(size_t axis, uint32_t coordinate, bool is_up) const;
+    };
+    Steps steps_of(const VoxStanding& standing) const;
+    void add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
+                   const glm::ivec3& size);
+
+    const InputFile& file_;
+    GridFrame frame_;
+    glm::ivec3 first_{0};
+    std::vector<uint32_t> numbers_;  ///< by brick, into cells_
+    uint32_t count_ = 0;
+    std::vector<uint8_t> cells_;
+};
+
+}  // namespace voxelume
