@@ -73,10 +73,16 @@ class Assembly {
     }
 
     /// For each step of a ray's path to a surface, from step `first` on: the medium's density times
-    /// metres.
+    /// metres, and the light that it adds there if nothing covers it.
     struct Way {
         uint32_t first = 0;
         std::vector<double> amounts;
+        std::vector<glm::dvec3> lights;
+
+        void add_step() {
+            amounts.push_back(0);
+            lights.emplace_back(0);
+        }
     };
     Way way_of(const LayerRecords& layer, size_t n) const {
         const double begin = number(layer, n, VXL_LAYER_BEGIN),
@@ -92,20 +98,33 @@ class Assembly {
         Way way;
         if (layer.first_amount.empty()) {
             way.first = step_at(begin);
-            for (uint32_t k = way.first; k <= last; ++k)
-                way.amounts.push_back(
+            for (uint32_t k = way.first; k <= last; ++k) {
+                way.add_step();
+                add_behind(
                     std::max(std::min((k + 1) * step, end) - std::max(k * step, begin), 0.0) *
-                    ratio);
+                        ratio,
+                    nullptr, way);
+            }
             return way;
         }
         way.first = std::min(layer.first_step[n], last);
         const size_t from = layer.first_amount[n], to = layer.first_amount[n + 1];
         for (size_t i = from; i < to; ++i) {
             // Rounding may put a small amount beyond the surface.
-            if (way.first + way.amounts.size() <= last) way.amounts.push_back(0);
-            way.amounts.back() += double(layer.amounts[i]);
+            if (way.first + way.amounts.size() <= last) way.add_step();
+            add_behind(double(layer.amounts[i]), layer.lights.empty() ? nullptr : &layer.lights[i],
+                       way);
         }
         return way;
+    }
+
+    /// Adds an amount of medium to the last step of a way. `light` is what it adds where its colour
+    /// varies.
+    void add_behind(double amount, const glm::vec3* light, Way& way) const {
+        const glm::dvec3 own =
+            light ? glm::dvec3(*light) : color_ * (1.0 - glm::exp(-absorption_ * amount));
+        way.lights.back() += glm::exp(-absorption_ * way.amounts.back()) * own;
+        way.amounts.back() += amount;
     }
 
     /// Adds the voxels of the medium along a ray's path to a surface. Returns the light that they
@@ -119,8 +138,7 @@ class Assembly {
             const double inside = way.amounts[i];
             if (!(inside > 0)) continue;
             const auto k = uint32_t(way.first + i);
-            const glm::dvec3 light = throughput * color_ * glm::exp(-absorption_ * before) *
-                                     (1.0 - glm::exp(-absorption_ * inside));
+            const glm::dvec3 light = throughput * glm::exp(-absorption_ * before) * way.lights[i];
             put(column, k, light, -std::expm1(-double(environment_.steps.absorption) * inside),
                 float((k + 0.5) * double(environment_.steps.step) +
                       double(environment_.near_depth)),
