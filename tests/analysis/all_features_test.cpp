@@ -92,11 +92,10 @@ std::string textured_tetrahedron() {
     const std::string png = GltfWriter::base64(png_bytes(texel, {.keep_alpha = true}));
     writer.json["images"] = {{{"uri", "data:image/png;base64," + png}}};
     writer.json["textures"] = {{{"source", 0}}};
-    writer.json["materials"] = {
-        {{"alphaMode", "BLEND"},
-         {"emissiveFactor", {1, 1, 1}},
-         {"emissiveTexture", {{"index", 0}}},
-         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    writer.json["materials"] = {{{"alphaMode", "BLEND"},
+                                 {"emissiveFactor", {1, 1, 1}},
+                                 {"emissiveTexture", {{"index", 0}}},
+                                 {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
     writer.json["meshes"] = {{{"primitives",
                                {{{"attributes", {{"POSITION", p}, {"TEXCOORD_0", t}}},
                                  {"indices", i},
