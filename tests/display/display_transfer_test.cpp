@@ -76,13 +76,13 @@ TEST_F(DisplayedScan, LaidOverOneAnotherItsVoxelsAreTheFlatImage) {
     }
 }
 
-TEST_F(DisplayedScan, ItsVoxelsHaveTheColorsOfTheirDepths) {
+TEST_F(DisplayedScan, ItsVoxelsHaveTheColorsOfTheirDepthsHoweverMuchIsInFront) {
     write_scan({12, 8, 20}, 0.25);
     const Scene scene = parsed_here(R"({"voxelume": 1,
 "world": {"voxel_size": 0.25, "bounds": {"min": [-1.5, -1, -2.5], "max": [1.5, 1, 2.5]},
   "medium": {"absorption": [1, 1, 1], "density": {"kind": "grid", "file": "scan.nrrd", "transfer": [
     {"value": 3, "absorption": 0.5, "color": [1, 0, 0]}, {"value": 8, "absorption": 0.5, "color": [1, 0, 0]},
-    {"value": 11, "absorption": 2, "color": [0, 0.25, 1]}]}}},
+    {"value": 11, "absorption": 30, "color": [0, 0.25, 1]}]}}},
 "objects": [], "lights": [],
 "observer": {"position": [0, 0, -3.5],
              "display": {"shape": "box", "size": [3, 2, 5], "near": 1, "voxels": [6, 4, 10]}},
@@ -98,7 +98,7 @@ TEST_F(DisplayedScan, ItsVoxelsHaveTheColorsOfTheirDepths) {
         if (!is_red && !is_blue) continue;
         const glm::vec3 expected = is_red ? glm::vec3(1, 0, 0) : glm::vec3(0, 0.25, 1);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(volume.colors[i][c], expected[c], 2e-6) << step;
-        EXPECT_NEAR(volume.opacities[i], -std::expm1((is_red ? -0.5 : -2.0) * 0.5), 2e-6) << step;
+        EXPECT_NEAR(volume.opacities[i], -std::expm1((is_red ? -0.5 : -30.0) * 0.5), 2e-6) << step;
         ++(is_red ? red : blue);
     }
     EXPECT_EQ(red, 4 * pixels);

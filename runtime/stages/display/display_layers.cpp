@@ -13,6 +13,8 @@ namespace {
 
 /// A smaller share of the light from behind counts as none.
 constexpr double kMinTransmittance = 1.0 / (1 << 20);
+/// The same of the medium's own light, which is known however much covers it.
+constexpr double kMinSpaceTransmittance = 1e-250;
 
 /// What one voxel of a ray shows. Samples of one place are in order, the nearest first.
 struct Sample {
@@ -69,7 +71,9 @@ class Assembly {
         const uint32_t object = word(layer, n, VXL_LAYER_OBJECT);
         if (object == 0 || !(opacity > 0)) return;
         const auto depth = float(number(layer, n, VXL_LAYER_DEPTH));
-        put(column, word(layer, n, VXL_LAYER_STEP), light, opacity, depth, object);
+        put(column,
+            {place_of(column, word(layer, n, VXL_LAYER_STEP)), light, opacity, depth, object},
+            1 - opacity, kMinTransmittance);
     }
 
     /// For each step of a ray's path to a surface, from step `first` on: the medium's density times
@@ -139,25 +143,28 @@ class Assembly {
             if (!(inside > 0)) continue;
             const auto k = uint32_t(way.first + i);
             const glm::dvec3 light = throughput * glm::exp(-absorption_ * before) * way.lights[i];
-            put(column, k, light, -std::expm1(-double(environment_.steps.absorption) * inside),
-                float((k + 0.5) * double(environment_.steps.step) +
-                      double(environment_.near_depth)),
-                0);
+            const double covered = double(environment_.steps.absorption) * inside;
+            const auto depth = float((k + 0.5) * double(environment_.steps.step) +
+                                     double(environment_.near_depth));
+            put(column, {place_of(column, k), light, -std::expm1(-covered), depth, 0},
+                std::exp(-covered), kMinSpaceTransmittance);
             sum += light;
             before += inside;
         }
         return sum;
     }
 
-    /// Adds a voxel. `light` is what reaches E, so it is divided by what the voxels in front let
-    /// through.
-    void put(uint64_t column, uint32_t k, const glm::dvec3& light, double opacity, float depth,
-             uint32_t object) {
+    uint64_t place_of(uint64_t column, uint32_t k) const {
+        return column + uint64_t(size_.x) * uint64_t(size_.y) * k;
+    }
+
+    /// Adds a voxel that leaves a part of what is behind it. Its light is what reaches E, so it is
+    /// divided by what the voxels in front let through.
+    void put(uint64_t column, Sample voxel, double leaves, double min_transmittance) {
         double& throughput = throughput_[column];
-        samples_.push_back({column + uint64_t(size_.x) * uint64_t(size_.y) * k,
-                            glm::max(light / std::max(throughput, kMinTransmittance), 0.0), opacity,
-                            depth, object});
-        throughput *= 1 - opacity;
+        voxel.light = glm::max(voxel.light / std::max(throughput, min_transmittance), 0.0);
+        samples_.push_back(voxel);
+        throughput *= leaves;
     }
 
     LayerEnvironment environment_;
