@@ -174,6 +174,19 @@ TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
         Error);
 }
 
+TEST(AbsentFeatures, AreMapsOfTexturesInScenesWithoutThem) {
+    Features features = plain_features();
+    features.triangles = features.textures = true;
+    const Source source("shade.cl", {"shade_surface"}, {"lib/surface/texture_maps.h"});
+    EXPECT_GE(source.gutted_functions(), 4u);
+    Program::from_text(shared_device(), source.text(), features.defines(shared_device()))
+        .kernel("shade_surface");
+    features.texture_maps = true;
+    EXPECT_THROW(
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
+        Error);
+}
+
 TEST(AbsentFeatures, TakeNoArgumentsOfKernels) {
     Features with = plain_features();
     with.paths = with.global = true;
