@@ -244,5 +244,25 @@ TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
         }
 }
 
+TEST_F(TextureMaps, HaveTheSameBitsWithAnyNumberOfLanes) {
+    write("all.gltf", {stripes(), stripes()},
+          {{"emissiveFactor", {1, 1, 1}},
+           {"emissiveTexture", {{"index", 0}}},
+           {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 1}}}}}});
+    const Json material = {{"base_color", {0.9, 0.6, 0.3}},
+                           {"metallic", 1},
+                           {"roughness", 1},
+                           {"emission", {0.2, 0.1, 0.3}}};
+    for (const char* light : {"local", "global"}) {
+        const Scene scene = scene_of(
+            "all.gltf", material, light,
+            {{"lights", {{{"type", "point"}, {"position", {0.6, 0.9, -1.5}}, {"intensity", 3}}}},
+             {"render", {{"size", {24, 20}}}}});
+        const Image one = image_of_scene(scene, test_device(1));
+        for (const int lanes : {4, 8, 16})
+            EXPECT_EQ(one.planes, image_of_scene(scene, test_device(lanes)).planes) << lanes;
+    }
+}
+
 }  // namespace
 }  // namespace voxelume
