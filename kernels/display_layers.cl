@@ -4,6 +4,7 @@
 // For worlds whose surfaces let light through, or whose medium isn't the same everywhere; the host
 // makes the voxels of the records.
 #include "lib/display/depth.h"
+#include "lib/lanes/exact_exp.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/paths.h"
@@ -101,29 +102,60 @@ kernel void measure_layer(Camera camera, PyramidShape shape, DisplaySteps steps,
     }
 }
 
+/// The steps of one entry, the stride apart: density times metres. Where the medium's colour
+/// varies, a plane for each channel follows, of the light that a step adds if nothing covers it.
+typedef struct {
+    global float* amounts;
+    uint stride;
+    size_t plane;
+    float absorption[3];  // of the medium, per metre at density 1
+    float color[3];       // of the cell that is added
+} StepSums;
+
+/// One number in every lane, for functions of lanes, and back.
+static inline float lane_0_of(lane_float v) {
+    float all[VXL_LANES];
+    LANES_STORE(v, all, 0);
+    return all[0];
+}
+
+/// Adds an amount behind all others of step k.
+static inline void add_amount(const StepSums* sums, uint k, float amount) {
+    global float* at = sums->amounts + (size_t)k * sums->stride;
+    for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c) {
+        const lane_float absorption = (lane_float)sums->absorption[c];
+        const lane_float passed = exact_exp(-absorption * at[0]);
+        const lane_float light = passed * exact_rise(absorption * amount) * sums->color[c];
+        at[(c + 1u) * sums->plane] += lane_0_of(light);
+    }
+    at[0] += amount;
+}
+
 /// Adds what lies between two depths beyond the near surface to the steps there.
 static inline void add_to_steps(DisplaySteps steps, float from, float to, float amount,
-                                global float* amounts, uint stride) {
+                                const StepSums* sums) {
     const float maximum = (float)(steps.count - 1);
     const uint first = (uint)clamp(from * steps.inverse_step, 0.0f, maximum);
     const uint last = (uint)clamp(to * steps.inverse_step, 0.0f, maximum);
     if (first >= last) {
-        amounts[(size_t)first * stride] += amount;
+        add_amount(sums, first, amount);
         return;
     }
     const float share = amount / (to - from);
     for (uint k = first; k <= last; ++k) {
         const float begin = k == first ? from : (float)k * steps.step;
         const float end = k == last ? to : (float)(k + 1u) * steps.step;
-        amounts[(size_t)k * stride] += fmax(end - begin, 0.0f) * share;
+        add_amount(sums, k, fmax(end - begin, 0.0f) * share);
     }
 }
 
 /// Sums density times metres in every step k of entries first_entry .. first_entry+count-1 of a
-/// layer: amounts[k * amount_stride + n], which are zero before.
+/// layer: amounts[k * amount_stride + n], which are zero before, and so are the planes of the
+/// light that StepSums describes.
 kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps steps,
-                            VXL_DENSITY_PARAMETERS, uint is_first, VXL_BATCH_PARAMETERS,
-                            uint first_entry, uint count, uint amount_stride,
+                            Environment environment, VXL_DENSITY_PARAMETERS,
+                            global const float* restrict density_colors, uint is_first,
+                            VXL_BATCH_PARAMETERS, uint first_entry, uint count, uint amount_stride,
                             global float* restrict amounts) {
     const uint lane_0 = work_item() * VXL_LANES, first = first_entry + lane_0;
     if (lane_0 >= count) return;
@@ -147,6 +179,12 @@ kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps step
     const DepthScale scale = depth_scale(&camera, shape.edge, o, d);
     Walk w = begin_walk(o.x, o.y, o.z, d.x, d.y, d.z);
     lane_float entered = t_first;
+    StepSums sums;
+    sums.stride = amount_stride;
+    sums.plane = (size_t)amount_stride * steps.count;
+    sums.absorption[0] = environment.absorption.x;
+    sums.absorption[1] = environment.absorption.y;
+    sums.absorption[2] = environment.absorption.z;
     walking &= LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w) & LANE_MASK(t_first < t_last);
     while (lanes_any(walking)) {
         const DensityCell cell = look_up_density(&density, w.x, w.y, w.z, walking);
@@ -154,16 +192,22 @@ kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps step
         const lane_int counts = walking & LANE_MASK(w.t > t_first);
         const lane_int ends = LANE_MASK(w.t >= t_last);
         const lane_float left = LANES_SELECT(ends, t_last, w.t);
-        float part[3 * VXL_LANES];
+        float part[3 * VXL_LANES], color[3 * VXL_LANES];
         int adds[VXL_LANES];
+        for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c)
+            LANES_STORE(LANES_GATHER_FLOAT(density_colors, cell.place * 3u + c), color,
+                        c * VXL_LANES);
         LANES_STORE(cell.density * fmax(left - entered, 0.0f) * scale.metres, part, 0);
         LANES_STORE(fma(scale.along, entered, scale.origin), part, VXL_LANES);
         LANES_STORE(fma(scale.along, left, scale.origin), part, 2 * VXL_LANES);
         LANES_STORE(counts & LANE_MASK(cell.density > 0.0f), adds, 0);
-        for (uint i = 0; i < VXL_LANES; ++i)
-            if (adds[i])
-                add_to_steps(steps, part[VXL_LANES + i], part[2 * VXL_LANES + i], part[i],
-                             amounts + lane_0 + i, amount_stride);
+        for (uint i = 0; i < VXL_LANES; ++i) {
+            if (!adds[i]) continue;
+            sums.amounts = amounts + lane_0 + i;
+            for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c)
+                sums.color[c] = color[c * VXL_LANES + i];
+            add_to_steps(steps, part[VXL_LANES + i], part[2 * VXL_LANES + i], part[i], &sums);
+        }
         entered = LANES_SELECT(counts, left, entered);
         walking &= ~ends & in_grid(&p, &w);
     }

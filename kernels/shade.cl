@@ -168,13 +168,14 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
     return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
 }
 
-/// Starts the radiance of the rays.
+/// Starts the radiance of the rays. Maps multiply emission by `glow`.
 static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    Environment environment, const SkyView* sky, uint from_observer,
                                    const Emitters* emitters, Vector position, lane_float opacity,
                                    lane_uint material, global const float* restrict materials,
-                                   Colors colors, const RayBatch* batch, uint first) {
-    const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
+                                   Colors colors, const lane_float* glow, const RayBatch* batch,
+                                   uint first) {
+    const lane_float diffuse = surface_diffuse(materials, material, colors);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
     lane_float around[3] = {(lane_float)environment.background.x,
                             (lane_float)environment.background.y,
@@ -194,6 +195,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
         const lane_float color = surface_color(materials, place, colors, channel);
         lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
+        if (VXL_TEXTURE_MAPS) emission *= glow[channel];
         if (VXL_EMITTERS) emission *= counts;
         if (VXL_SKY_RAYS) emission = LANES_SELECT(to_sky, (lane_float)0.0f, emission);
         if (VXL_LOOKS)
@@ -229,8 +231,10 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     if (VXL_HIT_ATTRIBUTES) LANES_STORE(h.packed, hit_attributes, first);
     if (!VXL_RADIANCE) return;
     const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
+    lane_float glow[3];  // what maps multiply emission by
 #if VXL_TEXTURES
-    paint_hits(&world, &h, &footprint, position, p.normal, &batch, first);
+    paint_hits(&world, &h, &footprint, position, p.normal, materials, material, &batch, first,
+               glow);
 #endif
     const Colors own = colors_of_hits(colors, h.voxel, paint, first);
     lane_float opacity = surface_opacity(materials, material, own);
@@ -243,5 +247,5 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyView around = VXL_SKY_VIEW;
     store_own_light(&world, &h, environment, &around, VXL_FROM_OBSERVER, &table, position, opacity,
-                    material, materials, own, &batch, first);
+                    material, materials, own, glow, &batch, first);
 }

@@ -66,7 +66,7 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, 
     aim_at_light(shape, light, &incidence, p.start, p.normal, &r);
     lane_float from_sky[3];
     sky_light(&around, way, from_sky);
-    const lane_float scale = LANES_GATHER_FLOAT(materials, p.material + VXL_MATERIAL_DIFFUSE) *
+    const lane_float scale = surface_diffuse(materials, p.material, p.colors) *
                              surface_opacity(materials, p.material, p.colors) * weight;
     const lane_uint color_at =
         color_offset(materials, p.material, p.position.x, p.position.y, p.position.z);

@@ -123,6 +123,15 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_ALBEDO_MISSING 0
 #define VXL_ALBEDO_BY_ANGLE 1
 
+// Where textures have maps, a material that takes them (takes_gloss_map) has in local light the
+// values of its physically based model: VXL_MATERIAL_METALLIC, its roughness in VXL_MATERIAL_WIDTH,
+// above 0, and what its highlights are multiplied by in VXL_MATERIAL_REFLECTANCE. In global light
+// it has the number of the first value of the tables of all roughnesses in VXL_MATERIAL_MAPPED,
+// otherwise 0: VXL_ROUGHNESS_STEPS evenly spaced ones from 0 to 1. They begin with two means of
+// each, of AlbedoMeans missing and by_angle, and go on with their tables as above.
+#define VXL_MATERIAL_MAPPED VXL_MATERIAL_FRESNEL
+#define VXL_ROUGHNESS_STEPS 16
+
 // Physically based materials that let light through have VXL_MATERIAL_REFRACTION, the share of the
 // surface that does, and here the number of the first value of their block, 0 for none:
 #define VXL_MATERIAL_GLASS VXL_MATERIAL_SHININESS

@@ -15,6 +15,7 @@
 #define VXL_TEXTURE_WRAP_MIRROR 1u
 #define VXL_TEXTURE_WRAP_CLAMP 2u
 #define VXL_TEXTURE_WRAP_V_SHIFT 4
+#define VXL_TEXTURE_WRAP_MASK 15u
 
 // What an exact triangle wears, in words:
 //   VXL_WORN_UVS      u and v of each corner, floats in texture widths from the upper left
@@ -36,10 +37,33 @@
 #define VXL_ALPHA_OPAQUE 0u
 #define VXL_ALPHA_BLEND 256u
 
+// The maps of a texture lie on the same triangles and multiply other values of the material than
+// its colour. They are textures too, and a texture with VXL_TEXTURE_HAS_MAPS among the bits of how
+// it goes on has a record of VXL_MAP_WORDS for each in front of it:
+//   VXL_MAP_OFFSET  how far behind the texture the map begins, in words, modulo 2^32; 0: none
+//   VXL_MAP_PLACES  six floats a..f: (u, v) of the texture is (a u + b v + c, d u + e v + f) of it
+// Channels are those of glTF: green multiplies roughness, and blue metalness, as they are; emission
+// is a colour in sRGB.
+#define VXL_TEXTURE_HAS_MAPS 0x100u
+#define VXL_MAP_GLOSS 0u
+#define VXL_MAP_EMISSION 1u
+#define VXL_MAP_COUNT 2
+#define VXL_MAP_OFFSET 0
+#define VXL_MAP_PLACES 1
+#define VXL_MAP_WORDS 7
+
 // What rays have seen: of each hit its colour, its opacity, and how wide the ray was there, all
 // floats, hit by hit. The first three multiply the material's colour, the fourth its opacity.
+// Where textures have maps, values of the material at the hit follow: in global light the first
+// two, of physically based ones; in local light the last four.
 #define VXL_PAINT_OPACITY 3
 #define VXL_PAINT_WIDTH 4
-#define VXL_PAINT_FLOATS 5
+#define VXL_PAINT_ROUGHNESS 5
+#define VXL_PAINT_METALLIC 6
+#define VXL_PAINT_DIFFUSE 5
+#define VXL_PAINT_SPECULAR 6
+#define VXL_PAINT_SHININESS 7
+#define VXL_PAINT_REFLECTION 8
+#define VXL_PAINT_FLOATS(maps) ((maps) ? 9 : 5)
 
 #endif

@@ -29,10 +29,11 @@ bool traces_light(const Scene& scene) {
            c.object_matte || c.material_matte;
 }
 
-/// True if rays go on through parts of the textures that the model's mesh wears.
-bool has_alpha(const Model& model, AssetStore& meshes) {
+/// True if rays go on through parts of the textures that the model's mesh wears, or from parts that
+/// their maps make mirrors.
+bool may_send_on(const Model& model, AssetStore& meshes) {
     const MeshSummary* mesh = meshes.summary_of(model);
-    return mesh && mesh->paint.has_alpha;
+    return mesh && (mesh->paint.has_alpha || mesh->paint.mapped > 0);
 }
 
 /// True if rays continue from surfaces of the object. Voxels in a file that isn't read (`reads` is
@@ -44,7 +45,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
-    if (model.surface == Surface::exact && !model.solid && (!reads || has_alpha(model, meshes)))
+    if (model.surface == Surface::exact && !model.solid && (!reads || may_send_on(model, meshes)))
         return true;
     const auto sends = [&](int number) {
         const Material& material = scene.materials[size_t(number)];

@@ -54,6 +54,12 @@ bool is_lit(const Material* m) {
     return m->specular.value_or(0) > 0 || (m->diffuse > 0 && has_color);
 }
 
+/// True if maps may make a part of the material's surface one that local light mirrors.
+bool mirrors_by_map(const Material& material, const Features& features) {
+    return features.texture_maps && !features.global && takes_gloss_map(material) &&
+           material.metallic.value_or(0) > 0;
+}
+
 /// Adds the features that the materials decide.
 void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     const bool follows = (features.global ? scene.render.bounces : scene.render.depth) > 0;
@@ -65,7 +71,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         const uint32_t effects = effects_of(*m);
         refraction |= (effects & kRefracts) != 0;
         opacity |= (effects & kIsSeenThrough) != 0;
-        reflection |= (effects & kReflects) != 0;
+        reflection |= (effects & kReflects) != 0 || mirrors_by_map(*m, features);
         features.physical |= features.global && (effects & kIsPhysical) != 0;
         features.coat |= features.global && (effects & kHasCoat) != 0;
         features.weak_facets |= features.global && is_weak(*m);
@@ -142,7 +148,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
         voxels.medium_set_capped = all.medium_set_capped;
     }
     voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
-    voxels.textures = voxels.texture_alpha = false;
+    voxels.textures = voxels.texture_alpha = voxels.texture_maps = false;
     return voxels;
 }
 
@@ -171,6 +177,7 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
     for (const Material* m : shown_materials(scene, world)) {
         const Material shown = whitted_material(*m);
         share = std::max(share, double(shown.reflection) + double(shown.refraction));
+        if (mirrors_by_map(*m, features)) share = std::max(share, *m->metallic);
     }
     if (depth == 0 || share >= 1) return size_t(depth);
     const double followed = std::log(scene.render.min_weight) / std::log(share);
@@ -224,10 +231,11 @@ bool has_light(const Features& features, const Scene& scene, const Pyramid& worl
 }
 
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world) {
-    const bool scatters = features.refracts ||
-                          std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
-                              return (effects_of(*m) & kReflects) != 0;
-                          });
+    const bool scatters =
+        features.refracts ||
+        std::ranges::any_of(shown_materials(scene, world), [&](const Material* m) {
+            return (effects_of(*m) & kReflects) != 0 || mirrors_by_map(*m, features);
+        });
     const bool follows = features.radiance && !features.global && scatters;
     return follows ? size_t(scene.render.depth) : 0;
 }

@@ -40,8 +40,10 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
             hashes.add_voxels(model.voxels);
         if (model.morph && !model.morph->mesh.empty()) hashes.add_mesh(model.morph->mesh);
     }
-    if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density))
+    if (const auto* grid = std::get_if<GridDensity>(&scene.world.medium.density)) {
         hashes.add_voxels(grid->file);
+        for (const GridDensity& other : grid->others) hashes.add_voxels(other.file);
+    }
     if (scene.world.sky && !scene.world.sky->file.empty()) hashes.add_voxels(scene.world.sky->file);
 }
 

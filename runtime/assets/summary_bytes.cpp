@@ -34,14 +34,14 @@ std::string text_of(const nlohmann::json& json) {
 }
 
 nlohmann::json json_of(const MeshPaint& paint) {
-    return {paint.colors, paint.has_corner_colors, paint.texels,   paint.textures,
-            paint.uvs,    paint.has_corner_uvs,    paint.has_alpha};
+    return {paint.colors, paint.has_corner_colors, paint.texels,    paint.textures,
+            paint.uvs,    paint.has_corner_uvs,    paint.has_alpha, paint.mapped};
 }
 
 MeshPaint read_paint(const nlohmann::json& json) {
     return {json.at(0).get<uint64_t>(), json.at(1).get<bool>(),     json.at(2).get<uint64_t>(),
             json.at(3).get<uint64_t>(), json.at(4).get<uint64_t>(), json.at(5).get<bool>(),
-            json.at(6).get<bool>()};
+            json.at(6).get<bool>(),     json.at(7).get<uint64_t>()};
 }
 
 MeshSummary read_summary(const nlohmann::json& json) {

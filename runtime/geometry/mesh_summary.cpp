@@ -44,6 +44,7 @@ MeshPaint paint_of(const Mesh& mesh) {
     for (const Texture& texture : mesh.textures) {
         paint.texels += texel_count(*texture.image);
         paint.has_alpha |= texture.alpha != kAlphaOpaque;
+        paint.mapped += texture.has_maps() ? 1 : 0;
     }
     paint.textures = mesh.textures.size();
     paint.uvs = mesh.uvs.size();

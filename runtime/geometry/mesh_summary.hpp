@@ -22,6 +22,7 @@ struct MeshPaint {
     uint64_t uvs = 0;             ///< places on textures, if there are textures
     bool has_corner_uvs = false;  ///< corners name them
     bool has_alpha = false;       ///< the alpha of some texture counts
+    uint64_t mapped = 0;          ///< textures that have maps
 
     bool is_there() const { return colors > 0 || texels > 0; }
 };

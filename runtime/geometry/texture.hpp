@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <memory>
@@ -47,10 +48,26 @@ inline uint64_t texel_count(const TextureImage& image) {
 /// 255ths. The numbers are those of the kernel.
 inline constexpr uint32_t kAlphaOpaque = 0, kAlphaBlend = 256;
 
+/// The maps of a texture, in the order of the kernel's numbers: roughness (green) and metalness
+/// (blue), and emission.
+inline constexpr size_t kGlossMap = 0, kEmissionMap = 1, kMapCount = 2;
+
+/// A texture that multiplies another value of the material than its colour, on the same triangles.
+struct TextureMap {
+    uint32_t texture = kNoTexture;  ///< its number in the mesh
+    /// (u, v) of the texture that has it is (a u + b v + c, d u + e v + f) of the map.
+    std::array<float, 6> places = {1, 0, 0, 0, 1, 0};
+};
+
 struct Texture {
     std::shared_ptr<const TextureImage> image;  ///< never null
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     uint32_t alpha = kAlphaOpaque;  ///< what the texels' alpha means
+    std::array<TextureMap, kMapCount> maps{};
+
+    bool has_maps() const {
+        return std::ranges::any_of(maps, [](const auto& m) { return m.texture != kNoTexture; });
+    }
 };
 
 }  // namespace voxelume

@@ -63,6 +63,7 @@ struct BrickGrid {
     Buffer<uint32_t> textures;             ///< those that triangles wear
     uint64_t texture_key = 0;              ///< a hash of `textures`
     bool texture_alpha = false;            ///< true if the alpha of one of them counts
+    bool texture_maps = false;             ///< true if one of them has maps
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 };
 
@@ -133,7 +134,7 @@ struct Pyramid {
     Buffer<uint32_t> triangle_textures;
     Buffer<uint32_t> textures;
     uint64_t texture_key = 0;
-    bool texture_alpha = false;
+    bool texture_alpha = false, texture_maps = false;
     Buffer<uint32_t> solids;
     InstanceSet instances;
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if

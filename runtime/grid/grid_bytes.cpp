@@ -36,8 +36,9 @@ auto grid_buffers(auto& grid) {
 std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes) {
     const std::array<uint32_t, 5> counts{
         grid.brick_count, grid.attribute,
-        uint32_t(grid.transparent) | uint32_t(grid.texture_alpha) << 1, uint32_t(grid.texture_key),
-        uint32_t(grid.texture_key >> 32)};
+        uint32_t(grid.transparent) | uint32_t(grid.texture_alpha) << 1 |
+            uint32_t(grid.texture_maps) << 2,
+        uint32_t(grid.texture_key), uint32_t(grid.texture_key >> 32)};
     return packed_bytes({grid.frame, counts}, grid_buffers(grid), max_bytes);
 }
 
@@ -50,6 +51,7 @@ std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view by
     grid.attribute = header->counts[1];
     grid.transparent = (header->counts[2] & 1) != 0;
     grid.texture_alpha = (header->counts[2] & 2) != 0;
+    grid.texture_maps = (header->counts[2] & 4) != 0;
     grid.texture_key = header->counts[3] | uint64_t{header->counts[4]} << 32;
     const glm::ivec3 bricks = grid.frame.bricks();
     const bool fits = grid.slots.size() == size_t(bricks.x) * bricks.y * bricks.z &&

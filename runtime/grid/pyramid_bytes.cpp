@@ -44,10 +44,11 @@ uint64_t bytes_of(const Pyramid& pyramid) {
 }
 
 std::string bytes_of_pyramid(const Pyramid& pyramid) {
-    const std::array<uint32_t, 5> counts{
-        pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
-        uint32_t(pyramid.transparent) | uint32_t(pyramid.texture_alpha) << 1,
-        pyramid.listed_fields};
+    const std::array<uint32_t, 5> counts{pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
+                                         uint32_t(pyramid.transparent) |
+                                             uint32_t(pyramid.texture_alpha) << 1 |
+                                             uint32_t(pyramid.texture_maps) << 2,
+                                         pyramid.listed_fields};
     return *packed_bytes({pyramid.frame, counts}, pyramid_buffers(pyramid));
 }
 
@@ -61,6 +62,7 @@ std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view b
     pyramid.attribute = header->counts[2];
     pyramid.transparent = (header->counts[3] & 1) != 0;
     pyramid.texture_alpha = (header->counts[3] & 2) != 0;
+    pyramid.texture_maps = (header->counts[3] & 4) != 0;
     pyramid.listed_fields = header->counts[4];
     const bool fits = pyramid.leaves.size() == size_t(pyramid.leaf_count) * 2 &&
                       pyramid.leaf_voxels.size() == pyramid.leaf_count;

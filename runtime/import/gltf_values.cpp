@@ -7,6 +7,7 @@
 
 #include "runtime/import/contents.hpp"
 #include "runtime/import/gloss.hpp"
+#include "runtime/io/gltf/gltf_texture_use.hpp"
 
 namespace voxelume {
 namespace {
@@ -38,8 +39,9 @@ Looks looks_of(const GltfValue& material) {
         s.metal = 0;
         s.rough = 1 - std::clamp(from.number("glossinessFactor", 1), 0.0, 1.0);
     } else {
-        // Where a texture decides how much is metal, its factor says nothing of most of it.
-        const bool has_map = from.has("metallicRoughnessTexture");
+        // Where a texture that isn't shown decides how much is metal, its factor says nothing of
+        // most of it.
+        const bool has_map = from.has("metallicRoughnessTexture") && !gltf_has_gloss_map(material);
         s.metal = has_map ? 0 : std::clamp(from.number("metallicFactor", 1), 0.0, 1.0);
         s.rough = has_map ? 0.7 : std::clamp(from.number("roughnessFactor", 1), 0.0, 1.0);
     }
@@ -102,8 +104,7 @@ std::string glass_members(const GltfValue& material, const Looks& s, double tran
 }
 
 glm::dvec3 emission_of(const GltfValue& material) {
-    // A texture says where it glows; the factor alone would have all of the surface do so.
-    if (material.has("emissiveTexture") || !material.has("emissiveFactor")) return glm::dvec3(0);
+    if (!material.has("emissiveFactor")) return glm::dvec3(0);
     const double strength =
         material.extension("KHR_materials_emissive_strength").number("emissiveStrength", 1);
     return color_of(material, "emissiveFactor", 3) * std::clamp(strength, 0.0, 1e6);

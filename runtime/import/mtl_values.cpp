@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/import/contents.hpp"
+#include "runtime/import/gloss.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 
 namespace voxelume {
@@ -36,6 +37,23 @@ double opacity_of(const MtlMaterial& m) {
     return opacity > 0 ? opacity : 1;
 }
 
+/// The light that a material sends out, of which a texture says where. Files with one may have
+/// black in Ke.
+glm::dvec3 emission_of(const MtlMaterial& m) {
+    const bool is_left_out = !m.emission_map.file.empty() && m.emission == glm::dvec3(0);
+    return is_left_out ? glm::dvec3(1) : linear_color(m.emission);
+}
+
+/// Roughness and metalness. A map stands for its number, as programs that write both mean it.
+std::string physical_members(const MtlMaterial& m) {
+    const auto value = [](const std::optional<double>& number, const MtlTexture& map,
+                          double otherwise) {
+        return map.file.empty() ? std::clamp(number.value_or(otherwise), 0.0, 1.0) : 1.0;
+    };
+    return ", " + metal_members(value(m.metallic, m.metallic_map, 0),
+                                value(m.roughness, m.roughness_map, kRoughness));
+}
+
 double mean(const glm::dvec3& v) {
     return std::clamp((v.x + v.y + v.z) / 3, 0.0, 1.0);
 }
@@ -50,7 +68,7 @@ std::string mtl_values(const MtlMaterial& m) {
     const double opacity = opacity_of(m), mirror = mean(linear_color(m.specular));
     std::string text = fmt::format("\"color\": {}", json_list(rounded(color_of(m), 4)));
     // Highlights of a lower exponent would cover the whole surface.
-    if (m.illumination >= 2 && m.exponent >= 2 && mirror > 0)
+    if (!m.is_physical() && m.illumination >= 2 && m.exponent >= 2 && mirror > 0)
         text += fmt::format(", \"specular\": {}, \"shininess\": {}", rounded(mirror, 3),
                             rounded(std::clamp(m.exponent, 1.0, 1e6), 4));
     const bool is_glass = opacity < 1 && refracts(m.illumination);
@@ -59,10 +77,11 @@ std::string mtl_values(const MtlMaterial& m) {
             ", \"diffuse\": {}, \"reflection\": 1, \"refraction\": {}, \"ior\": {}, "
             "\"fresnel\": true",
             rounded(opacity, 3), rounded(1 - opacity, 3), rounded(std::clamp(m.ior, 1.0, 10.0), 4));
-    else if (reflects(m.illumination) && mirror > 0)
+    else if (!m.is_physical() && reflects(m.illumination) && mirror > 0)
         text += fmt::format(", \"reflection\": {}", rounded(mirror, 3));
     if (opacity < 1 && !is_glass) text += fmt::format(", \"opacity\": {}", rounded(opacity, 3));
-    const glm::dvec3 emission = linear_color(m.emission);
+    if (!is_glass && m.is_physical()) text += physical_members(m);
+    const glm::dvec3 emission = emission_of(m);
     if (emission != glm::dvec3(0))
         text += fmt::format(", \"emission\": {}", json_list(rounded(emission, 4)));
     return text;

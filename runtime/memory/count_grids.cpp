@@ -91,10 +91,10 @@ void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& 
     if (counts.paint.texels == 0) return;
     grid.triangle_textures =
         Buffer<uint32_t>(device, "source texture places", VXL_WORN_WORDS * counts.triangles);
-    grid.textures = Buffer<uint32_t>(device, "source textures",
-                                     texture_words(counts.paint.texels, counts.paint.textures));
+    grid.textures = Buffer<uint32_t>(device, "source textures", texture_words(counts.paint));
     grid.texture_key = counts.texture_key;
     grid.texture_alpha = counts.paint.has_alpha;
+    grid.texture_maps = counts.paint.mapped > 0;
 }
 
 }  // namespace

@@ -181,7 +181,9 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     image_.reset();
     const Pyramid& world = built.pyramid;
     Features features = features_of(scene, world);
-    if (is_white_) features.colors = features.textures = features.texture_alpha = false;
+    if (is_white_)
+        features.colors = features.textures = features.texture_alpha = features.texture_maps =
+            false;
     const Camera observer = camera_of(scene, world.frame);
 
     const uint32_t all_tiles = tiles.share.tiles();

@@ -64,6 +64,10 @@ double glass_share(const Material& material) {
     return material.transmission.value_or(0) * (1 - material.metallic.value_or(0));
 }
 
+bool takes_gloss_map(const Material& material) {
+    return is_physical(material) && glass_share(material) == 0 && material.coat.value_or(0) == 0;
+}
+
 glm::vec3 color_of(const Material& material) {
     return material.base_color ? glm::vec3(*material.base_color) : material.color;
 }

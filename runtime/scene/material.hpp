@@ -80,6 +80,10 @@ bool is_weak(const Material& material);
 /// The share of a physically based surface that is glass.
 double glass_share(const Material& material);
 
+/// Whether the maps of textures change the material's roughness and metalness: those of physically
+/// based ones without glass and coat, whose tables are made for one roughness.
+bool takes_gloss_map(const Material& material);
+
 /// The surface's own colour, whichever of the two keys names it.
 glm::vec3 color_of(const Material& material);
 

@@ -63,9 +63,14 @@ std::string density_text(const Density& density) {
     if (const auto* ball = std::get_if<BallDensity>(&density))
         return fmt::format(", density of a ball at {}, radius {:.6g}", vector_text(ball->center),
                            ball->radius);
-    if (const auto* grid = std::get_if<GridDensity>(&density))
-        return fmt::format(", density of grid \"{}\" of {}", grid->grid,
-                           grid->file.filename().string());
+    if (const auto* grid = std::get_if<GridDensity>(&density)) {
+        std::string text = fmt::format(", density of grid \"{}\" of {}", grid->grid,
+                                       grid->file.filename().string());
+        for (const GridDensity& other : grid->others)
+            text +=
+                fmt::format(", and of \"{}\" of {}", other.grid, other.file.filename().string());
+        return text;
+    }
     return "";
 }
 

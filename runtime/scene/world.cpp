@@ -12,9 +12,9 @@ namespace voxelume {
 std::span<const DensityKind> density_kinds() {
     static constexpr KindKey height[] = {{"base", true}, {"scale_height", true}};
     static constexpr KindKey ball[] = {{"center", true}, {"radius", true}, {"falloff"}};
-    static constexpr KindKey grid[] = {{"file", true}, {"sequence"}, {"grid"},
-                                       {"transfer"},   {"lit"},      {"position"},
-                                       {"turn"},       {"scale"},    {"matrix"}};
+    static constexpr KindKey grid[] = {{"file", true}, {"sequence"}, {"grid"},     {"transfer"},
+                                       {"lit"},        {"others"},   {"position"}, {"turn"},
+                                       {"scale"},      {"matrix"}};
     static constexpr std::array<DensityKind, 3> kinds = {
         {{"height", height}, {"ball", ball}, {"grid", grid}}};
     return kinds;

@@ -56,6 +56,9 @@ struct GridDensity {
     std::vector<TransferPoint> transfer{};
     /// With a transfer: where light travels that brings out its surfaces, a unit vector; 0: none.
     glm::dvec3 lit{0};
+    /// With a transfer: further scans, with transfers and places of their own and none of these.
+    /// What they absorb adds up.
+    std::vector<GridDensity> others{};
     SourcePlace where{};
 
     friend bool operator==(const GridDensity&, const GridDensity&) = default;

@@ -55,6 +55,7 @@ std::vector<KeyTable> make_tables() {
         {"medium", keys_of(medium_rows()) + Keys{"density"}},
     };
     add_kinds("density", {"kind"}, density_kinds(), {}, tables);
+    tables.push_back({"scan", Keys{"file", "grid", "transfer", "lit"} + placement});
     tables.push_back({"transfer", {"value", "color", "absorption"}});
     add_kinds("sky", {"kind"}, sky_types(), {}, tables);
     tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});

@@ -34,10 +34,11 @@ std::vector<TransferPoint> read_transfer(const SceneValue& value) {
     return points;
 }
 
-GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
+/// A grid of a file, and what light meets in it.
+GridDensity read_scan(const SceneFields& fields, std::filesystem::path path) {
     const SceneValue file = fields.get("file");
     GridDensity density;
-    density.file = first_file(fields, "file", search);
+    density.file = std::move(path);
     const auto grid = fields.find("grid");
     density.grid = grid ? grid->text() : "density";
     density.world_from_grid = read_placement(fields);
@@ -48,6 +49,34 @@ GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
         density.lit = unit_vector(lit->vector(kCoordinate), "lit", fields.refusal());
     }
     density.where = file.where();
+    return density;
+}
+
+/// The scans besides the first, which all have transfer functions.
+std::vector<GridDensity> read_others(const SceneValue& value, const AssetSearch& search) {
+    constexpr size_t kMaxScans = 16;
+    std::vector<GridDensity> others;
+    const auto items = value.items();
+    if (items.size() >= kMaxScans)
+        value.fail(
+            fmt::format("has {} scans; at most {} are allowed", items.size(), kMaxScans - 1));
+    for (const SceneValue& item : items) {
+        const SceneFields fields(item, "scan");
+        fields.get("transfer");
+        const SceneValue file = fields.get("file");
+        others.push_back(read_scan(
+            fields, find_asset(file.text(), search.scene_folder, search.assets, file.where())));
+    }
+    return others;
+}
+
+GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
+    GridDensity density = read_scan(fields, first_file(fields, "file", search));
+    if (const auto others = fields.find("others")) {
+        if (density.transfer.empty())
+            others->fail("are scans with transfer functions; give the first a \"transfer\", too");
+        density.others = read_others(*others, search);
+    }
     return density;
 }
 

@@ -19,6 +19,7 @@ struct Features {
     bool colors = false;          ///< voxels have colours of their own
     bool textures = false;        ///< some triangle wears a texture
     bool texture_alpha = false;   ///< ... whose alpha counts
+    bool texture_maps = false;    ///< ... that has maps
     bool medium = false;          ///< the environment absorbs light
     bool medium_grid = false;     ///< ... and its density varies
     bool medium_colors = false;   ///< ... and so does its colour
@@ -82,6 +83,7 @@ struct Features {
                 {"VXL_COLORS", colors},
                 {"VXL_TEXTURES", textures},
                 {"VXL_TEXTURE_ALPHA", texture_alpha},
+                {"VXL_TEXTURE_MAPS", texture_maps},
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_MEDIUM_COLORS", medium_colors},

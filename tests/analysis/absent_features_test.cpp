@@ -100,6 +100,8 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/surface/paint.h",
                                         "lib/surface/texture_mean.h",
                                         "lib/surface/texture_alpha.h",
+                                        "lib/surface/texture_maps.h",
+                                        "lib/light/mapped_layers.h",
                                         "lib/surface/packed_normal.h",
                                         "lib/light/shading_point.h",
                                         "lib/light/sky.h",
@@ -167,6 +169,19 @@ TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
     }
     features.physical = true;
     const Source source("light.cl", {"add_light"}, removed);
+    EXPECT_THROW(
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
+        Error);
+}
+
+TEST(AbsentFeatures, AreMapsOfTexturesInScenesWithoutThem) {
+    Features features = plain_features();
+    features.triangles = features.textures = true;
+    const Source source("shade.cl", {"shade_surface"}, {"lib/surface/texture_maps.h"});
+    EXPECT_GE(source.gutted_functions(), 4u);
+    Program::from_text(shared_device(), source.text(), features.defines(shared_device()))
+        .kernel("shade_surface");
+    features.texture_maps = true;
     EXPECT_THROW(
         Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
         Error);

@@ -79,7 +79,7 @@ void write_fog(const std::filesystem::path& path) {
     write_vdb(path, volume);
 }
 
-/// A glTF file of a mesh with a texture through which half of the light passes.
+/// A glTF file of a mesh with a texture through which half of the light passes, and with a map.
 std::string textured_tetrahedron() {
     GltfWriter writer;
     const std::vector<float> positions = {0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f};
@@ -92,8 +92,10 @@ std::string textured_tetrahedron() {
     const std::string png = GltfWriter::base64(png_bytes(texel, {.keep_alpha = true}));
     writer.json["images"] = {{{"uri", "data:image/png;base64," + png}}};
     writer.json["textures"] = {{{"source", 0}}};
-    writer.json["materials"] = {
-        {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    writer.json["materials"] = {{{"alphaMode", "BLEND"},
+                                 {"emissiveFactor", {1, 1, 1}},
+                                 {"emissiveTexture", {{"index", 0}}},
+                                 {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
     writer.json["meshes"] = {{{"primitives",
                                {{{"attributes", {{"POSITION", p}, {"TEXCOORD_0", t}}},
                                  {"indices", i},

@@ -100,7 +100,7 @@ inline std::vector<nlohmann::json> full_scenes() {
             "sky": {"kind": "gradient", "zenith": [1, 2, 3], "horizon": [3, 2, 1], "ground": [0, 0, 0], "strength": 2, "samples": 4, "visible": true},
             "medium": {"density": {"kind": "grid", "file": "smoke.vdb", "grid": "d",
                                    "transfer": [{"value": -1.5, "absorption": 0},
-                                                {"value": 2, "absorption": 3, "color": [1, 2, 3]}], "lit": [1, -2, 3], "position": [1, 2, 3],
+                                                {"value": 2, "absorption": 3, "color": [1, 2, 3]}], "lit": [1, -2, 3], "others": [{"file": "smoke.vdb", "grid": "d", "transfer": [{"value": 1, "absorption": 2}], "lit": [1, 0, 0], "position": [1, 2, 3], "turn": [10, 20, 30], "scale": 2}], "position": [1, 2, 3],
                                    "turn": [10, 20, 30], "scale": 2}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid", "angle": 40}}})",
         R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},

@@ -38,7 +38,8 @@ static inline lane_int bodies_of(const Surroundings* around, const RayBatch* bat
 static inline lane_float width_at(const RayBatch* batch, uint first) {
     if (!VXL_WIDENS) return (lane_float)0.0f;
     const lane_uint hit = first + LANES_AS_UINT((lane_int)LANES_NUMBERS);
-    return LANES_GATHER_FLOAT(batch->paint, hit * VXL_PAINT_FLOATS + VXL_PAINT_WIDTH);
+    return LANES_GATHER_FLOAT(batch->paint,
+                              hit * VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS) + VXL_PAINT_WIDTH);
 }
 
 /// How wide rays are that go straight on, at their origins; those `anew` begin at their surfaces.

@@ -53,6 +53,8 @@ static inline Coat view_coat(global const float* restrict materials, lane_int is
         LANES_SELECT(coated, LANES_GATHER_FLOAT(materials, block + VXL_COAT_WIDTH), one);
     c.facets.first =
         LANES_UINT(LANES_GATHER_FLOAT(materials, block + VXL_COAT_ALBEDOS)) & LANES_AS_UINT(coated);
+    c.facets.next = c.facets.first;
+    c.facets.part = zero;
     c.losses = (block + VXL_COAT_TABLE) & LANES_AS_UINT(coated);
     c.later = LANES_GATHER_FLOAT(materials, block + VXL_COAT_LATER);
     c.per_missing = LANES_GATHER_FLOAT(materials, block + VXL_COAT_PER_MISSING);

@@ -101,17 +101,29 @@ static inline void aim_at_light(PyramidShape shape, LightRecord light, const Inc
     if (light.kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
 }
 
+/// The part and the exponent of surfaces' highlights, which maps change in local light.
+static inline lane_float surface_specular(global const float* restrict materials,
+                                          lane_uint material, Colors colors) {
+    if (VXL_GLOBAL) return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR);
+    return mapped_value(materials, material + VXL_MATERIAL_SPECULAR, colors, VXL_PAINT_SPECULAR);
+}
+
+static inline lane_float surface_shininess(global const float* restrict materials,
+                                           lane_uint material, Colors colors) {
+    if (VXL_GLOBAL) return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS);
+    return mapped_value(materials, material + VXL_MATERIAL_SHININESS, colors, VXL_PAINT_SHININESS);
+}
+
 /// The light that surfaces of `material` at `position` return towards the viewer. Returns a mask of
 /// the points that return any.
 static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_float highlight,
                                    Vector position, lane_uint material, Colors colors,
                                    global const float* restrict materials,
                                    lane_float* contribution) {
-    const lane_float diffuse =
-        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE) * i->cosine;
+    const lane_float diffuse = surface_diffuse(materials, material, colors) * i->cosine;
     const lane_float specular =
-        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR) *
-        exact_power(highlight, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS));
+        surface_specular(materials, material, colors) *
+        exact_power(highlight, surface_shininess(materials, material, colors));
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     const lane_float falloff = i->falloff * surface_opacity(materials, material, colors);
     const lane_uint color_at =

@@ -11,6 +11,9 @@ typedef struct {
     global const float* restrict materials;
     lane_uint first;   // the number of the first value
     lane_float width;  // of highlights, above 0
+    // Where textures have maps: the table of the next roughness, and its part of what is between.
+    lane_uint next;
+    lane_float part;
 } FacetTable;
 
 /// What facets return at some angle: of all light at once if they reflect all of it, or the part
@@ -31,15 +34,21 @@ static inline lane_float between_entries(global const float* restrict materials,
     return fma(place - LANES_FLOAT(entry), high - low, low);
 }
 
+/// One of the numbers of VXL_ALBEDO_FLOATS, between the two tables.
+static inline lane_float between_tables(const FacetTable* t, uint row, lane_float at) {
+    const lane_float low = between_entries(t->materials, t->first, VXL_ALBEDO_FLOATS, row, at);
+    if (!VXL_TEXTURE_MAPS) return low;
+    const lane_float high = between_entries(t->materials, t->next, VXL_ALBEDO_FLOATS, row, at);
+    return fma(t->part, high - low, low);
+}
+
 /// What facets that all light reaches return.
 static inline Albedo albedo_at(const FacetTable* t, lane_float cosine) {
     const lane_float by_width = exact_divide(cosine * (1.0f + t->width), cosine + t->width);
     Albedo a;
-    a.missing = between_entries(t->materials, t->first, VXL_ALBEDO_FLOATS, VXL_ALBEDO_MISSING,
-                                exact_sqrt(by_width));
+    a.missing = between_tables(t, VXL_ALBEDO_MISSING, exact_sqrt(by_width));
     a.all = 1.0f - a.missing;
-    a.by_angle = a.all * between_entries(t->materials, t->first, VXL_ALBEDO_FLOATS,
-                                         VXL_ALBEDO_BY_ANGLE, exact_sqrt(cosine));
+    a.by_angle = a.all * between_tables(t, VXL_ALBEDO_BY_ANGLE, exact_sqrt(cosine));
     a.entered = (lane_float)1.0f;
     return a;
 }

@@ -12,6 +12,7 @@
 #include "lib/light/coat.h"
 #include "lib/light/facet_albedo.h"
 #include "lib/light/ggx.h"
+#include "lib/light/mapped_layers.h"
 #include "lib/light/rough_glass.h"
 #include "lib/surface/surface_color.h"
 
@@ -20,6 +21,7 @@ typedef struct {
     lane_int is;  // mask: physically based ones
     global const float* restrict materials;
     FacetTable facets;
+    Layers layers;
     lane_float width, reflectance, multiple;  // the last: what comes back later of `reflectance`
     lane_float grazing;                       // what facets reflect of light along the surface ...
     lane_float clear_grazing;                 // ... and those of what isn't metal
@@ -58,6 +60,17 @@ static inline lane_float multiple_share(lane_float reflectance, lane_float grazi
     return exact_divide(mean * mean * (1.0f - missing), fma(-mean, missing, (lane_float)1.0f));
 }
 
+/// What the matt part of materials is multiplied by, so that no light is lost.
+static inline lane_float matt_factor(const PhysicalView* s, lane_uint material) {
+    const lane_float own = LANES_GATHER_FLOAT(s->materials, material + VXL_MATERIAL_MATT);
+    const Layers* l = &s->layers;
+    if (!VXL_TEXTURE_MAPS || !lanes_any(l->mapped)) return own;
+    const lane_float one = (lane_float)1.0f;
+    const Albedo mean = {one - l->missing, l->by_angle, l->missing, one};
+    const lane_float passed = LANES_SELECT(l->mapped, passed_share(s, &mean), one);
+    return LANES_SELECT(l->mapped, exact_divide(one - l->metallic, passed), own);
+}
+
 /// Adds what the coat returns to the albedos, and what it does evenly to the rest.
 static inline void add_coat(PhysicalView* s, lane_float glossy, lane_float* rest) {
     Coat* coat = &s->coat;
@@ -71,17 +84,15 @@ static inline void add_coat(PhysicalView* s, lane_float glossy, lane_float* rest
 
 /// Finds what surfaces of `base` colour and their layers return.
 static inline void set_layers(lane_uint material, const lane_float* base, PhysicalView* s) {
-    global const float* materials = s->materials;
     const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
-    const lane_float metallic = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_METALLIC);
-    const lane_float missing = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_MISSING);
-    const lane_float matt = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_MATT);
+    const lane_float metallic = s->layers.metallic, missing = s->layers.missing;
     const lane_float per_missing =
         exact_reciprocal(LANES_SELECT(LANE_MASK(missing > 0.0f) & s->is, missing, one));
     s->clear_grazing = (VXL_COAT | VXL_WEAK_FACETS) ? s->coat.reflects : one;
     s->grazing = fma(metallic, one - s->clear_grazing, s->clear_grazing);
     const lane_float missed = VXL_COAT ? missing * s->coat.per_entered : missing;
     s->multiple = multiple_share(s->reflectance, s->clear_grazing, missed);
+    const lane_float matt = matt_factor(s, material);
     s->seen = albedo_below(s, s->out.z, s->coat.returned);
     s->passed = passed_share(s, &s->seen);
     lane_float glossy = zero, rest = zero;
@@ -113,11 +124,14 @@ static inline PhysicalView view_physical(global const float* restrict materials,
                                          Vector normal, Vector out, lane_int leaving) {
     PhysicalView s;
     s.materials = materials;
-    s.width = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_WIDTH);
-    s.is = met & LANE_MASK(s.width > 0.0f);
+    const lane_float width = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_WIDTH);
+    s.is = met & LANE_MASK(width > 0.0f);
     s.facets.materials = materials;
     s.facets.first = LANES_UINT(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_ALBEDOS)) &
                      LANES_AS_UINT(s.is);
+    s.layers = layers_of(materials, material, colors, &s.facets);
+    s.layers.mapped &= s.is;
+    s.width = s.layers.width;
     s.facets.width = LANES_SELECT(s.is, s.width, (lane_float)1.0f);
     s.reflectance = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFLECTANCE);
     s.frame = frame_around(normal);

@@ -6,6 +6,7 @@
 #include "lib/light/optics.h"
 #include "lib/light/paths.h"
 #include "lib/surface/shading_normal.h"
+#include "lib/surface/surface_color.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/ray_batch.h"
 
@@ -26,6 +27,7 @@ typedef struct {
     Vector shading;     // the normal by which light is reflected and refracted
     lane_int curved;    // mask: it isn't that of the surface
     lane_float cosine;  // of the angle of incidence with it
+    lane_float mirror;  // where maps change it: the share of light that is reflected
     lane_float eta;     // the index of refraction before the surface over that behind it
     Refraction bend;
     MediumSet before, behind;  // the objects that the ray is inside of
@@ -57,6 +59,10 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
         p.shading = select_vector(p.curved, reflecting_normal(p.way, p.normal, shading), p.normal);
     }
     p.cosine = clamp(-dot_product(p.way, p.shading), 0.0f, 1.0f);
+    p.mirror = (lane_float)0.0f;
+    if (VXL_TEXTURE_MAPS && !VXL_GLOBAL)
+        p.mirror = LANES_GATHER_FLOAT(
+            batch->paint, colors_of_hits(0, number, 0, first).number + VXL_PAINT_REFLECTION);
     p.eta = (lane_float)1.0f;
     const Refraction straight = {(lane_int)0, p.cosine, (lane_float)0.0f, (lane_float)1.0f};
     p.bend = straight;
@@ -108,8 +114,10 @@ static inline void scatter_light(const Surroundings* around, ScatterPoint* p, Sc
                                  Scattered* refracted) {
     global const float* materials = around->materials;
     const lane_float zero = (lane_float)0.0f;
-    reflected->returned = LANES_SELECT(
-        p->hit, LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_REFLECTION), zero);
+    lane_float mirror = p->mirror;
+    if (!VXL_TEXTURE_MAPS || VXL_GLOBAL)
+        mirror = LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_REFLECTION);
+    reflected->returned = LANES_SELECT(p->hit, mirror, zero);
     refracted->returned = zero;
     lane_int open = (lane_int)0;
     if (VXL_TRANSMISSION) {

@@ -6,6 +6,7 @@
 
 #include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
+#include "lib/surface/texture_maps.h"
 #include "lib/surface/texture_mean.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/shaded_hit.h"
@@ -147,8 +148,10 @@ static inline TextureArea area_of(const WorldView* world, const ShadedHit* h, la
 
 /// The colours of the surfaces in `color`, and their opacity: their voxels', or of those that wear
 /// a texture its mean over what the rays span, times the colour that lies between the corners'.
+/// Where textures have maps, sets their values.
 static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, const RaySpan* span,
-                                 Vector normal, Vector way, lane_float* color) {
+                                 Vector normal, Vector way, lane_float* color, MapValues* maps) {
+    if (VXL_TEXTURE_MAPS) *maps = no_map_values();
     for (int c = 0; c < 3; ++c) color[c] = voxel_color(world->surface.colors, h->voxel, c);
     color[VXL_PAINT_OPACITY] = voxel_opacity(world->surface.colors, h->voxel);
     const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
@@ -165,6 +168,7 @@ static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, con
     lane_float share[3], mean[4];
     const TextureArea area = area_of(world, h, number, worn, sides, span, share);
     texture_mean(world->surface.textures, texture, &area, wears, mean);
+    if (VXL_TEXTURE_MAPS) *maps = maps_over(world->surface.textures, texture, &area, wears);
     global const float* curve = (global const float*)world->surface.textures;
     lane_uint corner[3];
     for (uint i = 0; i < 3; ++i)
@@ -180,20 +184,22 @@ static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, con
         color[VXL_PAINT_OPACITY] = LANES_SELECT(wears, mean[3], color[VXL_PAINT_OPACITY]);
 }
 
-/// Writes the paint of a packet's hits, and how wide the rays are there.
-static inline void store_paint(const lane_float* color, lane_float width,
-                               global float* restrict paint, uint first) {
-    float values[VXL_PAINT_FLOATS * VXL_LANES];
-    for (uint c = 0; c < VXL_PAINT_WIDTH; ++c) LANES_STORE(color[c], values, c * VXL_LANES);
-    LANES_STORE(width, values, VXL_PAINT_WIDTH * VXL_LANES);
+/// Writes the paint of a packet's hits.
+static inline void store_paint(const lane_float* all, global float* restrict paint, uint first) {
+    const uint count = VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS);
+    float values[VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS) * VXL_LANES];
+    for (uint c = 0; c < count; ++c) LANES_STORE(all[c], values, c * VXL_LANES);
     for (uint lane = 0; lane < VXL_LANES; ++lane)
-        for (uint c = 0; c < VXL_PAINT_FLOATS; ++c)
-            paint[(first + lane) * VXL_PAINT_FLOATS + c] = values[c * VXL_LANES + lane];
+        for (uint c = 0; c < count; ++c)
+            paint[(first + lane) * count + c] = values[c * VXL_LANES + lane];
 }
 
-/// Finds and writes the paint of hits at `position`.
+/// Finds and writes the paint of hits at `position`, of these materials. Where textures have maps,
+/// sets what they multiply emission by.
 static inline void paint_hits(const WorldView* world, const ShadedHit* h, const Footprint* f,
-                              Vector position, Vector normal, const RayBatch* batch, uint first) {
+                              Vector position, Vector normal,
+                              global const float* restrict materials, lane_uint material,
+                              const RayBatch* batch, uint first, lane_float* glow) {
     const float4 edge = world->shape.edge;
     const Vector metres = scaled(h->world_way, edge);
     const Vector way = unit(metres);
@@ -202,9 +208,15 @@ static inline void paint_hits(const WorldView* world, const ShadedHit* h, const 
         before = LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
     const lane_float travelled = h->world_t * exact_sqrt(dot_product(metres, metres));
     const RaySpan span = span_of(f, edge, position, normal, way, before, travelled);
-    lane_float color[VXL_PAINT_WIDTH];
-    paint_of_hits(world, h, &span, normal, way, color);
-    store_paint(color, span.width, batch->paint, first);
+    lane_float all[VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS)];
+    MapValues maps;
+    paint_of_hits(world, h, &span, normal, way, all, &maps);
+    all[VXL_PAINT_WIDTH] = span.width;
+    if (VXL_TEXTURE_MAPS) {
+        map_material(materials, material, &maps, all + (VXL_PAINT_WIDTH + 1));
+        for (int c = 0; c < 3; ++c) glow[c] = maps.emission[c];
+    }
+    store_paint(all, batch->paint, first);
 }
 
 #endif

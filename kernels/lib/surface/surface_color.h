@@ -50,7 +50,8 @@ typedef struct {
 /// The colours of the hits from `first` on, which are in these voxels.
 static inline Colors colors_of_hits(global const uint* voxels, lane_uint voxel,
                                     global const float* paint, uint first) {
-    const lane_uint hit = (first + LANES_AS_UINT((lane_int)LANES_NUMBERS)) * VXL_PAINT_FLOATS;
+    const lane_uint hit =
+        (first + LANES_AS_UINT((lane_int)LANES_NUMBERS)) * VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS);
     const Colors colors = {voxels, paint, VXL_TEXTURES ? hit : voxel};
     return colors;
 }
@@ -85,6 +86,22 @@ static inline lane_float surface_color(global const float* restrict materials, l
     else if (VXL_COLORS)
         color *= voxel_color(colors.voxels, colors.number, channel);
     return color;
+}
+
+/// A value of the material that maps may change, which the paint of hits holds at `painted` then.
+static inline lane_float mapped_value(global const float* restrict materials, lane_uint value,
+                                      Colors colors, uint painted) {
+    if (VXL_TEXTURE_MAPS && colors.paint)
+        return LANES_GATHER_FLOAT(colors.paint, colors.number + painted);
+    return LANES_GATHER_FLOAT(materials, value);
+}
+
+/// The part of the light that falls on a surface which it returns in all directions; in global
+/// light that of surfaces that aren't physically based.
+static inline lane_float surface_diffuse(global const float* restrict materials, lane_uint material,
+                                         Colors colors) {
+    if (VXL_GLOBAL) return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
+    return mapped_value(materials, material + VXL_MATERIAL_DIFFUSE, colors, VXL_PAINT_DIFFUSE);
 }
 
 /// The share of what lies behind that a surface covers: its material's, times its own. 1 in scenes

@@ -21,6 +21,7 @@ typedef struct {
     lane_int width, height;
     lane_uint wrap_u, wrap_v;
     lane_uint alpha;  // VXL_ALPHA_*
+    bool is_data;     // its channels are numbers from 0 to 1, and no colour in sRGB
 } TextureLevel;
 
 /// What samples see of textures: around a place, in texture widths, from -1/2 to 1/2 along each of
@@ -44,7 +45,9 @@ static inline TextureLevel first_level(global const uint* restrict textures, lan
     t.width = LANES_SELECT(wears, t.width, (lane_int)1);
     t.height = LANES_SELECT(wears, t.height, (lane_int)1);
     const lane_uint wrap = LANES_GATHER_UINT(textures, place + 2u) & LANES_AS_UINT(wears);
-    t.wrap_u = wrap & 15u, t.wrap_v = wrap >> VXL_TEXTURE_WRAP_V_SHIFT;
+    t.wrap_u = wrap & VXL_TEXTURE_WRAP_MASK;
+    t.wrap_v = wrap >> VXL_TEXTURE_WRAP_V_SHIFT & VXL_TEXTURE_WRAP_MASK;
+    t.is_data = false;
     t.alpha = (lane_uint)VXL_ALPHA_OPAQUE;
     if (VXL_TEXTURE_ALPHA) t.alpha = LANES_GATHER_UINT(textures, place + 3u) & LANES_AS_UINT(wears);
     t.first = place + (uint)VXL_TEXTURE_HEAD;
@@ -99,8 +102,12 @@ static inline void add_texel(const TextureLevel* t, lane_int x, lane_int y, lane
         weight *= LANES_SELECT(LANE_MASK(t->alpha != VXL_ALPHA_OPAQUE), alpha, (lane_float)1.0f);
         sum[3] += weight;
     }
-    for (int c = 0; c < 3; ++c)
-        sum[c] = fma(LANES_GATHER_FLOAT(curve, (texel >> (uint)(8 * c)) & 255u), weight, sum[c]);
+    for (int c = 0; c < 3; ++c) {
+        const lane_uint code = (texel >> (uint)(8 * c)) & 255u;
+        const lane_float value =
+            t->is_data ? LANES_FLOAT(code) * (1.0f / 255.0f) : LANES_GATHER_FLOAT(curve, code);
+        sum[c] = fma(value, weight, sum[c]);
+    }
 }
 
 /// Adds the bilinear value at a place, times `weight`. Where alpha is below its least, nothing is
@@ -141,12 +148,13 @@ static inline lane_int floor_log2(lane_float v) {
     return (LANES_AS_INT(from_one) >> 23) - 127;
 }
 
-/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`, and where
-/// alpha counts to the share of it that they cover; the colour is then that of what is there.
-/// `wears` are the lanes with a texture.
-static inline void texture_mean(global const uint* restrict textures, lane_uint place,
-                                const TextureArea* area, lane_int wears, lane_float* mean) {
+/// Sets `mean` to the mean of the textures that begin at `place` over `area`, as texture_mean does.
+/// Those of `is_data` aren't colours.
+static inline void mean_over(global const uint* restrict textures, lane_uint place,
+                             const TextureArea* area, lane_int wears, bool is_data,
+                             lane_float* mean) {
     TextureLevel t = first_level(textures, place, wears);
+    t.is_data = is_data;
     const lane_float w = LANES_FLOAT(t.width), h = LANES_FLOAT(t.height);
     lane_float length[2];
     for (int i = 0; i < 2; ++i) {
@@ -197,6 +205,14 @@ static inline void texture_mean(global const uint* restrict textures, lane_uint 
     mean[3] = clamp(mean[3], 0.0f, 1.0f);
     // All of what covers but for rounding is opaque.
     mean[3] = LANES_SELECT(LANE_MASK(mean[3] > 0.99999f), (lane_float)1.0f, mean[3]);
+}
+
+/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`, and where
+/// alpha counts to the share of it that they cover; the colour is then that of what is there.
+/// `wears` are the lanes with a texture.
+static inline void texture_mean(global const uint* restrict textures, lane_uint place,
+                                const TextureArea* area, lane_int wears, lane_float* mean) {
+    mean_over(textures, place, area, wears, false, mean);
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "runtime/base/error.hpp"
@@ -22,13 +23,6 @@ TextureWrap wrap_of(const GltfValue& sampler, const char* key) {
                              : TextureWrap::repeat;
 }
 
-/// The base colour's texture, in either way of describing a material.
-GltfValue base_texture(const GltfValue& material) {
-    const GltfValue common = material.at("pbrMetallicRoughness");
-    if (common.has("baseColorTexture")) return common.at("baseColorTexture");
-    return material.extension("KHR_materials_pbrSpecularGlossiness").at("diffuseTexture");
-}
-
 /// What the alpha of a material's texture means, of which its factor is a part.
 uint32_t alpha_of(const GltfValue& material) {
     const std::string mode = material.text("alphaMode", "OPAQUE");
@@ -43,52 +37,104 @@ uint32_t alpha_of(const GltfValue& material) {
     return uint32_t(std::clamp(std::ceil(255 * cutoff / share), 0.0, 255.0));
 }
 
-}  // namespace
-
-glm::vec2 GltfTextureUse::moved(const glm::vec2& uv) const {
-    const double c = std::cos(rotation), s = std::sin(rotation);
-    const glm::dvec2 at = glm::dvec2(uv) * scale;
-    const glm::vec2 moved(offset + glm::dvec2(c * at.x + s * at.y, c * at.y - s * at.x));
-    return std::isfinite(moved.x) && std::isfinite(moved.y) ? moved : glm::vec2(0);
+/// What stands for a map that can't be read: nothing glows, and nothing is metal.
+TextureImage without_map(size_t map) {
+    constexpr uint8_t kDull = 179;
+    return map == kEmissionMap ? one_texel(0, 0, 0) : one_texel(0, kDull, 0);
 }
 
+constexpr std::array<const char*, kMapCount> kMapNames = {"metallic-roughness", "emissive"};
+
+}  // namespace
+
 GltfTextureUse GltfTextures::of_material(int material) const {
-    GltfTextureUse use;
-    if (material < 0) return use;
-    const GltfValue info = base_texture(file_.root().item("materials", size_t(material)));
-    use.texture = info.index("index", file_.root().size("textures"));
-    const GltfValue transform = info.extension("KHR_texture_transform");
-    use.set = transform.count("texCoord", info.count("texCoord", 0));
-    const std::vector<double> offset = transform.numbers("offset", 2);
-    const std::vector<double> scale = transform.numbers("scale", 2);
-    if (!offset.empty()) use.offset = {offset[0], offset[1]};
-    if (!scale.empty()) use.scale = {scale[0], scale[1]};
-    use.rotation = transform.number("rotation", 0);
+    if (material < 0) return {};
+    const GltfValue item = file_.root().item("materials", size_t(material));
+    GltfTextureUse use = gltf_base_texture(file_, item);
+    for (size_t map = 0; map < kMapCount && use.texture < 0; ++map)
+        use = gltf_map(file_, item, map);
     return use;
 }
 
 uint32_t GltfTextures::append(int material, Mesh& mesh) {
-    const int number = of_material(material).texture;
-    if (number < 0) return kNoTexture;
-    const uint32_t alpha = alpha_of(file_.root().item("materials", size_t(material)));
-    const auto [entry, is_new] = appended_.try_emplace({number, alpha}, kNoTexture);
+    if (material < 0) return kNoTexture;
+    const GltfValue item = file_.root().item("materials", size_t(material));
+    const int number = gltf_base_texture(file_, item).texture;
+    std::array<TextureMap, kMapCount> maps;
+    for (size_t map = 0; map < kMapCount; ++map) maps[map] = map_of(material, map, mesh);
+    const bool has_maps = Texture{nullptr, {}, {}, 0, maps}.has_maps();
+    if (number < 0 && !has_maps) return kNoTexture;
+    const uint32_t alpha = number < 0 ? kAlphaOpaque : alpha_of(item);
+    const auto [entry, is_new] =
+        appended_.try_emplace({number, alpha, has_maps ? material : -1}, kNoTexture);
     if (!is_new) return entry->second;
+    Texture made = texture_of(number, false, mesh);
+    if (!made.image && !has_maps) return kNoTexture;
+    made.alpha = made.image ? alpha : kAlphaOpaque;
+    if (!made.image) made.image = std::make_shared<const TextureImage>(one_texel(255, 255, 255));
+    made.maps = maps;
+    mesh.textures.push_back(made);
+    return entry->second = uint32_t(mesh.textures.size() - 1);
+}
+
+/// One of the file's textures, without an image where it has none that can be read.
+Texture GltfTextures::texture_of(int number, bool is_data, Mesh& mesh) {
+    Texture made;
+    if (number < 0) return made;
     const GltfValue root = file_.root(), texture = root.item("textures", size_t(number));
-    const auto image = image_of(texture, mesh);
-    if (!image) return kNoTexture;
-    Texture made{image};
-    made.alpha = alpha;
+    made.image = image_of(texture, is_data, mesh);
     const int sampler = texture.index("sampler", root.size("samplers"));
     if (sampler >= 0) {
         const GltfValue from = root.item("samplers", size_t(sampler));
         made.wrap_u = wrap_of(from, "wrapS");
         made.wrap_v = wrap_of(from, "wrapT");
     }
+    return made;
+}
+
+/// A map of the material. One of other texture coordinates counts by its mean.
+TextureMap GltfTextures::map_of(int material, size_t map, Mesh& mesh) {
+    const GltfValue item = file_.root().item("materials", size_t(material));
+    const GltfTextureUse use = gltf_map(file_, item, map);
+    TextureMap made;
+    if (use.texture < 0) return made;
+    const auto places = gltf_map_places(use, of_material(material));
+    if (places)
+        made.places = *places;
+    else
+        mesh.notes.push_back(
+            fmt::format("the {} texture of its {} is shown as its mean: it has texture coordinates "
+                        "of its own",
+                        kMapNames[map], item.place()));
+    made.texture = append_map(use, map, !places, mesh);
+    return made;
+}
+
+uint32_t GltfTextures::append_map(const GltfTextureUse& use, size_t map, bool is_mean, Mesh& mesh) {
+    const auto [entry, is_new] = maps_.try_emplace({use.texture, map, is_mean}, kNoTexture);
+    if (!is_new) return entry->second;
+    Texture made = texture_of(use.texture, map == kGlossMap, mesh);
+    if (!made.image)
+        made.image = std::make_shared<const TextureImage>(without_map(map));
+    else if (is_mean)
+        made.image =
+            std::make_shared<const TextureImage>(TextureImage{1, 1, {made.image->texels.back()}});
     mesh.textures.push_back(made);
     return entry->second = uint32_t(mesh.textures.size() - 1);
 }
 
-std::shared_ptr<const TextureImage> GltfTextures::image_of(const GltfValue& texture, Mesh& mesh) {
+GltfTextures::Image GltfTextures::read_image(const GltfValue& image, bool is_data) const {
+    const Picture picture = parse_picture(file_.image(image), file_.path());
+    uint64_t texels = uint64_t(picture.width) * uint64_t(picture.height);
+    for (const auto& [other, known] : images_)
+        if (known) texels += uint64_t(known->width) * uint64_t(known->height);
+    if (texels > kMaxMeshTexels)
+        throw Error(ErrorKind::input, "all textures of a mesh have at most 2^28 texels");
+    return std::make_shared<const TextureImage>(is_data ? with_levels_of_data(picture)
+                                                        : with_levels(picture));
+}
+
+GltfTextures::Image GltfTextures::image_of(const GltfValue& texture, bool is_data, Mesh& mesh) {
     const GltfValue root = file_.root();
     const int number = texture.index("source", root.size("images"));
     if (number < 0) {
@@ -96,17 +142,11 @@ std::shared_ptr<const TextureImage> GltfTextures::image_of(const GltfValue& text
             fmt::format("its texture {} isn't shown: it has no PNG or JPEG", texture.place()));
         return {};
     }
-    const auto [entry, is_new] = images_.try_emplace(number);
+    const auto [entry, is_new] = images_.try_emplace({number, is_data});
     if (!is_new) return entry->second;
     const GltfValue image = root.item("images", size_t(number));
     try {
-        const Picture picture = parse_picture(file_.image(image), file_.path());
-        uint64_t texels = uint64_t(picture.width) * uint64_t(picture.height);
-        for (const auto& [other, known] : images_)
-            if (known) texels += uint64_t(known->width) * uint64_t(known->height);
-        if (texels > kMaxMeshTexels)
-            throw Error(ErrorKind::input, "all textures of a mesh have at most 2^28 texels");
-        entry->second = std::make_shared<const TextureImage>(with_levels(picture));
+        entry->second = read_image(image, is_data);
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::input) throw;
         mesh.notes.push_back(fmt::format("its {} isn't shown: {}", image.place(), error.what()));

@@ -1,42 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base colour textures of a glTF file's materials.
+// The textures of a glTF file's materials: base colours, and their maps.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <map>
+#include <memory>
+#include <tuple>
 
 #include "runtime/geometry/mesh.hpp"
-#include "runtime/io/gltf/gltf_file.hpp"
+#include "runtime/io/gltf/gltf_texture_use.hpp"
 
 namespace voxelume {
-
-/// A texture as a material uses it.
-struct GltfTextureUse {
-    int texture = -1;  ///< number in the file; -1: none
-    uint64_t set = 0;  ///< of texture coordinates
-    // KHR_texture_transform
-    glm::dvec2 offset{0}, scale{1};
-    double rotation = 0;  ///< radians, counter-clockwise
-
-    glm::vec2 moved(const glm::vec2& uv) const;
-};
 
 /// Appends textures to a mesh, each of the file's images once.
 class GltfTextures {
   public:
     explicit GltfTextures(const GltfFile& file) : file_(file) {}
 
+    /// How the material uses its base colour's texture, or without one its first map; all of its
+    /// maps lie on the same places.
     GltfTextureUse of_material(int material) const;
     /// The number of the material's texture in the mesh, or kNoTexture; a note says why where the
-    /// material has one that can't be read.
+    /// material has one that can't be read. A material with maps alone gets a white texture.
     uint32_t append(int material, Mesh& mesh);
 
   private:
-    std::shared_ptr<const TextureImage> image_of(const GltfValue& texture, Mesh& mesh);
+    using Image = std::shared_ptr<const TextureImage>;
+
+    Image image_of(const GltfValue& texture, bool is_data, Mesh& mesh);
+    Image read_image(const GltfValue& image, bool is_data) const;
+    Texture texture_of(int number, bool is_data, Mesh& mesh);
+    TextureMap map_of(int material, size_t map, Mesh& mesh);
+    uint32_t append_map(const GltfTextureUse& use, size_t map, bool is_mean, Mesh& mesh);
 
     const GltfFile& file_;
-    std::map<int, std::shared_ptr<const TextureImage>> images_;
-    std::map<std::pair<int, uint32_t>, uint32_t> appended_;  ///< by their numbers and alpha
+    std::map<std::pair<int, bool>, Image> images_;  ///< by their numbers, and whether of data
+    /// By their numbers and alpha, and the number of a material with maps.
+    std::map<std::tuple<int, uint32_t, int>, uint32_t> appended_;
+    std::map<std::tuple<int, size_t, bool>, uint32_t> maps_;  ///< by numbers, kinds and being means
 };
 
 }  // namespace voxelume

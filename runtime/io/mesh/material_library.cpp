@@ -104,6 +104,14 @@ MtlTexture texture_of(const Statement& statement) {
     return texture;
 }
 
+/// The texture of a material that a statement names; null for another.
+MtlTexture* map_named(const std::string& word, MtlMaterial& m) {
+    if (word == "map_Kd") return &m.diffuse_map;
+    if (word == "map_Ke") return &m.emission_map;
+    if (word == "map_Pr") return &m.roughness_map;
+    return word == "map_Pm" ? &m.metallic_map : nullptr;
+}
+
 void read_statement(const Statement& statement, MtlMaterial& m) {
     const std::string word = statement.word(0);
     if (word == "Kd") {
@@ -126,8 +134,12 @@ void read_statement(const Statement& statement, MtlMaterial& m) {
         double model = m.illumination;
         read_number(statement, model);
         m.illumination = model >= 0 && model <= 10 ? int(model) : 2;
-    } else if (word == "map_Kd") {
-        m.diffuse_map = texture_of(statement);
+    } else if (word == "Pr") {
+        m.roughness = statement.number(1);
+    } else if (word == "Pm") {
+        m.metallic = statement.number(1);
+    } else if (MtlTexture* const map = map_named(word, m)) {
+        *map = texture_of(statement);
     }
 }
 

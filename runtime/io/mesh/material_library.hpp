@@ -27,7 +27,15 @@ struct MtlMaterial {
     double opacity = 1;                                 ///< d, or 1 - Tr
     double ior = 1;                                     ///< Ni
     int illumination = 2;                               ///< illum
+    std::optional<double> roughness, metallic;          ///< Pr, Pm
     MtlTexture diffuse_map;                             ///< map_Kd
+    MtlTexture emission_map;                            ///< map_Ke
+    MtlTexture roughness_map, metallic_map;             ///< map_Pr, map_Pm
+
+    /// Whether it is described by roughness and metalness.
+    bool is_physical() const {
+        return roughness || metallic || !roughness_map.file.empty() || !metallic_map.file.empty();
+    }
 };
 
 /// Reads the statements that MtlMaterial has. Others are skipped, and so are values that are no

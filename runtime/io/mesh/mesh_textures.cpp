@@ -12,6 +12,7 @@
 #include "runtime/io/image/picture.hpp"
 #include "runtime/io/mesh/companion_file.hpp"
 #include "runtime/io/mesh/material_library.hpp"
+#include "runtime/io/mesh/mesh_maps.hpp"
 #include "runtime/io/mesh/mesh_paint.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/texture_levels.hpp"
@@ -50,26 +51,68 @@ std::string without_places(const std::string& texture) {
                        quote(texture));
 }
 
+/// The first picture that a material names.
+std::string first_file(const MtlMaterial& m) {
+    for (const MtlTexture* map : {&m.diffuse_map, &m.emission_map, &m.roughness_map})
+        if (!map->file.empty()) return map->file;
+    return m.metallic_map.file;
+}
+
+/// Gives the materials of a library the textures of a mesh, each picture once.
+class LibraryTextures {
+  public:
+    LibraryTextures(const fs::path& name, Mesh& mesh) : name_(name), mesh_(mesh) {}
+
+    /// The number of a material's texture, or kNoTexture.
+    uint32_t of(const MtlMaterial& material) {
+        const MtlTexture& map = material.diffuse_map;
+        uint32_t colors = kNoTexture;
+        if (!map.file.empty()) {
+            const auto [entry, is_new] = known_.try_emplace({map.file, map.clamps}, kNoTexture);
+            if (is_new)
+                entry->second = append_texture(
+                    name_, map.file, map.clamps ? TextureWrap::clamp : TextureWrap::repeat, mesh_);
+            colors = entry->second;
+        }
+        return has_maps(material) ? with_maps(material, colors) : colors;
+    }
+
+  private:
+    /// A texture with the material's maps, and the colours of another one, or white.
+    uint32_t with_maps(const MtlMaterial& material, uint32_t colors) {
+        Texture texture;
+        if (colors != kNoTexture)
+            texture = mesh_.textures[colors];
+        else
+            texture.image = std::make_shared<const TextureImage>(one_texel(255, 255, 255));
+        add_maps(name_, material, texture, mesh_);
+        mesh_.textures.push_back(texture);
+        return uint32_t(mesh_.textures.size() - 1);
+    }
+
+    const fs::path& name_;
+    Mesh& mesh_;
+    std::map<std::pair<std::string, bool>, uint32_t> known_;
+};
+
 void read_library_textures(const fs::path& name, Mesh& mesh) {
     const std::vector<MtlMaterial> library = read_material_library(name, mesh.material_library);
     const size_t groups = std::max<size_t>(mesh.group_names.size(), 1);
-    std::map<std::pair<std::string, bool>, uint32_t> known;
+    LibraryTextures textures(name, mesh);
     for (uint32_t group = 0; group < groups && group < mesh.group_names.size(); ++group) {
         const auto material =
             std::ranges::find(library, mesh.group_names[group], &MtlMaterial::name);
-        if (material == library.end() || material->diffuse_map.file.empty()) continue;
+        if (material == library.end()) continue;
         const MtlTexture& map = material->diffuse_map;
+        if (map.file.empty() && !has_maps(*material)) continue;
         if (mesh.uvs.empty()) {
-            mesh.notes.push_back(without_places(map.file));
+            mesh.notes.push_back(without_places(first_file(*material)));
             continue;
         }
-        const auto [entry, is_new] = known.try_emplace({map.file, map.clamps}, kNoTexture);
-        if (is_new)
-            entry->second = append_texture(
-                name, map.file, map.clamps ? TextureWrap::clamp : TextureWrap::repeat, mesh);
+        const uint32_t number = textures.of(*material);
         mesh.group_textures.resize(groups, kNoTexture);
-        mesh.group_textures[group] = entry->second;
-        if (entry->second != kNoTexture) move_uvs(mesh, group, map);
+        mesh.group_textures[group] = number;
+        if (number != kNoTexture) move_uvs(mesh, group, map);
     }
 }
 
@@ -111,32 +154,39 @@ std::string ply_texture_name(const std::string& bytes) {
 
 }  // namespace
 
-uint32_t append_texture(const fs::path& mesh_file, const std::string& texture_file,
-                        TextureWrap wrap, Mesh& mesh) {
+std::optional<Picture> companion_picture(const fs::path& mesh_file, const std::string& texture_file,
+                                         Mesh& mesh) {
     const auto file = companion_file(mesh_file, texture_file);
     if (!file) {
         mesh.notes.push_back(
             fmt::format("its texture {} isn't in its folder", quote(texture_file)));
-        return kNoTexture;
+        return std::nullopt;
     }
     try {
-        const Picture picture = read_picture(*file);
+        Picture picture = read_picture(*file);
         const uint64_t texels = uint64_t(picture.width) * uint64_t(picture.height);
         if (first_level_texels(mesh) + texels > kMaxMeshTexels) {
             mesh.notes.push_back(
                 fmt::format("its texture {} isn't read: all textures of a mesh have at most 2^28 "
                             "texels",
                             quote(texture_file)));
-            return kNoTexture;
+            return std::nullopt;
         }
-        mesh.textures.push_back(
-            {std::make_shared<const TextureImage>(with_levels(picture)), wrap, wrap});
-        return uint32_t(mesh.textures.size() - 1);
+        return picture;
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::input) throw;
         mesh.notes.push_back(fmt::format("its texture isn't read: {}", error.what()));
-        return kNoTexture;
+        return std::nullopt;
     }
+}
+
+uint32_t append_texture(const fs::path& mesh_file, const std::string& texture_file,
+                        TextureWrap wrap, Mesh& mesh) {
+    const std::optional<Picture> picture = companion_picture(mesh_file, texture_file, mesh);
+    if (!picture) return kNoTexture;
+    mesh.textures.push_back(
+        {std::make_shared<const TextureImage>(with_levels(*picture)), wrap, wrap});
+    return uint32_t(mesh.textures.size() - 1);
 }
 
 void read_textures(const fs::path& name, Mesh& mesh) {
@@ -162,7 +212,9 @@ std::vector<fs::path> companion_files(const std::string& bytes, const fs::path& 
         const std::string library = library_name(bytes);
         files = material_library_files(name, library);
         for (const MtlMaterial& material : read_material_library(name, library))
-            if (!material.diffuse_map.file.empty()) add(material.diffuse_map.file);
+            for (const MtlTexture* map : {&material.diffuse_map, &material.emission_map,
+                                          &material.roughness_map, &material.metallic_map})
+                if (!map->file.empty()) add(map->file);
     }
     return files;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/texture_levels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/vec4.hpp>
@@ -53,7 +54,24 @@ struct TexelSum {
     }
 };
 
+/// Sums of numbers.
+struct DataSum {
+    glm::vec4 sum{0};
+
+    void add(uint32_t texel, float weight) {
+        for (int c = 0; c < 4; ++c) sum[c] += float(texel >> 8 * c & 255) * weight;
+    }
+
+    uint32_t texel() const {
+        uint32_t packed = 0;
+        for (int c = 0; c < 4; ++c)
+            packed |= uint32_t(std::lround(std::clamp(sum[c], 0.0f, 255.0f))) << 8 * c;
+        return packed;
+    }
+};
+
 /// Appends the level after `level`, whose first texel is number `first`.
+template <class Sum>
 void append_level(TextureImage& image, int level, size_t first) {
     const int width = level_size(image.width, level);
     const std::vector<Cover> across = covers(width, level_size(image.width, level + 1)),
@@ -61,7 +79,7 @@ void append_level(TextureImage& image, int level, size_t first) {
                                            level_size(image.height, level + 1));
     for (const Cover& row : down)
         for (const Cover& column : across) {
-            TexelSum sum;
+            Sum sum;
             for (int y = 0; y < row.count; ++y)
                 for (int x = 0; x < column.count; ++x)
                     sum.add(image.texels[first + size_t(row.first + y) * size_t(width) +
@@ -71,9 +89,8 @@ void append_level(TextureImage& image, int level, size_t first) {
         }
 }
 
-}  // namespace
-
-TextureImage with_levels(const Picture& picture) {
+template <class Sum>
+TextureImage image_of(const Picture& picture) {
     TextureImage image{picture.width, picture.height, {}};
     image.texels.reserve(texel_count(image));
     for (const auto& p : picture.pixels)
@@ -82,10 +99,24 @@ TextureImage with_levels(const Picture& picture) {
     size_t first = 0;
     for (int level = 0; level + 1 < level_count(image); ++level) {
         const size_t next = image.texels.size();
-        append_level(image, level, first);
+        append_level<Sum>(image, level, first);
         first = next;
     }
     return image;
+}
+
+}  // namespace
+
+TextureImage with_levels(const Picture& picture) {
+    return image_of<TexelSum>(picture);
+}
+
+TextureImage with_levels_of_data(const Picture& picture) {
+    return image_of<DataSum>(picture);
+}
+
+TextureImage one_texel(uint8_t red, uint8_t green, uint8_t blue) {
+    return {1, 1, {uint32_t{red} | uint32_t{green} << 8 | uint32_t{blue} << 16 | 0xFF000000u}};
 }
 
 }  // namespace voxelume

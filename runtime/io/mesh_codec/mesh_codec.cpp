@@ -19,8 +19,8 @@ constexpr uint64_t kMaxElements = uint64_t{1} << 31;
 constexpr uint64_t kMaxDecoded = uint64_t{16} << 30;
 
 /// How often data may be smaller than what they decode to. meshoptimizer's vertices take at least 2
-/// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no least size; regular
-/// meshes of a million triangles have been seen at 0.02 bits a triangle.
+/// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no least size, so
+/// that its limit is a guess; what it may take is limited where it runs.
 uint64_t most_of_a_byte(MeshCodec codec) {
     return codec == MeshCodec::draco ? 8192 : codec == MeshCodec::meshopt_vertices ? 64 : 12;
 }

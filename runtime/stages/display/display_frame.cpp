@@ -18,7 +18,8 @@ namespace {
 double covering_absorption(const Medium& medium) {
     const glm::vec3& a = medium.absorption;
     const double minimum = double(std::min({a.x, a.y, a.z}));
-    if (minimum > 0 || medium.color == glm::vec3(0)) return minimum;
+    const bool shines = medium.color != glm::vec3(0) || has_medium_colors(medium);
+    if (minimum > 0 || !shines) return minimum;
     double positive = std::numeric_limits<double>::infinity();
     for (int channel = 0; channel < 3; ++channel)
         if (a[channel] > 0) positive = std::min(positive, double(a[channel]));

@@ -13,6 +13,8 @@ namespace {
 
 /// A smaller share of the light from behind counts as none.
 constexpr double kMinTransmittance = 1.0 / (1 << 20);
+/// The same of the medium's own light, which is known however much covers it.
+constexpr double kMinSpaceTransmittance = 1e-250;
 
 /// What one voxel of a ray shows. Samples of one place are in order, the nearest first.
 struct Sample {
@@ -69,14 +71,22 @@ class Assembly {
         const uint32_t object = word(layer, n, VXL_LAYER_OBJECT);
         if (object == 0 || !(opacity > 0)) return;
         const auto depth = float(number(layer, n, VXL_LAYER_DEPTH));
-        put(column, word(layer, n, VXL_LAYER_STEP), light, opacity, depth, object);
+        put(column,
+            {place_of(column, word(layer, n, VXL_LAYER_STEP)), light, opacity, depth, object},
+            1 - opacity, kMinTransmittance);
     }
 
     /// For each step of a ray's path to a surface, from step `first` on: the medium's density times
-    /// metres.
+    /// metres, and the light that it adds there if nothing covers it.
     struct Way {
         uint32_t first = 0;
         std::vector<double> amounts;
+        std::vector<glm::dvec3> lights;
+
+        void add_step() {
+            amounts.push_back(0);
+            lights.emplace_back(0);
+        }
     };
     Way way_of(const LayerRecords& layer, size_t n) const {
         const double begin = number(layer, n, VXL_LAYER_BEGIN),
@@ -92,20 +102,33 @@ class Assembly {
         Way way;
         if (layer.first_amount.empty()) {
             way.first = step_at(begin);
-            for (uint32_t k = way.first; k <= last; ++k)
-                way.amounts.push_back(
+            for (uint32_t k = way.first; k <= last; ++k) {
+                way.add_step();
+                add_behind(
                     std::max(std::min((k + 1) * step, end) - std::max(k * step, begin), 0.0) *
-                    ratio);
+                        ratio,
+                    nullptr, way);
+            }
             return way;
         }
         way.first = std::min(layer.first_step[n], last);
         const size_t from = layer.first_amount[n], to = layer.first_amount[n + 1];
         for (size_t i = from; i < to; ++i) {
             // Rounding may put a small amount beyond the surface.
-            if (way.first + way.amounts.size() <= last) way.amounts.push_back(0);
-            way.amounts.back() += double(layer.amounts[i]);
+            if (way.first + way.amounts.size() <= last) way.add_step();
+            add_behind(double(layer.amounts[i]), layer.lights.empty() ? nullptr : &layer.lights[i],
+                       way);
         }
         return way;
+    }
+
+    /// Adds an amount of medium to the last step of a way. `light` is what it adds where its colour
+    /// varies.
+    void add_behind(double amount, const glm::vec3* light, Way& way) const {
+        const glm::dvec3 own =
+            light ? glm::dvec3(*light) : color_ * (1.0 - glm::exp(-absorption_ * amount));
+        way.lights.back() += glm::exp(-absorption_ * way.amounts.back()) * own;
+        way.amounts.back() += amount;
     }
 
     /// Adds the voxels of the medium along a ray's path to a surface. Returns the light that they
@@ -119,27 +142,29 @@ class Assembly {
             const double inside = way.amounts[i];
             if (!(inside > 0)) continue;
             const auto k = uint32_t(way.first + i);
-            const glm::dvec3 light = throughput * color_ * glm::exp(-absorption_ * before) *
-                                     (1.0 - glm::exp(-absorption_ * inside));
-            put(column, k, light, -std::expm1(-double(environment_.steps.absorption) * inside),
-                float((k + 0.5) * double(environment_.steps.step) +
-                      double(environment_.near_depth)),
-                0);
+            const glm::dvec3 light = throughput * glm::exp(-absorption_ * before) * way.lights[i];
+            const double covered = double(environment_.steps.absorption) * inside;
+            const auto depth = float((k + 0.5) * double(environment_.steps.step) +
+                                     double(environment_.near_depth));
+            put(column, {place_of(column, k), light, -std::expm1(-covered), depth, 0},
+                std::exp(-covered), kMinSpaceTransmittance);
             sum += light;
             before += inside;
         }
         return sum;
     }
 
-    /// Adds a voxel. `light` is what reaches E, so it is divided by what the voxels in front let
-    /// through.
-    void put(uint64_t column, uint32_t k, const glm::dvec3& light, double opacity, float depth,
-             uint32_t object) {
+    uint64_t place_of(uint64_t column, uint32_t k) const {
+        return column + uint64_t(size_.x) * uint64_t(size_.y) * k;
+    }
+
+    /// Adds a voxel that leaves a part of what is behind it. Its light is what reaches E, so it is
+    /// divided by what the voxels in front let through.
+    void put(uint64_t column, Sample voxel, double leaves, double min_transmittance) {
         double& throughput = throughput_[column];
-        samples_.push_back({column + uint64_t(size_.x) * uint64_t(size_.y) * k,
-                            glm::max(light / std::max(throughput, kMinTransmittance), 0.0), opacity,
-                            depth, object});
-        throughput *= 1 - opacity;
+        voxel.light = glm::max(voxel.light / std::max(throughput, min_transmittance), 0.0);
+        samples_.push_back(voxel);
+        throughput *= leaves;
     }
 
     LayerEnvironment environment_;

@@ -88,6 +88,7 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
     : device_(device),
       has_layers_(features.transmission || features.medium_grid),
       transmission_(features.transmission),
+      medium_colors_(features.medium_colors),
       camera_(camera),
       steps_(display_steps(frame, medium)),
       near_depth_(float(frame.display.near)),
@@ -120,7 +121,7 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
     const Buffer<uint32_t> words(device_, "display layers", size_t(count) * VXL_LAYER_WORDS);
     layer_.value().launch(WorkItem::light, count, camera_, shape_of(world), steps_,
                           uint32_t(is_first), entries, count, nodes, first_ray, seen_, words);
-    LayerRecords records{count, words.read(), {}, {}, {}};
+    LayerRecords records{count, words.read(), {}, {}, {}, {}};
     if (density) measure_density(world, *density, layer, records);
     layers_.push_back(std::move(records));
 }
@@ -129,14 +130,16 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
 void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
                                        const Layer& layer, LayerRecords& records) {
     const auto steps = size_t(steps_.count);
-    const uint32_t maximum = std::max(uint32_t(kMaxAmounts / steps) / 16, 1u) * 16;
-    Buffer<float> amounts(device_, "display amounts", maximum * steps);
+    const size_t planes = medium_colors_ ? 4 : 1;
+    const uint32_t maximum = std::max(uint32_t(kMaxAmounts / steps / planes) / 16, 1u) * 16;
+    const size_t plane = maximum * steps;
+    Buffer<float> amounts(device_, "display amounts", planes * plane);
     for (uint32_t first = 0; first < layer.count; first += maximum) {
         const uint32_t now = std::min(maximum, layer.count - first);
         amounts.fill(0);
-        density_.value().launch_packets(now, camera_, shape_of(world), steps_, density,
-                                        uint32_t(layer.is_first), layer.entries, first, now,
-                                        maximum, amounts);
+        density_.value().launch_packets(now, camera_, shape_of(world), steps_, environment_,
+                                        density, density.colors, uint32_t(layer.is_first),
+                                        layer.entries, first, now, maximum, amounts);
         const std::vector<float> dense = amounts.read();
         for (uint32_t n = 0; n < now; ++n) {
             size_t begin = 0, end = steps;
@@ -144,7 +147,13 @@ void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& 
             while (end > begin && dense[(end - 1) * maximum + n] == 0) --end;
             records.first_step.push_back(uint32_t(begin));
             records.first_amount.push_back(records.amounts.size());
-            for (size_t k = begin; k < end; ++k) records.amounts.push_back(dense[k * maximum + n]);
+            for (size_t k = begin; k < end; ++k) {
+                const size_t at = k * maximum + n;
+                records.amounts.push_back(dense[at]);
+                if (medium_colors_)
+                    records.lights.emplace_back(dense[plane + at], dense[2 * plane + at],
+                                                dense[3 * plane + at]);
+            }
         }
     }
     records.first_amount.push_back(records.amounts.size());

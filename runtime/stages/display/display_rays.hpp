@@ -40,6 +40,9 @@ struct LayerRecords {
     /// The density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`;
     /// empty in a medium of density 1. The amounts of entry n end where those of n+1 begin.
     std::vector<float> amounts;
+    /// The light that the medium adds in these steps if nothing covers them; only where its colour
+    /// varies.
+    std::vector<glm::vec3> lights;
     std::vector<size_t> first_amount;
     std::vector<uint32_t> first_step;
 };
@@ -97,7 +100,7 @@ class DisplayRaysStage {
     void measure_density(const Pyramid& world, const DensityGrid& density, const Layer& layer,
                          LayerRecords& records);
 
-    bool has_layers_, transmission_;
+    bool has_layers_, transmission_, medium_colors_;
     Camera camera_;
     DisplaySteps steps_;
     float near_depth_;

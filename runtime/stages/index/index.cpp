@@ -89,6 +89,7 @@ Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const Pyra
     pyramid.textures = grid.textures;
     pyramid.texture_key = grid.texture_key;
     pyramid.texture_alpha = grid.texture_alpha;
+    pyramid.texture_maps = grid.texture_maps;
     pyramid.solids = grid.solids;
     return pyramid;
 }

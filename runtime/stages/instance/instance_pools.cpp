@@ -68,6 +68,7 @@ class Total {
         joined.frame = frame_;
         joined.transparent = transparent_;
         joined.texture_alpha = texture_alpha_;
+        joined.texture_maps = texture_maps_;
         joined.leaf_count = uint32_t(total_.leaves);
         joined.voxel_count = voxel_count_;
         joined.listed_fields = uint32_t(total_.voxels) - voxel_count_;
@@ -113,13 +114,14 @@ class Total {
         parts_.textures.add(p.texture_key, p.textures.size());
         transparent_ |= p.transparent;
         texture_alpha_ |= p.texture_alpha;
+        texture_maps_ |= p.texture_maps;
     }
 
     GridFrame frame_;
     Extent total_;
     uint32_t voxel_count_ = 0;
     Parts parts_;
-    bool transparent_ = false, texture_alpha_ = false;
+    bool transparent_ = false, texture_alpha_ = false, texture_maps_ = false;
 };
 
 class Joiner {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "kernels/shared/voxel.h"
+#include "runtime/stages/light/emission_maps.hpp"
 #include "runtime/stages/light/emissive_pieces.hpp"
 
 namespace voxelume {
@@ -23,6 +24,7 @@ using Corners = std::array<Corner, 3>;
 struct EmissiveMesh {
     std::vector<Corners> triangles;
     std::vector<uint32_t> materials;
+    std::vector<size_t> numbers;  ///< among the source's triangles
 };
 
 std::map<uint32_t, EmissiveMesh> emissive_meshes(const EmissiveSource& source) {
@@ -39,6 +41,7 @@ std::map<uint32_t, EmissiveMesh> emissive_meshes(const EmissiveSource& source) {
         EmissiveMesh& mesh = meshes[object];
         mesh.triangles.push_back(
             {Corner{c[0], c[1], c[2]}, Corner{c[3], c[4], c[5]}, Corner{c[6], c[7], c[8]}});
+        mesh.numbers.push_back(i);
         mesh.materials.push_back(attributes[i] >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK);
     }
     return meshes;
@@ -74,29 +77,47 @@ glm::dvec3 area_vector(const Triangle& t) {
     return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5;
 }
 
-/// Halves a triangle across its longest edge, again and again, until its parts are at most
-/// `largest`.
-void add_parts(const Triangle& t, double largest, const EmissivePiece& whole,
-               std::vector<EmissivePiece>& pieces) {
+/// A triangle to take apart, and its place on its map.
+struct Part {
+    Triangle corners;
+    EmissionMaps::Places places;
+};
+
+/// What the parts of a triangle have in common.
+struct Whole {
+    EmissivePiece piece;
+    double largest;  ///< area of a part
+    const EmissionMaps& maps;
+    size_t number;  ///< of the triangle
+};
+
+/// Halves a triangle across its longest edge, again and again, until its parts are small enough.
+void add_parts(const Part& part, const Whole& whole, std::vector<EmissivePiece>& pieces) {
+    const Triangle& t = part.corners;
     const double area = glm::length(area_vector(t));
-    if (area <= largest) {
-        pieces.push_back(whole);
-        pieces.back().position = (t[0] + t[1] + t[2]) / 3.0;
-        pieces.back().area = area;
+    if (area <= whole.largest) {
+        EmissivePiece piece = whole.piece;
+        piece.emission *= whole.maps.mean(whole.number, part.places);
+        if (piece.emission == glm::dvec3(0)) return;
+        piece.position = (t[0] + t[1] + t[2]) / 3.0;
+        piece.area = area;
+        pieces.push_back(piece);
         return;
     }
     size_t longest = 0;
     for (size_t i = 1; i < 3; ++i)
         if (glm::distance(t[i], t[(i + 1) % 3]) > glm::distance(t[longest], t[(longest + 1) % 3]))
             longest = i;
-    const glm::dvec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
-    const glm::dvec3 middle = (a + b) * 0.5;
-    add_parts({a, middle, c}, largest, whole, pieces);
-    add_parts({middle, b, c}, largest, whole, pieces);
+    const size_t i = longest, j = (longest + 1) % 3, k = (longest + 2) % 3;
+    const EmissionMaps::Places& p = part.places;
+    const glm::dvec3 middle = (t[i] + t[j]) * 0.5;
+    const glm::dvec2 place = (p[i] + p[j]) * 0.5;
+    add_parts({{t[i], middle, t[k]}, {p[i], place, p[k]}}, whole, pieces);
+    add_parts({{middle, t[j], t[k]}, {place, p[j], p[k]}}, whole, pieces);
 }
 
-void add_mesh(const EmissiveSource& source, const EmissiveMesh& mesh, int light_samples,
-              std::vector<EmissivePiece>& pieces) {
+void add_mesh(const EmissiveSource& source, const EmissionMaps& maps, const EmissiveMesh& mesh,
+              int light_samples, std::vector<EmissivePiece>& pieces) {
     const glm::dvec3& edge = source.pyramid.frame.voxel_edge;
     const bool closed = is_closed(mesh.triangles);
     const double outwards = closed && signed_volume(mesh.triangles) < 0 ? -1 : 1;
@@ -109,23 +130,24 @@ void add_mesh(const EmissiveSource& source, const EmissiveMesh& mesh, int light_
     }
     for (size_t i = 0; i < triangles.size(); ++i) {
         const glm::dvec3 facing = area_vector(triangles[i]);
-        EmissivePiece whole;
-        whole.emission = source.emission[mesh.materials[i]];
-        if (!(glm::length(facing) > 0) || whole.emission == glm::dvec3(0)) continue;
-        whole.normal = glm::normalize(facing) * outwards;
-        const double largest = area / (kPartsPerLightSample * light_samples);
-        add_parts(triangles[i], largest, whole, pieces);
+        Whole whole{{}, area / (kPartsPerLightSample * light_samples), maps, mesh.numbers[i]};
+        whole.piece.emission = source.emission[mesh.materials[i]];
+        if (!(glm::length(facing) > 0) || whole.piece.emission == glm::dvec3(0)) continue;
+        whole.piece.normal = glm::normalize(facing) * outwards;
+        const Part part{triangles[i], maps.places(mesh.numbers[i])};
+        add_parts(part, whole, pieces);
         if (closed) continue;
-        whole.normal = -whole.normal;
-        add_parts(triangles[i], largest, whole, pieces);
+        whole.piece.normal = -whole.piece.normal;
+        add_parts(part, whole, pieces);
     }
 }
 
 }  // namespace
 
 void add_emissive_triangles(const EmissiveSource& source, PiecesOfObjects& pieces) {
+    const EmissionMaps maps(source);
     for (const auto& [object, mesh] : emissive_meshes(source))
-        add_mesh(source, mesh, source.light_samples[object].value_or(kAssumedLightSamples),
+        add_mesh(source, maps, mesh, source.light_samples[object].value_or(kAssumedLightSamples),
                  pieces[object]);
 }
 

@@ -113,10 +113,18 @@ std::array<float, VXL_COAT_FLOATS> coat_block(const Material& material, double w
 /// Records of materials, and the tables behind them.
 class RecordList {
   public:
-    RecordList(const Scene& scene, const GridFrame& world)
-        : world_(world), before_(scene.materials.size()) {}
+    RecordList(const Scene& scene, const GridFrame& world, bool has_maps)
+        : world_(world), before_(scene.materials.size()), has_maps_(has_maps) {}
 
-    void add(const MaterialRecord& record) { records_.push_back(record); }
+    void add_whitted(const Material& material) {
+        MaterialRecord record = material_record(whitted_material(material), world_);
+        if (has_maps_ && takes_gloss_map(material)) {
+            record.metallic = float(material.metallic.value_or(0));
+            record.width = float(std::max(material.roughness.value_or(kRoughness), 1e-6));
+            record.reflectance = float(material.specular.value_or(1));
+        }
+        records_.push_back(record);
+    }
 
     void add_physical(const Material& material) {
         const double width = width_of(material.roughness.value_or(kRoughness));
@@ -129,6 +137,7 @@ class RecordList {
         record.albedos = albedos(width);
         if (glass_share(material) > 0) record.shininess = glass(width, glass_index(material.ior));
         if (share > 0 || material.specular.value_or(1) < 1) record.specular = coat(material, width);
+        if (has_maps_ && takes_gloss_map(material)) record.fresnel = all_roughnesses();
         records_.push_back(record);
     }
 
@@ -156,6 +165,18 @@ class RecordList {
         if (is_new) found->second = add_table(glass_block(width, ior));
         return found->second;
     }
+    /// The tables of VXL_MATERIAL_MAPPED.
+    float all_roughnesses() {
+        if (all_roughnesses_ > 0) return all_roughnesses_;
+        std::vector<float> values, means;
+        for (int i = 0; i < VXL_ROUGHNESS_STEPS; ++i) {
+            const AlbedoTable table = albedo_table(width_of(double(i) / (VXL_ROUGHNESS_STEPS - 1)));
+            means.insert(means.end(), {float(table.missing), float(table.by_angle)});
+            values.insert(values.end(), table.values.begin(), table.values.end());
+        }
+        values.insert(values.begin(), means.begin(), means.end());
+        return all_roughnesses_ = add_table(values);
+    }
     float coat(const Material& material, double width) {
         const bool is_coated = material.coat.value_or(0) > 0;
         return add_table(
@@ -164,6 +185,8 @@ class RecordList {
 
     const GridFrame& world_;
     size_t before_;
+    bool has_maps_;
+    float all_roughnesses_ = 0;
     std::vector<MaterialRecord> records_, tables_;
     std::map<double, float> albedos_;  // those of one width have one table
     std::map<std::pair<double, double>, float> glasses_;
@@ -190,13 +213,13 @@ MaterialRecord material_record(const Material& material, const GridFrame& world)
 }
 
 std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world,
-                                             bool has_physical) {
-    RecordList list(scene, world);
+                                             const Features& features) {
+    RecordList list(scene, world, features.texture_maps);
     for (const Material& material : scene.materials)
-        if (has_physical && is_physical(material))
+        if (features.physical && is_physical(material))
             list.add_physical(material);
         else
-            list.add(material_record(whitted_material(material), world));
+            list.add_whitted(material);
     return list.take();
 }
 

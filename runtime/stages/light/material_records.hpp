@@ -7,6 +7,7 @@
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/scene.hpp"
+#include "runtime/stages/features.hpp"
 
 namespace voxelume {
 
@@ -14,8 +15,8 @@ namespace voxelume {
 MaterialRecord material_record(const Material& material, const GridFrame& world);
 
 /// The records of all materials, and behind them the tables of those that are physically based.
-/// Without `has_physical` these are in Whitted's model.
+/// Without Features::physical these are in Whitted's model.
 std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world,
-                                             bool has_physical);
+                                             const Features& features);
 
 }  // namespace voxelume

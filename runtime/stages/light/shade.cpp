@@ -38,9 +38,8 @@ Environment environment_of(const World& world) {
 ShadeStage::ShadeStage(const Device& device, const Features& features, const Scene& scene,
                        const GridFrame& world)
     : environment_(environment_of(scene.world)),
-      materials_(
-          device, "materials",
-          std::span<const MaterialRecord>(material_records(scene, world, features.physical))),
+      materials_(device, "materials",
+                 std::span<const MaterialRecord>(material_records(scene, world, features))),
       sky_is_hidden_(features.sky_hidden),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {

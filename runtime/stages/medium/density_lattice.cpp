@@ -18,11 +18,6 @@ constexpr int kWholeAxis = 16;
 /// Points of a brick's half voxels along an axis, with both ends.
 constexpr int kPoints = 2 * kBrickSize + 1;
 
-std::optional<TransferCurve> curve_of(const Medium& medium) {
-    if (!has_medium_colors(medium)) return {};
-    return TransferCurve(std::get<GridDensity>(medium.density).transfer);
-}
-
 /// The light on a voxel whose eighths have such absorptions, from a light that travels along a unit
 /// vector: as on a surface, as far as the absorption rises from one side of the voxel to the other.
 double light_on(const std::array<double, 8>& eighths, const glm::dvec3& edge,
@@ -45,12 +40,15 @@ double light_on(const std::array<double, 8>& eighths, const glm::dvec3& edge,
 
 }  // namespace
 
-DensityLattice::DensityLattice(const World& world)
-    : field_(density_field(world.medium)),
-      curve_(curve_of(world.medium)),
-      frame_(world_frame(world)) {
-    if (curve_) lit_ = std::get<GridDensity>(world.medium.density).lit;
-    if (field_->is_layered()) {
+DensityLattice::DensityLattice(const World& world) : frame_(world_frame(world)) {
+    if (has_medium_colors(world.medium)) {
+        const auto& first = std::get<GridDensity>(world.medium.density);
+        add_scan(first);
+        for (const GridDensity& other : first.others) add_scan(other);
+    } else {
+        field_ = density_field(world.medium);
+    }
+    if (field_ && field_->is_layered()) {
         shift_ = {kWholeAxis, 0, kWholeAxis};
         frame_.voxel_edge *= glm::dvec3(frame_.size.x, 1, frame_.size.z);
         frame_.size = {1, frame_.size.y, 1};
@@ -58,45 +56,77 @@ DensityLattice::DensityLattice(const World& world)
     bricks_ = (frame_.size + kBrickSize - 1) / kBrickSize;
 }
 
+/// Windows of one scan share its values.
+void DensityLattice::add_scan(const GridDensity& grid) {
+    const auto same = std::ranges::find_if(seen_, [&](const GridDensity& known) {
+        return known.file == grid.file && known.grid == grid.grid &&
+               known.world_from_grid == grid.world_from_grid;
+    });
+    std::shared_ptr<const DensityField> field;
+    if (same != seen_.end())
+        field = scans_[size_t(same - seen_.begin())].field;
+    else
+        field = grid_field(grid);
+    seen_.push_back(grid);
+    scans_.push_back({std::move(field), TransferCurve(grid.transfer), grid.lit});
+}
+
+double DensityLattice::field_bytes() const {
+    if (field_) return field_->bytes();
+    double bytes = 0;
+    for (size_t i = 0; i < scans_.size(); ++i) {
+        const auto is_same = [&](const Scan& other) { return other.field == scans_[i].field; };
+        if (std::none_of(scans_.begin(), scans_.begin() + std::ptrdiff_t(i), is_same))
+            bytes += scans_[i].field->bytes();
+    }
+    return bytes;
+}
+
 bool DensityLattice::is_zero() const {
-    if (!curve_ && field_->is_zero()) return true;
+    if (field_ && field_->is_zero()) return true;
     for (size_t number = 0; number < brick_count(); ++number)
         if (constant_in(number) != 0.0f) return false;
     return true;
 }
 
+/// True if all scans are known to have nothing in a box.
+bool DensityLattice::is_empty_in(const Bounds& box) const {
+    return std::ranges::all_of(scans_, [&](const Scan& scan) {
+        const ValueRange range = scan.field->range_in(box);
+        return range.min > range.max || scan.curve.is_zero_in(range.min, range.max);
+    });
+}
+
 std::optional<float> DensityLattice::constant_in(size_t number) const {
     const glm::dvec3 first = first_corner(number);
-    if (curve_) {
-        const ValueRange range =
-            field_->range_in({first, first + frame_.voxel_edge * double(kBrickSize)});
-        const bool is_empty = range.min > range.max || curve_->is_zero_in(range.min, range.max);
-        return is_empty ? std::optional(0.0f) : std::nullopt;
-    }
+    if (has_colors())
+        return is_empty_in({first, first + frame_.voxel_edge * double(kBrickSize)})
+                   ? std::optional(0.0f)
+                   : std::nullopt;
     const glm::dvec3 center = first + frame_.voxel_edge * 0.5;
     return field_->constant_in({center, center + frame_.voxel_edge * double(kBrickSize - 1)});
 }
 
 void DensityLattice::sample(size_t number, std::span<float, kBrickCells> densities,
                             std::span<float> colors) const {
-    if (curve_) return average(number, densities, colors);
+    if (has_colors()) return average(number, densities, colors);
     field_->sample(first_corner(number) + frame_.voxel_edge * 0.5, frame_.voxel_edge, densities);
 }
 
-/// Each voxel has the mean of its eight halves' halves, whose values are taken for linear. So it is
-/// exact for a scan whose cells are as large as voxels and lie where they do.
-void DensityLattice::average(size_t number, std::span<float, kBrickCells> densities,
-                             std::span<float> colors) const {
+/// Adds absorption times colour, and the absorption, of a scan in the voxels of a brick. Each voxel
+/// has the mean of its eight halves' halves, whose values are taken for linear. So it is exact for
+/// a scan whose cells are as large as voxels and lie where they do.
+void DensityLattice::add_means(const Scan& scan, size_t number, std::span<glm::dvec4> sums) const {
     std::vector<float> values(size_t(kPoints) * kPoints * kPoints);
-    field_->sample_values(first_corner(number), frame_.voxel_edge * 0.5, glm::ivec3(kPoints),
-                          values);
+    scan.field->sample_values(first_corner(number), frame_.voxel_edge * 0.5, glm::ivec3(kPoints),
+                              values);
     const auto part_at = [&](int x, int y, int z) {
         std::array<float, 8> corners{};
         for (int c = 0; c < 8; ++c)
             corners[size_t(c)] =
                 values[(size_t(z + (c >> 2)) * kPoints + size_t(y + (c >> 1 & 1))) * kPoints +
                        size_t(x + (c & 1))];
-        return curve_->mean(corners);
+        return scan.curve.mean(corners);
     };
     for (int cell = 0; cell < int(kBrickCells); ++cell) {
         const int x = 2 * (cell & 15), y = 2 * (cell >> 4 & 15), z = 2 * (cell >> 8);
@@ -107,12 +137,23 @@ void DensityLattice::average(size_t number, std::span<float, kBrickCells> densit
             absorptions[size_t(part)] = mean.w;
             sum += mean;
         }
-        densities[size_t(cell)] = float(sum.w / 8);
-        const double light = lit_ != glm::dvec3(0) && sum.w > 0
-                                 ? light_on(absorptions, frame_.voxel_edge, lit_)
+        const double light = scan.lit != glm::dvec3(0) && sum.w > 0
+                                 ? light_on(absorptions, frame_.voxel_edge, scan.lit)
                                  : 1.0;
+        sums[size_t(cell)] += glm::dvec4(light * glm::dvec3(sum), sum.w);
+    }
+}
+
+/// What scans absorb adds up, and so does what they show for it.
+void DensityLattice::average(size_t number, std::span<float, kBrickCells> densities,
+                             std::span<float> colors) const {
+    std::vector<glm::dvec4> sums(kBrickCells, glm::dvec4(0));
+    for (const Scan& scan : scans_) add_means(scan, number, sums);
+    for (size_t cell = 0; cell < kBrickCells; ++cell) {
+        const glm::dvec4& sum = sums[cell];
+        densities[cell] = float(sum.w / 8);
         for (int c = 0; c < 3; ++c)
-            colors[3 * size_t(cell) + size_t(c)] = sum.w > 0 ? float(light * sum[c] / sum.w) : 0.0f;
+            colors[3 * cell + size_t(c)] = sum.w > 0 ? float(sum[c] / sum.w) : 0.0f;
     }
 }
 

@@ -2,6 +2,7 @@
 // The densities of a world's voxels, sampled brick by brick in main memory.
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,9 +23,9 @@ class DensityLattice {
     const glm::ivec3& bricks() const { return bricks_; }
     const glm::ivec3& shift() const { return shift_; }
     size_t brick_count() const { return size_t(bricks_.x) * bricks_.y * bricks_.z; }
-    double field_bytes() const { return field_->bytes(); }
+    double field_bytes() const;
     bool is_zero() const;
-    bool has_colors() const { return curve_.has_value(); }
+    bool has_colors() const { return !scans_.empty(); }
 
     /// The density of a brick where it is known to be constant; of one with colours only 0.
     std::optional<float> constant_in(size_t number) const;
@@ -33,13 +34,23 @@ class DensityLattice {
                 std::span<float> colors) const;
 
   private:
+    /// A scan with its transfer function; several may look at one field.
+    struct Scan {
+        std::shared_ptr<const DensityField> field;
+        TransferCurve curve;
+        glm::dvec3 lit;
+    };
+
+    void add_scan(const GridDensity& grid);
     glm::dvec3 first_corner(size_t number) const;
+    bool is_empty_in(const Bounds& box) const;
+    void add_means(const Scan& scan, size_t number, std::span<glm::dvec4> sums) const;
     void average(size_t number, std::span<float, kBrickCells> densities,
                  std::span<float> colors) const;
 
-    std::unique_ptr<DensityField> field_;
-    std::optional<TransferCurve> curve_;
-    glm::dvec3 lit_{0};
+    std::shared_ptr<const DensityField> field_;  ///< of a medium without transfer functions
+    std::vector<Scan> scans_;
+    std::vector<GridDensity> seen_;  ///< the grids of the scans
     GridFrame frame_;
     glm::ivec3 bricks_{0}, shift_{0};
 };

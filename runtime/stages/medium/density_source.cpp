@@ -83,7 +83,10 @@ std::unique_ptr<DensityField> density_field(const Medium& medium) {
         return std::make_unique<HeightField>(*height);
     if (const auto* ball = std::get_if<BallDensity>(&medium.density))
         return std::make_unique<BallField>(*ball);
-    const auto& grid = std::get<GridDensity>(medium.density);
+    return grid_field(std::get<GridDensity>(medium.density));
+}
+
+std::unique_ptr<DensityField> grid_field(const GridDensity& grid) {
     try {
         const VoxelFileFormat* const format = voxel_format_named(grid.file);
         if (format && format->array)

@@ -127,6 +127,7 @@ void allocate_sources(const Device& device, const SourceCounts& counts, BrickGri
             Buffer<uint32_t>(device, "world texture places", VXL_WORN_WORDS * triangles);
         world.textures = Buffer<uint32_t>(device, "world textures", counts.textures.words());
         world.texture_alpha = counts.texture_alpha;
+        world.texture_maps = counts.texture_maps;
     }
     world.solids = Buffer<uint32_t>(device, "world solids", counts.solid_words);
 }

@@ -16,10 +16,12 @@ struct SourceCounts {
     bool normals = false;  ///< some triangle has normals
     JoinedTextures textures;
     bool texture_alpha = false;  ///< the alpha of one of them counts
+    bool texture_maps = false;   ///< one of them has maps
 
     void add(const BrickGrid& grid) {
         textures.add(grid.texture_key, grid.textures.size());
         texture_alpha |= grid.texture_alpha;
+        texture_maps |= grid.texture_maps;
         floats += grid.triangles.size();
         solid_words += grid.solids.size();
         normals |= !grid.triangle_normals.empty();

@@ -67,7 +67,8 @@ void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     if (features.paths) maker.make(batch.sides, "sides", 1);
     if (features.paths && features.absorbs) maker.make(batch.transmittance, "transmittance", 3);
     if (features.transmission) maker.make(batch.coverage, "coverage", 1);
-    if (features.textures) maker.make(batch.paint, "paint", VXL_PAINT_FLOATS);
+    if (features.textures)
+        maker.make(batch.paint, "paint", VXL_PAINT_FLOATS(features.texture_maps));
 }
 
 bool has_shadow_queue(const Features& features) {

@@ -14,6 +14,7 @@ Features features_of(const Pyramid& pyramid) {
     features.triangles = !pyramid.triangles.empty();
     features.textures = !pyramid.triangle_textures.empty();
     features.texture_alpha = features.textures && pyramid.texture_alpha;
+    features.texture_maps = features.textures && pyramid.texture_maps;
     features.corner_normals = !pyramid.triangle_normals.empty();
     features.voxel_normals = !pyramid.normals.empty();
     features.solids = !pyramid.solids.empty();

@@ -2,6 +2,7 @@
 // Textures of a mesh on a device, and the level that each triangle's voxels see.
 #pragma once
 
+#include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 
 namespace voxelume {
@@ -31,7 +32,7 @@ inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
 void keep_textures(VoxelizeJob& job, const Mesh& mesh);
 
 /// The words of all textures in BrickGrid::textures.
-uint64_t texture_words(uint64_t texels, uint64_t textures);
+uint64_t texture_words(const MeshPaint& paint);
 
 /// Throws Error::limit for more texels than a device's buffer holds.
 DeviceTextures upload_textures(const VoxelizeJob& job, const Mesh& mesh);

@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 
@@ -60,38 +61,67 @@ class TextureWriter {
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
+/// Where each texture begins, behind the records of its maps.
+std::vector<uint32_t> texture_places(const Mesh& mesh) {
+    std::vector<uint32_t> places;
+    places.reserve(mesh.textures.size());
+    size_t end = VXL_TEXTURE_CURVE;
+    for (const Texture& texture : mesh.textures) {
+        if (texture.has_maps()) end += size_t{VXL_MAP_COUNT} * VXL_MAP_WORDS;
+        places.push_back(uint32_t(end));
+        end += VXL_TEXTURE_HEAD + texture.image->texels.size();
+    }
+    return places;
+}
+
+/// Writes the records of a texture's maps.
+void write_maps(const Texture& texture, uint32_t place, const std::vector<uint32_t>& places,
+                TextureWriter& writer) {
+    for (const TextureMap& map : texture.maps) {
+        std::array<uint32_t, VXL_MAP_WORDS> record{};
+        if (map.texture != kNoTexture) record[VXL_MAP_OFFSET] = places[map.texture] - place;
+        for (size_t i = 0; i < map.places.size(); ++i)
+            record[VXL_MAP_PLACES + i] = std::bit_cast<uint32_t>(map.places[i]);
+        writer.write(record);
+    }
+}
+
 /// Writes all textures; returns where each begins.
 std::vector<uint32_t> write_textures(VoxelizeJob& job, const Mesh& mesh) {
-    uint64_t texels = 0;
-    for (const Texture& texture : mesh.textures) texels += texture.image->texels.size();
-    const uint64_t words = texture_words(texels, mesh.textures.size());
+    const MeshPaint paint = paint_of(mesh);
+    const uint64_t words = texture_words(paint);
     if (words > kMaxTextureWords)
-        throw Error(ErrorKind::limit, "the mesh has textures of {} texels, more than 2^31", texels);
+        throw Error(ErrorKind::limit, "the mesh has textures of {} texels, more than 2^31",
+                    paint.texels);
     TextureWriter writer(job.device, words);
     std::vector<uint32_t> curve;
     for (const float level : srgb_levels()) curve.push_back(std::bit_cast<uint32_t>(level));
     writer.write(curve);
-    std::vector<uint32_t> places;
-    places.reserve(mesh.textures.size());
-    for (const Texture& texture : mesh.textures) {
+    const std::vector<uint32_t> places = texture_places(mesh);
+    for (size_t i = 0; i < mesh.textures.size(); ++i) {
+        const Texture& texture = mesh.textures[i];
         const TextureImage& image = *texture.image;
-        places.push_back(uint32_t(writer.place()));
+        const bool has_maps = texture.has_maps();
+        if (has_maps) write_maps(texture, places[i], places, writer);
         const uint32_t head[VXL_TEXTURE_HEAD] = {
             uint32_t(image.width), uint32_t(image.height),
-            uint32_t(texture.wrap_u) | uint32_t(texture.wrap_v) << VXL_TEXTURE_WRAP_V_SHIFT,
+            uint32_t(texture.wrap_u) | uint32_t(texture.wrap_v) << VXL_TEXTURE_WRAP_V_SHIFT |
+                (has_maps ? VXL_TEXTURE_HAS_MAPS : 0u),
             texture.alpha};
-        job.grid.texture_alpha |= texture.alpha != kAlphaOpaque;
         writer.write(head);
         writer.write(image.texels);
     }
     writer.store(job.grid);
+    job.grid.texture_alpha = paint.has_alpha;
+    job.grid.texture_maps = paint.mapped > 0;
     return places;
 }
 
 }  // namespace
 
-uint64_t texture_words(uint64_t texels, uint64_t textures) {
-    return VXL_TEXTURE_CURVE + textures * VXL_TEXTURE_HEAD + texels;
+uint64_t texture_words(const MeshPaint& paint) {
+    return VXL_TEXTURE_CURVE + paint.textures * VXL_TEXTURE_HEAD + paint.texels +
+           paint.mapped * VXL_MAP_COUNT * VXL_MAP_WORDS;
 }
 
 void keep_textures(VoxelizeJob& job, const Mesh& mesh) {

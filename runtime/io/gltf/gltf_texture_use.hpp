@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the materials of a glTF file use textures, and which of them are shown.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "runtime/io/gltf/gltf_file.hpp"
+
+namespace voxelume {
+
+/// A texture as a material uses it.
+struct GltfTextureUse {
+    int texture = -1;  ///< number in the file; -1: none
+    uint64_t set = 0;  ///< of texture coordinates
+    // KHR_texture_transform
+    glm::dvec2 offset{0}, scale{1};
+    double rotation = 0;  ///< radians, counter-clockwise
+
+    glm::vec2 moved(const glm::vec2& uv) const;
+};
+
+/// The base colour's texture, in either way of describing a material.
+GltfTextureUse gltf_base_texture(const GltfFile& file, const GltfValue& material);
+
+/// The texture that is shown as one of the maps, by the numbers of TextureMap.
+GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map);
+
+/// Whether a metallic-roughness texture is shown of the material, whose factors it multiplies.
+/// Glass and what has a coat are of one roughness.
+bool gltf_has_gloss_map(const GltfValue& material);
+
+/// The places of a map by those of the base texture, as TextureMap has them; nothing where they
+/// don't follow from each other.
+std::optional<std::array<float, 6>> gltf_map_places(const GltfTextureUse& map,
+                                                    const GltfTextureUse& base);
+
+}  // namespace voxelume

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/mesh/mesh_maps.hpp"
+
+#include <algorithm>
+
+#include "runtime/io/mesh/mesh_textures.hpp"
+#include "runtime/io/mesh/texture_levels.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The places of a map by those of the base texture. v counts downwards there, and upwards in the
+/// library.
+std::array<float, 6> places_by(const MtlTexture& map, const MtlTexture& base) {
+    glm::dvec2 ratio(0);
+    for (int i = 0; i < 2; ++i)
+        if (base.scale[i] != 0) ratio[i] = map.scale[i] / base.scale[i];
+    const double u = map.offset.x - ratio.x * base.offset.x;
+    const double v = 1 - map.offset.y - ratio.y * (1 - base.offset.y);
+    return {float(ratio.x), 0, float(u), 0, float(ratio.y), float(v)};
+}
+
+/// A channel at a place of a picture of another size, or a number where there is no picture.
+uint8_t value_at(const std::optional<Picture>& picture, int x, int y, glm::ivec2 size,
+                 uint8_t otherwise) {
+    if (!picture) return otherwise;
+    const auto at_x = size_t((2 * int64_t{x} + 1) * picture->width / (2 * int64_t{size.x}));
+    const auto at_y = size_t((2 * int64_t{y} + 1) * picture->height / (2 * int64_t{size.y}));
+    return picture->pixels[at_y * size_t(picture->width) + at_x][0];
+}
+
+/// One picture as glTF has it: roughness is green, and metalness blue.
+Picture joined(const std::optional<Picture>& rough, uint8_t no_rough,
+               const std::optional<Picture>& metal, uint8_t no_metal) {
+    Picture picture{1, 1, {}};
+    for (const auto* part : {&rough, &metal})
+        if (*part) {
+            picture.width = std::max(picture.width, (*part)->width);
+            picture.height = std::max(picture.height, (*part)->height);
+        }
+    picture.pixels.reserve(size_t(picture.width) * size_t(picture.height));
+    const glm::ivec2 size(picture.width, picture.height);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            picture.pixels.push_back({255, value_at(rough, x, y, size, no_rough),
+                                      value_at(metal, x, y, size, no_metal), 255});
+    return picture;
+}
+
+class MapReader {
+  public:
+    MapReader(const std::filesystem::path& mesh_file, const MtlMaterial& material, Mesh& mesh)
+        : file_(mesh_file), material_(material), mesh_(mesh) {}
+
+    TextureMap emission() {
+        const MtlTexture& map = material_.emission_map;
+        if (map.file.empty()) return {};
+        const std::optional<Picture> picture = read(map);
+        return append(map, picture ? with_levels(*picture) : one_texel(0, 0, 0));
+    }
+
+    TextureMap gloss() {
+        const MtlTexture &rough = material_.roughness_map, &metal = material_.metallic_map;
+        if (rough.file.empty() && metal.file.empty()) return {};
+        constexpr uint8_t kDull = 179;
+        const std::optional<Picture> of_rough = read(rough), of_metal = read(metal);
+        return append(rough.file.empty() ? metal : rough,
+                      with_levels_of_data(joined(of_rough, rough.file.empty() ? 255 : kDull,
+                                                 of_metal, metal.file.empty() ? 255 : 0)));
+    }
+
+  private:
+    std::optional<Picture> read(const MtlTexture& map) {
+        if (map.file.empty()) return std::nullopt;
+        return companion_picture(file_, map.file, mesh_);
+    }
+
+    TextureMap append(const MtlTexture& map, TextureImage image) {
+        const TextureWrap wrap = map.clamps ? TextureWrap::clamp : TextureWrap::repeat;
+        mesh_.textures.push_back(
+            {std::make_shared<const TextureImage>(std::move(image)), wrap, wrap});
+        return {uint32_t(mesh_.textures.size() - 1), places_by(map, material_.diffuse_map)};
+    }
+
+    const std::filesystem::path& file_;
+    const MtlMaterial& material_;
+    Mesh& mesh_;
+};
+
+}  // namespace
+
+bool has_maps(const MtlMaterial& m) {
+    return !m.emission_map.file.empty() || !m.roughness_map.file.empty() ||
+           !m.metallic_map.file.empty();
+}
+
+void add_maps(const std::filesystem::path& mesh_file, const MtlMaterial& material, Texture& texture,
+              Mesh& mesh) {
+    MapReader reader(mesh_file, material, mesh);
+    texture.maps[kGlossMap] = reader.gloss();
+    texture.maps[kEmissionMap] = reader.emission();
+}
+
+}  // namespace voxelume

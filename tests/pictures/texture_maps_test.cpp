@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+// The maps of glTF textures where rays meet exact triangles: emission against exact bilinear
+// values, roughness and metalness against materials of these numbers, and the light of panels that
+// glow in parts against panels that end there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "runtime/io/image/png.hpp"
+#include "tests/oracles/texture_oracle.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/gltf_writer.hpp"
+#include "tests/support/instance_scenes.hpp"
+
+namespace voxelume {
+namespace {
+
+using Json = nlohmann::json;
+
+oracle::Picture stripes() {
+    oracle::Picture picture{48, 32, {}};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 48; ++x)
+            picture.texels.push_back({uint8_t((x / 6 + y / 4) % 2 ? 230 : 20),
+                                      uint8_t(128 + 100 * std::sin(0.4 * x)),
+                                      uint8_t((7 * x + 5 * y) % 200)});
+    return picture;
+}
+
+/// A row of texels, of which the right half is of the second colour.
+oracle::Picture halves(std::array<uint8_t, 3> left, std::array<uint8_t, 3> right) {
+    oracle::Picture picture{64, 1, {}, oracle::Beyond::clamp, oracle::Beyond::clamp};
+    for (int x = 0; x < 64; ++x) picture.texels.push_back(x < 32 ? left : right);
+    return picture;
+}
+
+std::string data_uri(const oracle::Picture& picture) {
+    Image image{picture.width, picture.height, {}, {}, {}};
+    const char* const names[] = {"R", "G", "B"};
+    for (size_t c = 0; c < 3; ++c) {
+        std::vector<float> values;
+        for (const auto& texel : picture.texels)
+            values.push_back(float(oracle::linear_light(texel[c])));
+        image.planes[names[c]] = values;
+    }
+    return "data:image/png;base64," + GltfWriter::base64(png_bytes(image, {}));
+}
+
+class TextureMaps : public FileTest {
+  protected:
+    /// A sheet from -1 to `right` across and from -1 to 1 up, at z = 0, with texture number 0 for
+    /// base colours and number 1 for maps.
+    void write(const std::string& name, const std::vector<oracle::Picture>& pictures,
+               const Json& material, float right = 1) const {
+        GltfWriter writer;
+        const float u = (right + 1) / 2;
+        const int p = writer.accessor(
+            std::vector<float>{-1, -1, 0, -1, 1, 0, right, 1, 0, right, -1, 0}, "VEC3", 3);
+        const int t = writer.accessor(std::vector<float>{0, 1, 0, 0, u, 0, u, 1}, "VEC2", 2);
+        const int i = writer.accessor(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", 1);
+        for (size_t k = 0; k < pictures.size(); ++k) {
+            writer.json["images"].push_back({{"uri", data_uri(pictures[k])}});
+            const bool clamps = pictures[k].beyond_u == oracle::Beyond::clamp;
+            writer.json["textures"].push_back({{"source", k}, {"sampler", clamps ? 1 : 0}});
+        }
+        writer.json["samplers"] = {{{"wrapS", 10497}, {"wrapT", 10497}},
+                                   {{"wrapS", 33071}, {"wrapT", 33071}}};
+        writer.json["materials"] = {material};
+        writer.json["meshes"] = {{{"primitives",
+                                   {{{"attributes", {{"POSITION", p}, {"TEXCOORD_0", t}}},
+                                     {"indices", i},
+                                     {"material", 0}}}}}};
+        writer.json["nodes"] = {{{"mesh", 0}}};
+        writer.json["scenes"] = {{{"nodes", {0}}}};
+        put_bytes(folder / name, writer.gltf());
+    }
+
+    Scene scene_of(const std::string& mesh, const Json& material, const std::string& light,
+                   const Json& changes = {}) const {
+        Json scene = {
+            {"voxelume", 1},
+            {"world",
+             {{"voxel_size", 0.1},
+              {"ambient", {0, 0, 0}},
+              {"bounds", {{"min", {-2, -2, -2}}, {"max", {2, 2, 2}}}}}},
+            {"materials", {{"default", material}, {"chalk", {{"color", {0.8, 0.8, 0.8}}}}}},
+            {"models",
+             {{"sheet", {{"mesh", mesh}, {"surface", "exact"}, {"voxel_size", 0.1}}},
+              {"floor", {{"shape", "box"}, {"size", {3, 0.2, 3}}, {"surface", "exact"}}}}},
+            {"objects", {{{"model", "sheet"}, {"turn", {0, 20, 8}}}}},
+            {"lights", Json::array()},
+            {"observer",
+             {{"position", {0.3, 0.4, -2.4}},
+              {"look_at", {0, 0, 0}},
+              {"display", {{"shape", "pyramid"}, {"angles", {44, 40}}}}}},
+            {"render", {{"size", {48, 40}}, {"samples", 2}, {"light", light}, {"depth", 1}}}};
+        scene.merge_patch(changes);
+        return parse_scene(scene.dump(), folder / "scene.json", {});
+    }
+};
+
+/// The place on the sheet, from 0 to 1, that a part of a pixel sees; outside of these beside it.
+glm::dvec2 place_seen(const Scene& scene, double column, double row) {
+    const Observer& o = scene.observer;
+    const glm::dvec2 half = half_extent(o.display);
+    const glm::dvec2 part = 2.0 * glm::dvec2(column, row) / glm::dvec2(scene.render.size) - 1.0;
+    const glm::dmat4 inverse = glm::inverse(scene.objects[0].world_from_object);
+    const glm::dvec3 from(inverse * glm::dvec4(o.position, 1));
+    const glm::dvec3 way(inverse *
+                         glm::dvec4(o.world_from_observer * glm::dvec3(-part * half, 1), 0));
+    const glm::dvec3 at = from - way * (from.z / way.z);
+    return {(at.x + 1) / 2, (1 - at.y) / 2};
+}
+
+bool is_on(const glm::dvec2& place) {
+    return place.x > 0 && place.x < 1 && place.y > 0 && place.y < 1;
+}
+
+TEST_F(TextureMaps, OfEmissionAreTheMeanOverAPixelAtPlacesOfTheirOwn) {
+    const oracle::Picture picture = stripes();
+    // Both textures are moved; the map's places follow from those of the base colour's.
+    write("glow.gltf", {halves({10, 0, 0}, {0, 10, 0}), picture},
+          {{"pbrMetallicRoughness",
+            {{"baseColorTexture",
+              {{"index", 0},
+               {"extensions",
+                {{"KHR_texture_transform", {{"scale", {0.5, 3}}, {"offset", {0.3, 0}}}}}}}}}},
+           {"emissiveFactor", {1, 1, 1}},
+           {"emissiveTexture",
+            {{"index", 1},
+             {"extensions",
+              {{"KHR_texture_transform",
+                {{"scale", {1.2, 0.8}}, {"offset", {0.1, 0.2}}, {"rotation", 0.4}}}}}}}});
+    const glm::dvec3 factor(0.5, 0.75, 1);
+    for (const char* light : {"local", "global"})
+        for (const char* placement : {"world", "instance"}) {
+            const Scene scene = scene_of(
+                "glow.gltf", {{"color", {0, 0, 0}}, {"emission", {0.5, 0.75, 1}}}, light,
+                {{"objects",
+                  {{{"model", "sheet"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
+            const Image image = image_of_scene(scene);
+            double squares = 0;
+            size_t pixels = 0;
+            for (int row = 0; row < image.height; ++row)
+                for (int column = 0; column < image.width; ++column) {
+                    glm::dvec3 sum(0);
+                    bool is_inside = true;
+                    for (int i = 0; i < 256 && is_inside; ++i) {
+                        const glm::dvec2 at = place_seen(scene, column + (i % 16 + 0.5) / 16,
+                                                         row + (i / 16 + 0.5) / 16);
+                        is_inside = is_on(at);
+                        const double c = std::cos(0.4), s = std::sin(0.4);
+                        const glm::dvec2 q = at * glm::dvec2(1.2, 0.8);
+                        sum += factor / 256.0 *
+                               oracle::bilinear(picture,
+                                                {0.1 + c * q.x + s * q.y, 0.2 + c * q.y - s * q.x});
+                    }
+                    if (!is_inside) continue;
+                    const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
+                    const glm::dvec3 seen(image.planes.at("R")[pixel], image.planes.at("G")[pixel],
+                                          image.planes.at("B")[pixel]);
+                    squares += glm::dot(seen - sum, seen - sum);
+                    ++pixels;
+                }
+            EXPECT_GT(pixels, 500u) << light << placement;
+            EXPECT_LT(255 * std::sqrt(squares / double(3 * pixels)), 1) << light << placement;
+        }
+}
+
+TEST_F(TextureMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
+    write("gloss.gltf", {halves({0, 60, 40}, {90, 200, 230})},
+          {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}});
+    write("plain.gltf", {}, Json::object());
+    const Json lit = {
+        {"world", {{"ambient", {0.1, 0.1, 0.1}}, {"background", {0.3, 0.5, 0.8}}}},
+        {"lights", {{{"type", "point"}, {"position", {0.6, 0.9, -1.5}}, {"intensity", 3}}}}};
+    const Json factors = {{"base_color", {0.9, 0.6, 0.3}}, {"metallic", 0.9}, {"roughness", 0.8}};
+    for (const char* light : {"local", "global"}) {
+        const Scene scene = scene_of("gloss.gltf", factors, light, lit);
+        const Image image = image_of_scene(scene);
+        for (const bool is_right : {false, true}) {
+            Json material = factors;
+            material["metallic"] = 0.9 * (is_right ? 230 : 40) / 255;
+            material["roughness"] = 0.8 * (is_right ? 200 : 60) / 255;
+            const Image expected = image_of_scene(scene_of("plain.gltf", material, light, lit));
+            double squares = 0, sum = 0;
+            size_t pixels = 0;
+            for (int row = 0; row < image.height; ++row)
+                for (int column = 0; column < image.width; ++column) {
+                    const glm::dvec2 at = place_seen(scene, column + 0.5, row + 0.5);
+                    if (!is_on(at) || (is_right ? at.x < 0.6 : at.x > 0.4)) continue;
+                    const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
+                    for (const char* c : {"R", "G", "B"}) {
+                        const double is = image.planes.at(c)[pixel],
+                                     should = expected.planes.at(c)[pixel];
+                        squares += (is - should) * (is - should);
+                        sum += should;
+                        ++pixels;
+                    }
+                }
+            ASSERT_GT(pixels, 600u);
+            const double mean = sum / double(pixels);
+            EXPECT_LT(std::sqrt(squares / double(pixels)) / mean,
+                      light == std::string("local") ? 1e-4 : 0.01)
+                << light << is_right;
+        }
+    }
+}
+
+/// The mean light of a floor under a panel that looks down.
+double floor_light(const Scene& scene) {
+    const Image image = image_of_scene(scene);
+    const Plane<float>& plane = image.planes.at("G");
+    return std::accumulate(plane.begin(), plane.end(), 0.0) / double(plane.size());
+}
+
+TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
+    const Json glows = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
+    write("part.gltf", {halves({255, 255, 255}, {0, 0, 0})}, glows);
+    write("half.gltf", {}, Json::object(), 0);
+    const Json material = {{"color", {0, 0, 0}}, {"emission", {2, 2, 2}}};
+    const Json room = {{"objects",
+                        {{{"model", "sheet"}, {"position", {0.2, 1, 0}}, {"turn", {0, 90, 0}}},
+                         {{"model", "floor"}, {"material", "chalk"}, {"position", {0, -1, 0}}}}},
+                       {"observer",
+                        {{"position", {0, 0.5, -0.1}},
+                         {"look_at", {-0.4, -1, 0}},
+                         {"display", {{"shape", "pyramid"}, {"angles", {40, 40}}}}}},
+                       {"render", {{"size", {24, 24}}, {"samples", 64}, {"bounces", 1}}}};
+    for (const char* light : {"local", "global"})
+        for (const char* lamps : {"both", "paths"}) {
+            if (light == std::string("local") && lamps != std::string("both")) continue;
+            Json changes = room;
+            if (light == std::string("global"))
+                changes["render"]["lamps"] = lamps;
+            else
+                changes["render"]["samples"] = 1;
+            const double half = floor_light(scene_of("half.gltf", material, light, changes));
+            const double part = floor_light(scene_of("part.gltf", material, light, changes));
+            EXPECT_GT(half, 0.02) << light;
+            EXPECT_NEAR(part / half, 1, lamps == std::string("both") ? 0.02 : 0.06)
+                << light << lamps << half;
+        }
+}
+
+TEST_F(TextureMaps, HaveTheSameBitsWithAnyNumberOfLanes) {
+    write("all.gltf", {stripes(), stripes()},
+          {{"emissiveFactor", {1, 1, 1}},
+           {"emissiveTexture", {{"index", 0}}},
+           {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 1}}}}}});
+    const Json material = {{"base_color", {0.9, 0.6, 0.3}},
+                           {"metallic", 1},
+                           {"roughness", 1},
+                           {"emission", {0.2, 0.1, 0.3}}};
+    for (const char* light : {"local", "global"}) {
+        const Scene scene = scene_of(
+            "all.gltf", material, light,
+            {{"lights", {{{"type", "point"}, {"position", {0.6, 0.9, -1.5}}, {"intensity", 3}}}},
+             {"render", {{"size", {24, 20}}}}});
+        const Image one = image_of_scene(scene, test_device(1));
+        for (const int lanes : {4, 8, 16})
+            EXPECT_EQ(one.planes, image_of_scene(scene, test_device(lanes)).planes) << lanes;
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
