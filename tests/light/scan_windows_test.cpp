@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kEdge = 0.25;
+constexpr double kScanEdge = 0.25;
 
 class ScanWindows : public FileTest {
   protected:
@@ -31,7 +31,7 @@ class ScanWindows : public FileTest {
         std::string text = fmt::format(
             "NRRD0004\ntype: uchar\ndimension: 3\nsizes: {} {} {}\nspace directions: ({},0,0) "
             "(0,{},0) (0,0,{})\nspace dimension: 3\nspace origin: (0,0,0)\nencoding: raw\n\n",
-            size.x, size.y, size.z, kEdge, kEdge, kEdge);
+            size.x, size.y, size.z, kScanEdge, kScanEdge, kScanEdge);
         for (int z = 0; z < size.z; ++z) text.append(size_t(size.x) * size_t(size.y), char(10 * z));
         put_bytes(folder / name, text);
     }
