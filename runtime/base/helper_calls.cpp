@@ -2,6 +2,7 @@
 #include "runtime/base/helper_calls.hpp"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <seccomp.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -24,7 +25,8 @@ constexpr int kAllowed[] = {
     SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigaltstack),
     SCMP_SYS(clock_gettime),  SCMP_SYS(gettimeofday), SCMP_SYS(clock_nanosleep),
     SCMP_SYS(getrandom),      SCMP_SYS(getrlimit),    SCMP_SYS(setrlimit),
-    SCMP_SYS(exit),           SCMP_SYS(exit_group)};
+    SCMP_SYS(exit),           SCMP_SYS(exit_group),   SCMP_SYS(rseq),
+    SCMP_SYS(set_robust_list)};
 
 /// Calls that are allowed if what they are given has this value where `mask` is set.
 struct Allowed {
@@ -39,9 +41,12 @@ bool add_rules(scmp_filter_ctx filter) {
         {SCMP_SYS(mmap), 2, PROT_EXEC, 0},
         {SCMP_SYS(mprotect), 2, PROT_EXEC, 0},
         {SCMP_SYS(newfstatat), 3, AT_EMPTY_PATH, AT_EMPTY_PATH},  // fstat of newer C libraries
-        {SCMP_SYS(prlimit64), 0, ~scmp_datum_t{0}, 0},            // of this process
-        {SCMP_SYS(tgkill), 0, ~scmp_datum_t{0}, self},            // abort()
+        {SCMP_SYS(clone), 0, CLONE_THREAD, CLONE_THREAD},
+        {SCMP_SYS(prlimit64), 0, ~scmp_datum_t{0}, 0},  // of this process
+        {SCMP_SYS(tgkill), 0, ~scmp_datum_t{0}, self},  // abort()
     };
+    // The flags of clone3 can't be seen here. The C library tries clone where there is no clone3.
+    if (seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0) != 0) return false;
     for (const int call : kAllowed)
         if (seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0) != 0) return false;
     for (const Allowed& rule : with_arguments) {
@@ -58,7 +63,10 @@ bool forbid_system_calls() {
     if (kHasSanitizer) return false;
     const std::unique_ptr<void, decltype(&seccomp_release)> filter(
         seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release);
-    return filter && add_rules(filter.get()) && seccomp_load(filter.get()) == 0;
+    return filter && add_rules(filter.get()) &&
+           seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1) ==
+               0 &&  // threads that run, too
+           seccomp_load(filter.get()) == 0;
 }
 
 }  // namespace voxelume

@@ -102,16 +102,16 @@ TEST(ApiErrors, RefuseValuesThatNoFileCanHave) {
 
 TEST(ApiErrors, KeepThePlaceAtALaterFrame) {
     SceneDescription scene = ball_scene();
-    scene.objects[0].name = "ball";
-    scene.animation = {
-        .frames = 3,
-        .tracks = {{"objects.ball.scale", Keys<Vec3>{{1, {1, 1, 1}}, {3, {-1, 1, 1}}}, {}}}};
+    const Vec3 eye = scene.observer.value().position;
+    const Keys<Vec3> through_it = {{1, {eye[0], eye[1], eye[2] - 1}},
+                                   {3, {eye[0], eye[1], eye[2] + 1}}};
+    scene.animation = {.frames = 3, .tracks = {{"observer.look_at", through_it, {}}}};
     const Scene moving = Scene::build(scene);
     const Error error =
         error_of([&] { plan(moving, Device::open(test_selector()), {.frames = {2}}); });
     EXPECT_EQ(error.kind(), ErrorKind::scene);
     EXPECT_EQ(error.file(), "room");
-    EXPECT_THAT(error.key(), StartsWith("objects"));
+    EXPECT_EQ(error.key(), "observer.look_at");
     EXPECT_THAT(error.what(), HasSubstr("(at frame 2)"));
 }
 

@@ -4,21 +4,18 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <system_error>
 #include <thread>
-#include <vector>
 
 #include "runtime/base/helper_limits.hpp"
 #include "runtime/base/sanitizers.hpp"
@@ -63,6 +60,25 @@ TEST_F(HelperCallsDeathTest, NothingIsToldToOthers) {
     EXPECT_FORBIDDEN(socket(AF_UNIX, SOCK_STREAM, 0) < 0);
     EXPECT_FORBIDDEN(kill(getppid(), 0) < 0);
     EXPECT_FORBIDDEN(prctl(PR_SET_PDEATHSIG, 0) < 0);
+}
+
+TEST_F(HelperCallsDeathTest, ThreadsOfBeforeAndAfterCompute) {
+    EXPECT_EXIT(
+        {
+            std::atomic<bool> is_forbidden = false;
+            std::atomic<int> refused = 0;
+            const auto refuse = [&] { refused += open("/", O_RDONLY) < 0 && errno == EPERM; };
+            std::thread before([&] {
+                while (!is_forbidden) std::this_thread::yield();
+                refuse();
+            });
+            if (!forbid_system_calls()) _exit(2);
+            is_forbidden = true;
+            before.join();
+            std::thread(refuse).join();
+            _exit(refused == 2 ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "");
 }
 
 TEST_F(HelperCallsDeathTest, NoProgramStarts) {

@@ -18,16 +18,18 @@ using testing::Not;
 /// Tests with the fixture's scene and an object that turns until frame 3.
 class CliFramesTest : public SceneProgramTest {
   protected:
-    void write_moving_scene(int frames, double last_scale = 1) {
+    /// With `blind`, the observer looks at itself in frame 2.
+    void write_moving_scene(int frames, bool blind = false) {
         write_scene([&](Json& scene) {
             scene["animation"] = Json::parse(R"({"tracks": [
                 {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
                                                        {"frame": 3, "value": [90, 40, 0]}]}]})");
             scene["animation"]["frames"] = frames;
-            if (last_scale == 1) return;
-            scene["animation"]["tracks"].push_back(
-                {{"target", "objects[0].scale"},
-                 {"keys", {{{"frame", 1}, {"value", 1}}, {{"frame", 3}, {"value", last_scale}}}}});
+            if (!blind) return;
+            scene["animation"]["tracks"].push_back({{"target", "observer.look_at"},
+                                                    {"keys",
+                                                     {{{"frame", 1}, {"value", {1.5, 1, 3}}},
+                                                      {{"frame", 3}, {"value", {1.5, 1, 5}}}}}});
         });
     }
 };
@@ -115,12 +117,13 @@ TEST_F(CliFramesTest, SlicesKeepTheirOwnNumberBehindTheFrames) {
 }
 
 TEST_F(CliFramesTest, AFrameThatIsWrongIsToldBeforeAnyIsRendered) {
-    write_moving_scene(3, -1);
+    write_moving_scene(3, true);
     for (const char* line :
          {"check scene.json", "render scene.json --dry-run", "render scene.json -o f.#.exr",
           "render scene.json --frames 1-3 -o f.exr"})
         EXPECT_THAT(expect_failure(3, line),
-                    AllOf(HasSubstr("objects[0].scale: is singular"), HasSubstr("(at frame 2)")));
+                    AllOf(HasSubstr("observer.look_at: is the position itself"),
+                          HasSubstr("(at frame 2)")));
     EXPECT_THAT(names(), ElementsAre("scene.json"));
     EXPECT_EQ(run("render scene.json --frames 1,3 -o f.#.exr").exit_code, 0);
 }
