@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Writes a small valid file of each format that has a fuzzer: FOLDER/FORMAT/seed.
-
-Usage: make_seeds.py FOLDER
 """
+import argparse
 import bz2
 import gzip
 import pathlib
 import struct
-import sys
 import zlib
 
 
@@ -157,7 +155,9 @@ SEEDS = {
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1])
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("folder", type=pathlib.Path)
+    folder = arguments.parse_args().folder
     for name, files in SEEDS.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         for i, content in enumerate(files):
