@@ -23,9 +23,9 @@ JsonValue tree_of_density(const v1::BallDensity& density) {
     return object.add("radius", density.radius).add("falloff", density.falloff).take();
 }
 
-JsonValue tree_of_density(const v1::GridDensity& density) {
-    ObjectTree object;
-    object.add("kind", "grid").add("file", density.file.string()).add("grid", density.grid);
+/// Adds the members that each of several scans in a medium has.
+void add_scan(const v1::GridDensity& density, ObjectTree& object) {
+    object.add("file", density.file.string()).add("grid", density.grid);
     if (density.sequence) object.put("sequence", tree(*density.sequence));
     std::vector<JsonValue> points;
     for (const v1::TransferPoint& point : density.transfer) {
@@ -35,6 +35,18 @@ JsonValue tree_of_density(const v1::GridDensity& density) {
     }
     if (!points.empty()) object.put("transfer", list_of(std::move(points)));
     add_pose(density, object.add("lit", density.lit));
+}
+
+JsonValue tree_of_density(const v1::GridDensity& density) {
+    ObjectTree object;
+    add_scan(density, object.add("kind", "grid"));
+    std::vector<JsonValue> others;
+    for (const v1::GridDensity& other : density.others) {
+        ObjectTree item;
+        add_scan(other, item);
+        others.push_back(item.take());
+    }
+    if (!others.empty()) object.put("others", list_of(std::move(others)));
     return object.take();
 }
 

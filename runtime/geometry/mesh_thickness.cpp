@@ -14,6 +14,9 @@ namespace {
 
 constexpr int kLines = 64;
 
+/// Of an axis: 1,024 for each line. Bodies of so many layers are none.
+constexpr size_t kMaxCrossings = size_t{1} << 22;
+
 /// Lines lie off the middles of their squares, where few meshes have edges.
 constexpr double kOffset = 0.4142135623730950;
 
@@ -39,7 +42,7 @@ class AxisLines {
     void cross(const std::array<glm::dvec3, 3>& corners) {
         const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
         const double length = glm::length(normal);
-        if (normal[axis_] == 0 || step_.x <= 0 || step_.y <= 0) return;
+        if (normal[axis_] == 0 || step_.x <= 0 || step_.y <= 0 || is_full()) return;
         std::array<glm::dvec2, 3> p;
         for (size_t i = 0; i < 3; ++i)
             p[i] = (glm::dvec2(corners[i][u_], corners[i][v_]) - low_) / step_ - kOffset;
@@ -52,6 +55,9 @@ class AxisLines {
             for (double x = std::max(first.x, 0.0); x <= std::min(last.x, kLines - 1.0); ++x)
                 cross(corners, p, {x, y}, crossing);
     }
+
+    /// Whether there are so many crossings that they tell nothing.
+    bool is_full() const { return crossings_ >= kMaxCrossings; }
 
     void add_chords(std::vector<Chord>& chords) {
         const double square = step_.x * step_.y;
@@ -80,10 +86,12 @@ class AxisLines {
         if (sum == 0 || weights.x * sum < 0 || weights.y * sum < 0 || weights.z * sum < 0) return;
         for (int i = 0; i < 3; ++i) crossing.at += weights[i] / sum * corners[size_t(i)][axis_];
         lines_[size_t(line.x) + kLines * size_t(line.y)].push_back(crossing);
+        ++crossings_;
     }
 
     int axis_, u_, v_;
     glm::dvec2 low_, step_;
+    size_t crossings_ = 0;
     std::vector<std::vector<Crossing>> lines_ =
         std::vector<std::vector<Crossing>>(size_t(kLines) * kLines);
 };
@@ -111,6 +119,7 @@ double thickness_of(const Mesh& mesh) {
         for (const glm::uvec3& t : mesh.triangles)
             lines.cross({glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
                          glm::dvec3(mesh.positions[t.z])});
+        if (lines.is_full()) return 0;
         lines.add_chords(chords);
     }
     return quantile(chords);

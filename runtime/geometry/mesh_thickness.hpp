@@ -13,7 +13,8 @@ inline constexpr double kThinShare = 0.02;
 /// regular lattice of 64 x 64 lines along each axis crosses it. Where a line enters through a face
 /// that turns to it more than to the other axes, the way to the exit is the body's thickness times
 /// the cosine of the angle, at least a third of that of a ball, and exactly that of a plate away
-/// from its rim. Open meshes have some number. Sums are in the order of the triangles, so equal
+/// from its rim. Open meshes have some number, and those of which 1,024 faces lie before one
+/// another nearly everywhere have 0. Sums are in the order of the triangles, so equal
 /// meshes give equal numbers.
 double thickness_of(const Mesh& mesh);
 

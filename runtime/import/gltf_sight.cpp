@@ -30,6 +30,27 @@ glm::dvec3 direction_of(const GltfNode& node) {
     return direction_of(node.world_from_node);
 }
 
+/// Whether a node's map still tells where its camera looks and what is up there.
+bool has_directions(const glm::dmat4& map) {
+    constexpr double kLeast = 1e-6;
+    const glm::dvec3 side = glm::cross(direction_of(map), unit(map[1]));
+    return glm::length(side) > kLeast;  // false, too, where a scale of 0 left no number
+}
+
+/// A camera's maps, of which those that a clip flattens keep the directions of the one before.
+std::vector<glm::dmat4> with_directions(std::vector<glm::dmat4> maps) {
+    const auto first = std::ranges::find_if(maps, has_directions);
+    if (first == maps.end()) return maps;
+    glm::dmat4 last = *first;
+    for (glm::dmat4& map : maps) {
+        if (has_directions(map))
+            last = map;
+        else
+            for (int i = 0; i < 3; ++i) map[i] = last[i];
+    }
+    return maps;
+}
+
 /// Appends a track of what a node's maps give, where they aren't all alike.
 template <class Value>
 void add_track(const std::string& target, const std::vector<glm::dmat4>& maps, const Value& value,
@@ -154,7 +175,9 @@ std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nod
     const auto node = first_camera(nodes);
     if (node == nodes.end()) return {};
     const GltfValue camera = file.root().item("cameras", size_t(node->camera));
-    const glm::dvec3 towards = direction_of(*node), up = unit(node->world_from_node[1]);
+    const bool is_flat = !has_directions(node->world_from_node);  // tracks say more, if it moves
+    const glm::dvec3 towards = is_flat ? glm::dvec3(0, 0, -1) : direction_of(*node);
+    const glm::dvec3 up = is_flat ? glm::dvec3(0, 1, 0) : unit(node->world_from_node[1]);
     glm::dvec3 position = position_of(*node);
     double depth = 0;
     for (int i = 0; i < 8; ++i)
@@ -183,7 +206,7 @@ void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& node
     const auto node = first_camera(nodes);
     if (node == nodes.end() || !frames.motion.moves(node->number)) return;
     const double near = near_of(file.root().item("cameras", size_t(node->camera)));
-    const std::vector<glm::dmat4> maps = all_maps(frames, *node);
+    const std::vector<glm::dmat4> maps = with_directions(all_maps(frames, *node));
     const auto position = [near](const glm::dmat4& map) {
         return glm::dvec3(map[3]) + near * direction_of(map);
     };

@@ -42,8 +42,11 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
         }
         return materials;
     }
-    for (const MtlMaterial& material : read_material_library(file.path, mesh.material_library))
+    for (MtlMaterial material : read_material_library(file.path, mesh.material_library)) {
+        if (mesh.paint.uvs == 0)  // nothing tells where the maps lie
+            material.emission_map = material.roughness_map = material.metallic_map = {};
         materials.push_back({material.name, mtl_values(material), mtl_transmits(material)});
+    }
     return materials;
 }
 

@@ -73,8 +73,7 @@ VolumeFormat volume_format_named(std::string_view name) {
     const std::vector<std::string_view> names(kVolumeFormatNames.begin(), kVolumeFormatNames.end());
     const auto found = std::ranges::find(names, name);
     if (found != names.end()) return VolumeFormat(found - names.begin());
-    throw Error(ErrorKind::usage, "there is no format {}{}", quote(name),
-                suggest(name, names));
+    throw Error(ErrorKind::usage, "there is no format {}{}", quote(name), suggest(name, names));
 }
 
 void check_volume_output(const std::filesystem::path& path, const VolumeFrame& frame,

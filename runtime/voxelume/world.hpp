@@ -39,9 +39,10 @@ struct TransferPoint {
     std::optional<Color> color{};  ///< radiance of an infinitely deep medium; without it white
 };
 
-/// A float grid of an OpenVDB file, in metres by its own transform and then placed.
+/// A float grid of an OpenVDB file, or the values of an array, in metres by its own transform and
+/// then placed.
 struct GridDensity {
-    std::filesystem::path file{};        ///< .vdb
+    std::filesystem::path file{};        ///< .vdb, .nrrd, .nii or .npy
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::string grid = "density";        ///< its name in the file
     Vec3 position{};                     ///< metres: where the grid's origin goes
@@ -51,6 +52,8 @@ struct GridDensity {
     /// The file's values are no densities, but what these points say, linear between them.
     std::vector<TransferPoint> transfer{};
     std::optional<Vec3> lit{};  ///< with a transfer: where light travels that brings out surfaces
+    /// Up to 15 further scans in the same medium, or windows of one, without others of their own.
+    std::vector<GridDensity> others{};
 };
 
 /// What fills the space between the objects.

@@ -205,6 +205,14 @@ TEST_F(ApiImport, WhatCantBeShownIsRefusedWithASentence) {
     EXPECT_THAT(message(folder / "short.vxm"), HasSubstr("short.vxm"));
 }
 
+TEST_F(ApiImport, MapsOfAMeshWithoutPlacesForThemChangeNoMaterial) {
+    put_bytes(folder / "a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Ke a.png\nmap_Pm a.png\n");
+    put_bytes(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    const std::string text = import_file(folder / "a.obj", folder, {});
+    EXPECT_THAT(text, Not(HasSubstr("emission")));
+    EXPECT_THAT(text, Not(HasSubstr("\"metallic\": 1")));
+}
+
 TEST_F(ApiImport, TheGroupsOfAnObjFileHaveTheMaterialsOfItsLibrary) {
     std::ofstream(folder / "room.mtl")
         << "newmtl oak\nKd 0.5 0 1\nKs 1 1 1\nNs 60\nnewmtl pane\nd 0.25\nillum 6\nNi 1.5\n"

@@ -94,7 +94,16 @@ TEST_F(ApiMotion, HasTransferFunctions) {
         "transfer": [{"value": -1.5, "absorption": 0},
                      {"value": 2, "absorption": 3, "color": [1, 2, 3]}]})";
     expect_same(scene, text_with("", observer, R"(, "medium": {)" + grid + "}"), options());
-    scene.world.medium->absorption = {1, 2, 3};
+    v1::GridDensity window{.file = "s.nrrd", .position = {1, 0, 2}};
+    window.transfer = {{.value = 1}, {.value = 3, .absorption = 1}};
+    density.others = {window};
+    scene.world.medium = v1::Medium{.density = density};
+    const std::string with_another = grid.substr(0, grid.size() - 1) +
+                                     R"(, "others": [{"file": "s.nrrd", "position": [1, 0, 2],
+        "transfer": [{"value": 1, "absorption": 0}, {"value": 3, "absorption": 1}]}]})";
+    expect_same(scene, text_with("", observer, R"(, "medium": {)" + with_another + "}"), options());
+    density.others.clear();
+    scene.world.medium = v1::Medium{.absorption = {1, 2, 3}, .density = density};
     expect_same(scene,
                 text_with("", observer, R"(, "medium": {"absorption": [1, 2, 3], )" + grid + "}"),
                 options());

@@ -24,7 +24,10 @@ inline Scene without_places(Scene scene) {
     strip(scene.objects);
     strip(scene.lights);
     for (Object& object : scene.objects) strip(object.groups);
-    if (auto* const grid = std::get_if<GridDensity>(&scene.world.medium.density)) grid->where = {};
+    if (auto* const grid = std::get_if<GridDensity>(&scene.world.medium.density)) {
+        grid->where = {};
+        strip(grid->others);
+    }
     scene.motion = nullptr;
     return scene;
 }

@@ -56,6 +56,13 @@ TEST(MeshShape, OfAPlateHasItsLongEdgesAndThickness) {
     }
 }
 
+TEST(MeshShape, OfEndlesslyManyEqualFacesHasNoThickness) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles.assign(30000, {0, 1, 2});  // 60 million crossings
+    EXPECT_EQ(thickness_of(mesh), 0);
+}
+
 TEST(MeshShape, OfABallHasNoSharpEdgesAndAboutItsDiameter) {
     const MeshShape shape = shape_of(ball({0.3, -0.2, 0.1}, 0.5, 48, 24));
     EXPECT_EQ(shape.sharp_length, 0);

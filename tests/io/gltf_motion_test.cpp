@@ -172,6 +172,23 @@ TEST_F(GltfMotionTest, CamerasAndLightsMoveFrameByFrame) {
     EXPECT_LT(glm::distance(scene.observer.position, glm::dvec3(3, 2, 20)), 1e-6);
 }
 
+TEST_F(GltfMotionTest, CamerasThatAScaleFlattensKeepTheirDirection) {
+    for (const std::vector<float>& values :
+         {std::vector<float>{1, 1, 1, 1, 1, 0}, {1, 1, 1, 0, 0, 0}, {0, 0, 0, 1, 1, 1}}) {
+        GltfWriter writer = moved_triangle("scale", {0, 1}, values);
+        writer.json["cameras"] = {
+            {{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1}}}}};
+        writer.json["nodes"][0]["children"] = {1};
+        writer.json["nodes"].push_back({{"camera", 0}, {"translation", {3, 2, 20}}});
+        const Scene scene = scene_in(text_of(writer));
+        for (int frame = 1; frame <= 25; ++frame) {
+            const Observer observer = scene_at(scene, frame).observer;
+            EXPECT_LT(glm::distance(observer.world_from_observer[2], glm::dvec3(0, 0, -1)), 1e-6)
+                << frame;
+        }
+    }
+}
+
 TEST(GltfClips, ThatAreDamagedAreRefused) {
     const auto refused = [](GltfWriter writer, const std::function<void(Json&)>& damage) {
         damage(writer.json);

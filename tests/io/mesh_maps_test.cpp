@@ -143,6 +143,18 @@ TEST_F(MeshMapFiles, OfLibrariesJoinRoughnessAndMetalness) {
     EXPECT_EQ(companion_files(bytes, folder / "a.obj").size(), 4u);
 }
 
+TEST_F(MeshMapFiles, OfLibrariesThatDifferInSizeHaveThatOfTheLarger) {
+    Image tall{1, 3, {}, {}, {}};
+    for (const char* channel : {"R", "G", "B"}) tall.planes[channel] = Plane<float>{0, 1, 0};
+    put_bytes(folder / "tall.png", png_bytes(tall, {}));
+    const Mesh mesh = read("map_Pr a.png\nmap_Pm tall.png\n");
+    const Texture& base = mesh.textures[mesh.group_textures.at(0)];
+    const TextureImage& gloss = *mesh.textures[base.maps[kGlossMap].texture].image;
+    EXPECT_EQ(gloss.width, 1);
+    EXPECT_EQ(gloss.height, 3);
+    EXPECT_EQ(gloss.texels.at(1) >> 16 & 0xFF, 0xFFu);
+}
+
 TEST_F(MeshMapFiles, OfLibrariesThatArentThereNeitherGlowNorAreMetal) {
     const Mesh mesh = read("map_Pr none.png\nmap_Pm other.png\nmap_Ke none.png\n");
     ASSERT_EQ(mesh.textures.size(), 3u);

@@ -2,7 +2,10 @@
 // glTF files that meshoptimizer's own encoders have compressed.
 #include <meshoptimizer.h>
 
+#include <cstring>
+
 #include "runtime/io/gltf/gltf_accessor.hpp"
+#include "runtime/io/mesh_codec/mesh_codec.hpp"
 #include "tests/io/mesh_codec_sheet.hpp"
 
 namespace voxelume {
@@ -117,6 +120,26 @@ TEST(Meshopt, MeshoptimizersVerticesAndIndicesComeBackAsTheyWere) {
             EXPECT_EQ(mesh.positions, sheet.positions);
             expect_same_triangles(sheet, mesh);
         }
+}
+
+TEST(Meshopt, PartsOfAFileThatManyNameAreSentOnce) {
+    const Sheet sheet;
+    const std::vector<uint8_t> data = packed_vertices(sheet.positions);
+    std::vector<uint8_t> file = data;  // the same twice, side by side
+    file.insert(file.end(), data.begin(), data.end());
+    CodecJob job;
+    job.task.codec = MeshCodec::meshopt_vertices;
+    job.task.count = sheet.positions.size();
+    job.task.stride = sizeof(vec3);
+    job.place = "here";
+    std::vector<CodecJob> jobs(300, job);
+    for (size_t i = 0; i < jobs.size(); ++i)
+        jobs[i].input = std::span<const uint8_t>(file).subspan(i % 2 * data.size(), data.size());
+    jobs[7].input = data;  // elsewhere
+    for (const CodecArrays& arrays : decode_meshes("a.glb", jobs)) {
+        ASSERT_EQ(arrays.at(0).size(), sheet.positions.size() * sizeof(vec3));
+        EXPECT_EQ(std::memcmp(arrays[0].data(), sheet.positions.data(), arrays[0].size()), 0);
+    }
 }
 
 TEST(Meshopt, TheNewNameOfTheExtensionIsRead) {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
+#include <set>
 
 #include "runtime/base/text.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
@@ -128,11 +128,12 @@ void decode_gltf_views(const GltfFile& file, GltfDecoded& decoded) {
 void decode_gltf_primitives(const GltfFile& file, GltfDecoded& decoded) {
     std::vector<CodecJob> jobs;
     std::vector<std::vector<size_t>> accessors;
+    std::set<std::vector<size_t>> known;
     for (const GltfValue& mesh : file.root().items("meshes"))
         for (const GltfValue& primitive : mesh.items("primitives")) {
             if (!primitive.has_extension(kDraco)) continue;
             DracoPrimitive found = draco_primitive(file, primitive);
-            if (std::ranges::find(accessors, found.accessors) != accessors.end()) continue;
+            if (!known.insert(found.accessors).second) continue;
             jobs.push_back(std::move(found.job));
             accessors.push_back(std::move(found.accessors));
         }

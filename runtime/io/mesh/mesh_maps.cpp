@@ -29,14 +29,16 @@ uint8_t value_at(const std::optional<Picture>& picture, int x, int y, glm::ivec2
     return picture->pixels[at_y * size_t(picture->width) + at_x][0];
 }
 
-/// One picture as glTF has it: roughness is green, and metalness blue.
+/// One picture as glTF has it, of the larger one's size: roughness is green, and metalness blue.
 Picture joined(const std::optional<Picture>& rough, uint8_t no_rough,
                const std::optional<Picture>& metal, uint8_t no_metal) {
     Picture picture{1, 1, {}};
+    int64_t texels = 0;
     for (const auto* part : {&rough, &metal})
-        if (*part) {
-            picture.width = std::max(picture.width, (*part)->width);
-            picture.height = std::max(picture.height, (*part)->height);
+        if (*part && int64_t{(*part)->width} * (*part)->height > texels) {
+            picture.width = (*part)->width;
+            picture.height = (*part)->height;
+            texels = int64_t{picture.width} * picture.height;
         }
     picture.pixels.reserve(size_t(picture.width) * size_t(picture.height));
     const glm::ivec2 size(picture.width, picture.height);

@@ -5,8 +5,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/helper_program.hpp"
@@ -86,17 +88,43 @@ CodecArrays receive(WireReceiver& receiver, const CodecTask& task) {
     return arrays;
 }
 
+/// Bytes that inputs of jobs share or that lie side by side.
+struct Part {
+    const uint8_t *begin, *end;
+    uint64_t first_byte;  ///< in the request
+};
+
+/// The jobs' inputs without any byte twice, in their order in memory.
+std::vector<Part> parts_of(std::span<const CodecJob> jobs, uint64_t first_byte) {
+    std::vector<std::span<const uint8_t>> inputs;
+    inputs.reserve(jobs.size());
+    for (const CodecJob& job : jobs) inputs.push_back(job.input);
+    std::ranges::sort(inputs, {}, [](const auto& input) { return input.data(); });
+    std::vector<Part> parts;
+    for (const std::span<const uint8_t> input : inputs) {
+        const uint8_t* const end = input.data() + input.size();
+        if (parts.empty() || input.data() > parts.back().end) {
+            if (!parts.empty()) first_byte += uint64_t(parts.back().end - parts.back().begin);
+            parts.push_back({input.data(), end, first_byte});
+        } else if (end > parts.back().end) {
+            parts.back().end = end;
+        }
+    }
+    return parts;
+}
+
 void send(const RequestFile& request, const CodecRequest& header, std::span<const CodecJob> jobs) {
     request.append(&header, sizeof header);
-    uint64_t first_byte = sizeof header + jobs.size() * sizeof(CodecTask);
+    const std::vector<Part> parts = parts_of(jobs, sizeof header + jobs.size() * sizeof(CodecTask));
     for (const CodecJob& job : jobs) {
+        const Part& part =
+            *std::prev(std::ranges::upper_bound(parts, job.input.data(), {}, &Part::begin));
         CodecTask task = job.task;
-        task.first_byte = first_byte;
+        task.first_byte = part.first_byte + uint64_t(job.input.data() - part.begin);
         task.bytes = job.input.size();
-        first_byte += task.bytes;
         request.append(&task, sizeof task);
     }
-    for (const CodecJob& job : jobs) request.append(job.input.data(), job.input.size());
+    for (const Part& part : parts) request.append(part.begin, size_t(part.end - part.begin));
 }
 
 std::vector<CodecArrays> ask(const std::filesystem::path& file, const RequestFile& request,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "runtime/base/text.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -77,6 +79,7 @@ void read_environment(const VoxDictionary& values, VoxRender& render) {
 void read_lens(const VoxDictionary& values, VoxRender& render) {
     render.angle = value_in(values, "_fov", render.angle, 1, 170);
     if (is_on(values, "_proj")) render.not_shown.emplace("the lens's projection");
+    if (is_on(values, "_aperture")) render.not_shown.emplace("the lens's aperture");
 }
 
 void read_film(const VoxDictionary& values, VoxRender& render) {
@@ -152,6 +155,7 @@ void take_render_settings(VoxContent& content, VoxRender& render) {
     render.is_there = true;
     for (const auto& [name, read] : kTypes)
         if (type == name) return read(values, render);
+    render.not_shown.insert("settings of the type " + quote(type));
 }
 
 }  // namespace voxelume
