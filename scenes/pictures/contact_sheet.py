@@ -56,7 +56,8 @@ def main():
                 draw.text((left + 4, top + 4), lines, REFUSED, font)
             else:
                 sheet.paste(tile, (left, top))
-            draw.text((left + 4, top + HEIGHT + 2), name[-28:], INK, font)
+            label = name if len(name) <= 28 else f"{name[:10]}..{name[-16:]}"
+            draw.text((left + 4, top + HEIGHT + 2), label, INK, font)
     sheet.save(sheet_file, optimize=True)
 
 
