@@ -4,8 +4,8 @@
 
 namespace voxelume {
 
-/// Leaves this process, for the rest of its life and in all of its threads, what computing takes: to
-/// read and write the descriptors that it has, to take memory that isn't executable, to start
+/// Leaves this process, for the rest of its life and in all of its threads, what computing takes:
+/// to read and write the descriptors that it has, to take memory that isn't executable, to start
 /// threads, and to end. Every other system call fails with EPERM: none opens a file or a socket,
 /// starts a process or signals one. Call it after all that the process needs is open.
 ///

@@ -17,9 +17,9 @@ template <class Value>
 struct Key {
     double frame = 1;  ///< 1 is the first; fractions are allowed
     Value value{};     ///< the track's value there
-    /// Of Interpolation::spline: the slope with which the value arrives, and that with which it
-    /// leaves, per second; 0 without them.
-    std::optional<Value> in{}, out{};
+    /// Of Interpolation::spline: the slope with which the value arrives, per second; 0 without it.
+    std::optional<Value> in{};
+    std::optional<Value> out{};  ///< likewise: with which it leaves
 };
 
 template <class Value>

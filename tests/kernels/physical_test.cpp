@@ -90,7 +90,8 @@ std::vector<float> floats_of(const PhysicalValues& s) {
     material.coat = s.coat;
     material.coat_roughness = s.coat_roughness;
     scene.materials = {material};
-    const std::vector<MaterialRecord> records = material_records(scene, {}, Features{.physical = true});
+    const std::vector<MaterialRecord> records =
+        material_records(scene, {}, Features{.physical = true});
     std::vector<float> floats(records.size() * VXL_MATERIAL_FLOATS);
     std::memcpy(floats.data(), records.data(), floats.size() * sizeof(float));
     return floats;

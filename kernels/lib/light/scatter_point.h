@@ -60,7 +60,7 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
     }
     p.cosine = clamp(-dot_product(p.way, p.shading), 0.0f, 1.0f);
     p.mirror = (lane_float)0.0f;
-    if (VXL_TEXTURE_MAPS && !VXL_GLOBAL)
+    if (!VXL_GLOBAL && VXL_TEXTURE_MAPS)
         p.mirror = LANES_GATHER_FLOAT(
             batch->paint, colors_of_hits(0, number, 0, first).number + VXL_PAINT_REFLECTION);
     p.eta = (lane_float)1.0f;

@@ -98,7 +98,8 @@ glm::dvec3 EmissionMaps::mean(size_t i, const Places& part) const {
             // Triangles in a row point up and down by turns.
             const double down = column % 2 == 1 ? 1.0 / 3 : 0;
             const double y = (row + 2.0 / 3 - down) / kRows;
-            const double x = (column / 2 + 1.0 / 3 + down) / kRows;
+            const int pair = column / 2;
+            const double x = (pair + 1.0 / 3 + down) / kRows;
             const uint32_t texel = level.texel_at(part[0] + (y - x) * a + x * b);
             sum += glm::dvec3(linear[texel & 255], linear[texel >> 8 & 255],
                               linear[texel >> 16 & 255]);
