@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` puts where: the program, the library with its header, the module and the reader for OpenVDB, the decoder of meshes,
-# and what CMake and pkg-config need to find the library.
+# What `cmake --install` puts where: the program, the library with its header, the module and the reader for OpenVDB,
+# the decoder of meshes, and what CMake and pkg-config need to find the library.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS voxelume)

@@ -20,6 +20,7 @@ constexpr size_t kMaxFrames = 64;
 std::vector<int> some_of(std::span<const int> frames) {
     if (frames.size() <= kMaxFrames) return {frames.begin(), frames.end()};
     std::vector<int> some;
+    some.reserve(kMaxFrames);
     for (size_t i = 0; i < kMaxFrames; ++i)
         some.push_back(frames[i * (frames.size() - 1) / (kMaxFrames - 1)]);
     return some;

@@ -89,6 +89,7 @@ Report describe_png(const fs::path& path) {
     Report report = {{"kind", "PNG picture"}, {"size", {picture.width, picture.height}}};
     for (size_t channel = 0; channel < kNames.size(); ++channel) {
         std::vector<uint8_t> plane;
+        plane.reserve(picture.pixels.size());
         for (const auto& pixel : picture.pixels) plane.push_back(pixel[channel]);
         report["channels"].push_back(describe_plane(kNames[channel], "8 bit", plane));
     }

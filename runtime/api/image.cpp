@@ -46,6 +46,7 @@ const Plane<float>& plane_of(const Image& image, std::string_view channel) {
     const auto found = image.planes.find(std::string(channel));
     if (found != image.planes.end()) return found->second;
     std::vector<std::string_view> names;
+    names.reserve(image.planes.size());
     for (const auto& [name, plane] : image.planes) names.push_back(name);
     throw Error(ErrorKind::usage, "the image has no channel {}{}", quote(channel),
                 suggest(channel, names));

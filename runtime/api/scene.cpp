@@ -67,6 +67,7 @@ v1::Scene api::read_handle(const v1::SceneOptions& options, const ReadScene& rea
         };
         std::string hash;
         std::vector<SceneChange> changes;
+        changes.reserve(options.changes.size());
         for (const v1::SceneChange& change : options.changes)
             changes.push_back(
                 {change.path, change.value, change.origin.empty() ? change.path : change.origin});

@@ -63,9 +63,9 @@ bool forbid_system_calls() {
     if (kHasSanitizer) return false;
     const std::unique_ptr<void, decltype(&seccomp_release)> filter(
         seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release);
-    return filter && add_rules(filter.get()) &&
-           seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1) ==
-               0 &&  // threads that run, too
+    if (!filter || !add_rules(filter.get())) return false;
+    // Threads that run already are filtered, too.
+    return seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1) == 0 &&
            seccomp_load(filter.get()) == 0;
 }
 

@@ -29,6 +29,7 @@ std::vector<std::filesystem::path> module_folders() {
     if (dlinfo(object, RTLD_DI_SERINFO, list) != 0) return {};
     std::vector<std::filesystem::path> folders;
     const Dl_serpath* const paths = list->dls_serpath;
+    folders.reserve(list->dls_cnt);
     for (unsigned i = 0; i < list->dls_cnt; ++i) folders.emplace_back(paths[i].dls_name);
     return folders;
 }

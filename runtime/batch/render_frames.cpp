@@ -94,6 +94,7 @@ class Batch {
     BatchOutcome run_whole_frames() {
         const size_t count = options_.frames.size();
         std::vector<DeviceRenderers> renderers;
+        renderers.reserve(devices_.size());
         for (const Device& device : devices_)
             renderers.push_back({Renderer(device, count > 1), VolumeRenderer(device, count > 1)});
         FrameSteps steps = steps_of(options_.frames);

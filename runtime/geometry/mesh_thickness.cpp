@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kLines = 64;
 
-/// Of an axis: 1,024 for each line. Bodies of so many layers are none.
+/// How many crossings an axis may have: 1,024 for each line. A mesh of so many layers has no
+/// inside.
 constexpr size_t kMaxCrossings = size_t{1} << 22;
 
 /// Lines lie off the middles of their squares, where few meshes have edges.

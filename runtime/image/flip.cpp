@@ -193,6 +193,7 @@ ImageFeatures image_features(const ColorPlane& opponent, double pixels_per_degre
         const ColorPlane x = filtered(lightness, derivative, smooth);
         const ColorPlane y = filtered(lightness, smooth, derivative);
         std::vector<double> norms;
+        norms.reserve(x.values.size());
         for (size_t i = 0; i < x.values.size(); ++i)
             norms.push_back(std::hypot(x.values[i], y.values[i]));
         return norms;

@@ -9,6 +9,7 @@
 
 #include "runtime/import/contents.hpp"
 #include "runtime/import/gltf_tracks.hpp"
+#include "runtime/scene/observer.hpp"
 
 namespace voxelume {
 namespace {
@@ -32,12 +33,11 @@ glm::dvec3 direction_of(const GltfNode& node) {
 
 /// Whether a node's map still tells where its camera looks and what is up there.
 bool has_directions(const glm::dmat4& map) {
-    constexpr double kLeast = 1e-6;
-    const glm::dvec3 side = glm::cross(direction_of(map), unit(map[1]));
-    return glm::length(side) > kLeast;  // false, too, where a scale of 0 left no number
+    return glm::length(glm::cross(direction_of(map), unit(map[1]))) > kMinUpSine;
 }
 
-/// A camera's maps, of which those that a clip flattens keep the directions of the one before.
+/// The maps of a camera or light, of which those that a clip flattens keep the directions of the
+/// one before.
 std::vector<glm::dmat4> with_directions(std::vector<glm::dmat4> maps) {
     const auto first = std::ranges::find_if(maps, has_directions);
     if (first == maps.end()) return maps;
@@ -236,7 +236,7 @@ std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vecto
         items.push_back(light_item(node, light, name, 1 / sum));
         if (frames.motion.moves(node.number))
             add_light_tracks("lights." + target_name(name), light.text("type"),
-                             all_maps(frames, node), tracks);
+                             with_directions(all_maps(frames, node)), tracks);
     }
     return items;
 }

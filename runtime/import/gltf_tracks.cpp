@@ -20,6 +20,7 @@ std::string number_text(double value) {
 
 std::string row_text(const std::vector<double>& values, size_t row, size_t width) {
     std::vector<std::string> numbers;
+    numbers.reserve(width);
     for (size_t i = 0; i < width; ++i) numbers.push_back(number_text(values[row * width + i]));
     return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
@@ -132,6 +133,7 @@ GltfPlace gltf_place(const GltfMotion& motion, const GltfNode& node, const std::
 
 std::string baked_track(const std::string& target, const std::vector<glm::dvec3>& values) {
     std::vector<std::string> items;
+    items.reserve(values.size());
     for (size_t i = 0; i < values.size(); ++i)
         items.push_back(fmt::format("{{\"frame\": {}, \"value\": {}}}", i + 1,
                                     json_list(rounded(values[i], 9))));

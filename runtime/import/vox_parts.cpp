@@ -109,6 +109,7 @@ Bounds VoxParts::box_of(int model) {
 
 std::vector<std::string> VoxParts::models() const {
     std::vector<std::string> members;
+    members.reserve(names_.size());
     for (const auto& [model, name] : names_)
         members.push_back(fmt::format("{}: {{\"voxels\": {}, \"part\": {}}}", json_text(name),
                                       json_text(file_.name), model + 1));

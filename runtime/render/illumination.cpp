@@ -140,6 +140,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
 void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                               std::vector<LightBeams>& sent) {
     std::vector<LightRecord> records;
+    records.reserve(lights_.size());
     for (const PathLight& light : lights_) records.push_back(light.record);
     for (const BeamGrid& grid :
          beam_grids(records, world_.frame.size, scale_of(dilated_occupancy.of), maximum,

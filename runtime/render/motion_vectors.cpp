@@ -15,6 +15,7 @@ namespace {
 /// The maps that carry each object's points from where they are to where they will be.
 std::vector<glm::dmat4> movements(const Scene& now, const Scene& then) {
     std::vector<glm::dmat4> maps;
+    maps.reserve(now.objects.size());
     for (size_t i = 0; i < now.objects.size(); ++i)
         maps.push_back(then.objects[i].world_from_object *
                        glm::inverse(now.objects[i].world_from_object));

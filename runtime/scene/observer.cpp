@@ -53,7 +53,7 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
         p.look_at ? unit_vector_to(*p.look_at, p.position, "look_at", refuse) : glm::dvec3(0, 0, 1);
     const glm::dvec3 x = glm::cross(up, z);
     const double sine = glm::length(x);
-    if (sine < 1e-6)
+    if (sine < kMinUpSine)
         refuse(p.look_at ? "look_at" : "",
                "the view direction is parallel to \"up\", which leaves the image's turn open; "
                "give another \"up\", such as [0, 0, 1]");

@@ -34,6 +34,9 @@ struct Observer {
     friend bool operator==(const Observer&, const Observer&) = default;
 };
 
+/// The least sine of the angle between where an observer looks and what is up.
+inline constexpr double kMinUpSine = 1e-6;
+
 /// What a scene says of where the observer stands and looks, and of the display.
 struct ObserverParameters {
     glm::dvec3 position{0};  ///< metres

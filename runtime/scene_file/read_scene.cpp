@@ -118,6 +118,7 @@ int NameTable::find(const SceneValue& value) const {
     const std::string& name = value.text();
     if (const auto found = indices_.find(name); found != indices_.end()) return found->second;
     std::vector<std::string_view> names;
+    names.reserve(indices_.size());
     for (const auto& [known, index] : indices_) names.push_back(known);
     std::sort(names.begin(), names.end());
     value.fail(fmt::format("no {} named {}{}", kind_, quote(name), suggest(name, names)));

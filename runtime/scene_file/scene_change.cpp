@@ -93,6 +93,7 @@ class Changer {
         const auto found = std::ranges::find(of.members, step.key, &JsonMember::key);
         if (found == of.members.end() && must_exist) {
             std::vector<std::string_view> names;
+            names.reserve(of.members.size());
             for (const JsonMember& member : of.members) names.push_back(member.key);
             fail_to_find(step.key, names);
         }

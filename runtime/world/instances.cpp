@@ -54,6 +54,7 @@ Pyramid InstanceModels::join(const Scene& scene, const ListedInstances& listed, 
 
 std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& world) {
     std::vector<InstancePlace> places;
+    places.reserve(world.instances.list.size());
     for (const Instance& instance : world.instances.list)
         places.push_back({instance.object, scene.objects[instance.object].world_from_object});
     return places;

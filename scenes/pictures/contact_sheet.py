@@ -56,7 +56,7 @@ def main():
                 draw.text((left + 4, top + 4), lines, REFUSED, font)
             else:
                 sheet.paste(tile, (left, top))
-            label = name if len(name) <= 28 else f"{name[:10]}..{name[-16:]}"
+            label = name if len(name) <= 28 else f"..{name[-26:]}"
             draw.text((left + 4, top + HEIGHT + 2), label, INK, font)
     sheet.save(sheet_file, optimize=True)
 

@@ -96,12 +96,7 @@ std::string textured_tetrahedron() {
                                  {"emissiveFactor", {1, 1, 1}},
                                  {"emissiveTexture", {{"index", 0}}},
                                  {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
-    writer.json["meshes"] = {{{"primitives",
-                               {{{"attributes", {{"POSITION", p}, {"TEXCOORD_0", t}}},
-                                 {"indices", i},
-                                 {"material", 0}}}}}};
-    writer.json["nodes"] = {{{"mesh", 0}}};
-    writer.json["scenes"] = {{{"nodes", {0}}}};
+    writer.show(p, t, i);
     return writer.gltf();
 }
 

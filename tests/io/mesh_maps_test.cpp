@@ -143,6 +143,24 @@ TEST_F(MeshMapFiles, OfLibrariesJoinRoughnessAndMetalness) {
     EXPECT_EQ(companion_files(bytes, folder / "a.obj").size(), 4u);
 }
 
+TEST_F(MeshMapFiles, OfLibrariesAreReadOnceForAllMaterials) {
+    put_bytes(folder / "a.png", two_texels(0, 200));
+    put_bytes(folder / "a.mtl",
+              "newmtl m\nmap_Ke a.png\nmap_Pr a.png\nnewmtl n\nmap_Ke -o 0.5 0 a.png\n"
+              "map_Pr a.png\n");
+    put_bytes(folder / "a.obj",
+              "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\n"
+              "f 1/1 2/2 3/3\nusemtl n\nf 1/1 3/3 2/2\n");
+    const Mesh mesh = read_mesh(folder / "a.obj");
+    ASSERT_EQ(mesh.textures.size(), 4u) << "two maps, and white with either of two places of them";
+    const Texture &m = mesh.textures[mesh.group_textures.at(0)],
+                  &n = mesh.textures[mesh.group_textures.at(1)];
+    for (const size_t map : {kGlossMap, kEmissionMap})
+        EXPECT_EQ(m.maps[map].texture, n.maps[map].texture);
+    EXPECT_NE(m.maps[kGlossMap].texture, m.maps[kEmissionMap].texture) << "numbers, and colours";
+    EXPECT_NE(m.maps[kEmissionMap].places, n.maps[kEmissionMap].places);
+}
+
 TEST_F(MeshMapFiles, OfLibrariesThatDifferInSizeHaveThatOfTheLarger) {
     Image tall{1, 3, {}, {}, {}};
     for (const char* channel : {"R", "G", "B"}) tall.planes[channel] = Plane<float>{0, 1, 0};

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "runtime/io/image/png.hpp"
-#include "tests/oracles/texture_oracle.hpp"
+#include "tests/pictures/texture_image.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/gltf_writer.hpp"
 #include "tests/support/instance_scenes.hpp"
@@ -36,15 +36,7 @@ oracle::Picture halves(std::array<uint8_t, 3> left, std::array<uint8_t, 3> right
 }
 
 std::string data_uri(const oracle::Picture& picture) {
-    Image image{picture.width, picture.height, {}, {}, {}};
-    const char* const names[] = {"R", "G", "B"};
-    for (size_t c = 0; c < 3; ++c) {
-        std::vector<float> values;
-        for (const auto& texel : picture.texels)
-            values.push_back(float(oracle::linear_light(texel[c])));
-        image.planes[names[c]] = values;
-    }
-    return "data:image/png;base64," + GltfWriter::base64(png_bytes(image, {}));
+    return "data:image/png;base64," + GltfWriter::base64(png_bytes(image_of(picture), {}));
 }
 
 class TextureMaps : public FileTest {
@@ -67,12 +59,7 @@ class TextureMaps : public FileTest {
         writer.json["samplers"] = {{{"wrapS", 10497}, {"wrapT", 10497}},
                                    {{"wrapS", 33071}, {"wrapT", 33071}}};
         writer.json["materials"] = {material};
-        writer.json["meshes"] = {{{"primitives",
-                                   {{{"attributes", {{"POSITION", p}, {"TEXCOORD_0", t}}},
-                                     {"indices", i},
-                                     {"material", 0}}}}}};
-        writer.json["nodes"] = {{{"mesh", 0}}};
-        writer.json["scenes"] = {{{"nodes", {0}}}};
+        writer.show(p, t, i);
         put_bytes(folder / name, writer.gltf());
     }
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "runtime/io/image/png.hpp"
-#include "tests/oracles/texture_oracle.hpp"
+#include "tests/pictures/texture_image.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
 
@@ -34,18 +34,6 @@ oracle::Picture picture_of(int width, int height) {
     return picture;
 }
 
-void write_picture(const std::filesystem::path& path, const oracle::Picture& picture) {
-    Image image{picture.width, picture.height, {}, {}, {}};
-    const char* const names[] = {"R", "G", "B"};
-    for (size_t c = 0; c < 3; ++c) {
-        std::vector<float> values;
-        for (const auto& texel : picture.texels)
-            values.push_back(float(oracle::linear_light(texel[c])));
-        image.planes[names[c]] = values;
-    }
-    write_png(path, image);
-}
-
 /// A rectangle of 8 x 6 m in the plane y = 0, with places on a texture from 0 to 3 and to 2.
 class WornTexture : public FileTest {
   protected:
@@ -54,7 +42,7 @@ class WornTexture : public FileTest {
                   "mtllib sheet.mtl\nv -4 0 -3\nv 4 0 -3\nv 4 0 3\nv -4 0 3\nvt 0 0\nvt 3 0\n"
                   "vt 3 2\nvt 0 2\nusemtl m\nf 1/1 4/4 3/3\nf 1/1 3/3 2/2\n");
         put_bytes(folder / "sheet.mtl", "newmtl m\nmap_Kd sheet.png\n");
-        write_picture(folder / "sheet.png", picture);
+        write_png(folder / "sheet.png", image_of(picture));
     }
 
     Scene scene_of(const std::string& placement, const std::string& map, const std::string& display,

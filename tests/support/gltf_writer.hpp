@@ -40,6 +40,16 @@ class GltfWriter {
         return int(json["accessors"].size()) - 1;
     }
 
+    /// Makes the scene one mesh of material 0, by the numbers of its accessors.
+    void show(int positions, int uvs, int indices) {
+        const nlohmann::json attributes = {{"POSITION", positions}, {"TEXCOORD_0", uvs}};
+        json["meshes"] = {
+            {{"primitives",
+              {{{"attributes", attributes}, {"indices", indices}, {"material", 0}}}}}};
+        json["nodes"] = {{{"mesh", 0}}};
+        json["scenes"] = {{{"nodes", {0}}}};
+    }
+
     /// The file as .gltf, with its buffer as a data URI.
     std::string gltf() const {
         nlohmann::json whole = json;

@@ -149,7 +149,7 @@ static inline lane_int floor_log2(lane_float v) {
 }
 
 /// Sets `mean` to the mean of the textures that begin at `place` over `area`, as texture_mean does.
-/// Those of `is_data` aren't colours.
+/// With `is_data` its channels are numbers, and no colour in sRGB.
 static inline void mean_over(global const uint* restrict textures, lane_uint place,
                              const TextureArea* area, lane_int wears, bool is_data,
                              lane_float* mean) {

@@ -39,8 +39,7 @@ uint32_t alpha_of(const GltfValue& material) {
 
 /// What stands for a map that can't be read: nothing glows, and nothing is metal.
 TextureImage without_map(size_t map) {
-    constexpr uint8_t kDull = 179;
-    return map == kEmissionMap ? one_texel(0, 0, 0) : one_texel(0, kDull, 0);
+    return map == kEmissionMap ? one_texel(0, 0, 0) : one_texel(0, kUnknownRoughness, 0);
 }
 
 constexpr std::array<const char*, kMapCount> kMapNames = {"metallic-roughness", "emissive"};

@@ -66,6 +66,7 @@ GltfValue GltfValue::item(const char* key, size_t number) const {
 
 std::vector<GltfValue> GltfValue::items(const char* key) const {
     std::vector<GltfValue> items;
+    items.reserve(size(key));
     for (size_t i = 0; i < size(key); ++i) items.push_back(item(key, i));
     return items;
 }

@@ -27,6 +27,7 @@ bool is_color(const std::string& plane) {
 /// The image's planes in the order of their names, as the file stores them.
 std::vector<ExrPlane> planes_of(const Image& image, ColorDepth color) {
     std::vector<ExrPlane> planes;
+    planes.reserve(image.planes.size());
     for (const auto& [name, plane] : image.planes)
         planes.push_back({.name = name,
                           .values = plane.data(),

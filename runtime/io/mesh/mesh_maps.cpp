@@ -49,46 +49,6 @@ Picture joined(const std::optional<Picture>& rough, uint8_t no_rough,
     return picture;
 }
 
-class MapReader {
-  public:
-    MapReader(const std::filesystem::path& mesh_file, const MtlMaterial& material, Mesh& mesh)
-        : file_(mesh_file), material_(material), mesh_(mesh) {}
-
-    TextureMap emission() {
-        const MtlTexture& map = material_.emission_map;
-        if (map.file.empty()) return {};
-        const std::optional<Picture> picture = read(map);
-        return append(map, picture ? with_levels(*picture) : one_texel(0, 0, 0));
-    }
-
-    TextureMap gloss() {
-        const MtlTexture &rough = material_.roughness_map, &metal = material_.metallic_map;
-        if (rough.file.empty() && metal.file.empty()) return {};
-        constexpr uint8_t kDull = 179;
-        const std::optional<Picture> of_rough = read(rough), of_metal = read(metal);
-        return append(rough.file.empty() ? metal : rough,
-                      with_levels_of_data(joined(of_rough, rough.file.empty() ? 255 : kDull,
-                                                 of_metal, metal.file.empty() ? 255 : 0)));
-    }
-
-  private:
-    std::optional<Picture> read(const MtlTexture& map) {
-        if (map.file.empty()) return std::nullopt;
-        return companion_picture(file_, map.file, mesh_);
-    }
-
-    TextureMap append(const MtlTexture& map, TextureImage image) {
-        const TextureWrap wrap = map.clamps ? TextureWrap::clamp : TextureWrap::repeat;
-        mesh_.textures.push_back(
-            {std::make_shared<const TextureImage>(std::move(image)), wrap, wrap});
-        return {uint32_t(mesh_.textures.size() - 1), places_by(map, material_.diffuse_map)};
-    }
-
-    const std::filesystem::path& file_;
-    const MtlMaterial& material_;
-    Mesh& mesh_;
-};
-
 }  // namespace
 
 bool has_maps(const MtlMaterial& m) {
@@ -96,11 +56,45 @@ bool has_maps(const MtlMaterial& m) {
            !m.metallic_map.file.empty();
 }
 
-void add_maps(const std::filesystem::path& mesh_file, const MtlMaterial& material, Texture& texture,
-              Mesh& mesh) {
-    MapReader reader(mesh_file, material, mesh);
-    texture.maps[kGlossMap] = reader.gloss();
-    texture.maps[kEmissionMap] = reader.emission();
+void LibraryMaps::add(const MtlMaterial& material, Texture& texture) {
+    const MtlTexture &rough = material.roughness_map, &metal = material.metallic_map,
+                     &glow = material.emission_map;
+    const MtlTexture& gloss = rough.file.empty() ? metal : rough;
+    const auto map = [&](const MtlTexture& from, const Key& key, const auto& image) -> TextureMap {
+        if (from.file.empty()) return {};
+        return {appended(key, from.clamps, image), places_by(from, material.diffuse_map)};
+    };
+    texture.maps[kGlossMap] = map(gloss, {kGlossMap, rough.file, metal.file, gloss.clamps},
+                                  [&] { return gloss_image(rough.file, metal.file); });
+    texture.maps[kEmissionMap] = map(glow, {kEmissionMap, glow.file, "", glow.clamps},
+                                     [&] { return emission_image(glow.file); });
+}
+
+/// The number of a texture whose image is made once.
+uint32_t LibraryMaps::appended(const Key& key, bool clamps,
+                               const std::function<TextureImage()>& image) {
+    const auto [entry, is_new] = known_.try_emplace(key, kNoTexture);
+    if (!is_new) return entry->second;
+    const TextureWrap wrap = clamps ? TextureWrap::clamp : TextureWrap::repeat;
+    const auto made = std::make_shared<const TextureImage>(image());
+    mesh_.textures.push_back({made, wrap, wrap});
+    return entry->second = uint32_t(mesh_.textures.size() - 1);
+}
+
+std::optional<Picture> LibraryMaps::read(const std::string& file) {
+    if (file.empty()) return std::nullopt;
+    return companion_picture(mesh_file_, file, mesh_);
+}
+
+TextureImage LibraryMaps::gloss_image(const std::string& rough, const std::string& metal) {
+    const std::optional<Picture> of_rough = read(rough), of_metal = read(metal);
+    return with_levels_of_data(joined(of_rough, rough.empty() ? 255 : kUnknownRoughness, of_metal,
+                                      metal.empty() ? 255 : 0));
+}
+
+TextureImage LibraryMaps::emission_image(const std::string& file) {
+    const std::optional<Picture> picture = read(file);
+    return picture ? with_levels(*picture) : one_texel(0, 0, 0);
 }
 
 }  // namespace voxelume

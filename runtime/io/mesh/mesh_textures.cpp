@@ -61,7 +61,8 @@ std::string first_file(const MtlMaterial& m) {
 /// Gives the materials of a library the textures of a mesh, each picture once.
 class LibraryTextures {
   public:
-    LibraryTextures(const fs::path& name, Mesh& mesh) : name_(name), mesh_(mesh) {}
+    LibraryTextures(const fs::path& name, Mesh& mesh)
+        : name_(name), mesh_(mesh), maps_(name, mesh) {}
 
     /// The number of a material's texture, or kNoTexture.
     uint32_t of(const MtlMaterial& material) {
@@ -85,13 +86,14 @@ class LibraryTextures {
             texture = mesh_.textures[colors];
         else
             texture.image = std::make_shared<const TextureImage>(one_texel(255, 255, 255));
-        add_maps(name_, material, texture, mesh_);
+        maps_.add(material, texture);
         mesh_.textures.push_back(texture);
         return uint32_t(mesh_.textures.size() - 1);
     }
 
     const fs::path& name_;
     Mesh& mesh_;
+    LibraryMaps maps_;
     std::map<std::pair<std::string, bool>, uint32_t> known_;
 };
 

@@ -11,9 +11,11 @@ namespace voxelume {
 /// level before that it stands for; texels count by their alpha where some of them have any.
 TextureImage with_levels(const Picture& picture);
 
-/// The same of a picture whose channels are numbers, and no colours: texels are plain means of
-/// them.
+/// An image of numbers and its levels, whose texels are the plain means of what they cover.
 TextureImage with_levels_of_data(const Picture& picture);
+
+/// The roughness, in a texel, of a map that can't be read: 0.7.
+inline constexpr uint8_t kUnknownRoughness = 179;
 
 /// An image of one texel, of these channels.
 TextureImage one_texel(uint8_t red, uint8_t green, uint8_t blue);

@@ -47,7 +47,7 @@ struct CodecTask {
     uint64_t attribute_count = 0;
     std::array<DracoAttribute, kMaxDracoAttributes> attributes{};
 
-    /// Of all arrays that come back.
+    /// How many bytes all arrays have that come back.
     uint64_t decoded_bytes() const;
 };
 

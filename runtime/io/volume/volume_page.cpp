@@ -41,6 +41,7 @@ uint64_t key_of(const glm::u16vec3& cell) {
 /// most opaque part.
 PageVoxels merge(const PageVoxels& voxels) {
     std::vector<std::pair<uint64_t, uint32_t>> order;
+    order.reserve(voxels.cells.size());
     for (size_t i = 0; i < voxels.cells.size(); ++i)
         order.emplace_back(key_of(voxels.cells[i] / uint16_t(2)), uint32_t(i));
     std::ranges::sort(order);

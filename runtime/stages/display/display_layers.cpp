@@ -13,7 +13,8 @@ namespace {
 
 /// A smaller share of the light from behind counts as none.
 constexpr double kMinTransmittance = 1.0 / (1 << 20);
-/// The same of the medium's own light, which is known however much covers it.
+/// The medium's own light is known however much covers it: this only keeps quotients of doubles
+/// finite.
 constexpr double kMinSpaceTransmittance = 1e-250;
 
 /// What one voxel of a ray shows. Samples of one place are in order, the nearest first.

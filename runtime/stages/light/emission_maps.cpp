@@ -42,8 +42,8 @@ Level level_of(const uint32_t* head, double part, double max_texels) {
     while ((level.width > 1 || level.height > 1) &&
            part * level.width * level.height > max_texels) {
         level.texels += size_t(level.width) * size_t(level.height);
-        level.width = std::max(level.width / 2, 1);
-        level.height = std::max(level.height / 2, 1);
+        level.width = level_size(level.width, 1);
+        level.height = level_size(level.height, 1);
     }
     return level;
 }

@@ -21,6 +21,7 @@ constexpr double kOnSurface = 1.0 / 256;
 
 std::vector<uint32_t> emissive_materials_of(const EmissiveSource& source) {
     std::vector<uint32_t> emissive_materials;
+    emissive_materials.reserve(source.emission.size());
     for (const glm::vec3& emission : source.emission)
         emissive_materials.push_back(emission != glm::vec3(0));
     return emissive_materials;

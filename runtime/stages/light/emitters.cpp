@@ -76,6 +76,7 @@ double volume_of(const glm::dvec3& edge) {
 std::vector<WeightedEmitter> emitters_of(const Device& device, const Features& features,
                                          const Scene& scene, const Pyramid& world) {
     std::vector<uint32_t> emissive;
+    emissive.reserve(scene.objects.size());
     for (const Object& object : scene.objects) emissive.push_back(is_emissive(scene, object));
     std::vector<WeightedEmitter> emitters;
     const EmissiveSource placed = world_source(scene, world, emissive);

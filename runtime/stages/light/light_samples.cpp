@@ -90,6 +90,7 @@ LightAreaRecord light_area_record(const Light& light, const GridFrame& world) {
 std::vector<LightRecord> emissive_light_samples(const Device& device, const Features& features,
                                                 const Scene& scene, const Pyramid& world) {
     std::vector<uint32_t> emissive_objects;
+    emissive_objects.reserve(scene.objects.size());
     for (const Object& object : scene.objects)
         emissive_objects.push_back(is_emissive(scene, object));
     const glm::dvec3& edge = world.frame.voxel_edge;

@@ -164,6 +164,7 @@ class Placer::State {
 
     std::vector<Painter*> all_painters() {
         std::vector<Painter*> all;
+        all.reserve(painters_.size());
         for (auto& [number, painter] : painters_) all.push_back(&painter);
         return all;
     }

@@ -47,6 +47,7 @@ class Joiner {
         const std::vector<uint32_t> a = body_.slots.read(), b = rest.slots.read();
         std::vector<cl_uint2> sources;
         store_bricks(a, [&](size_t brick) { return both(share_of(a[brick]), share_of(b[brick])); });
+        sources.reserve(bricks_.size());
         for (const uint32_t brick : bricks_) sources.push_back({{a[brick], b[brick]}});
         grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
         code_.kernel("join_distances")
@@ -64,6 +65,7 @@ class Joiner {
             return either(both(of_a, either(of_b, share_of(b_in[brick]))),
                           both(of_b, either(of_a, share_of(a_in[brick]))));
         });
+        sources.reserve(bricks_.size());
         for (const uint32_t brick : bricks_)
             sources.push_back({{a[brick], a_in[brick], b[brick], b_in[brick]}});
         const size_t leaves = size_t(grid_.brick_count) * kLeavesPerBrick;

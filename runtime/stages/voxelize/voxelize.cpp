@@ -93,6 +93,7 @@ MeshLabels labels_of(const Mesh& mesh, Surface surface) {
 void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                     const MeshLabels& labels) {
     std::vector<glm::vec3> voxels;
+    voxels.reserve(mesh.positions.size());
     for (const glm::vec3& p : mesh.positions)
         voxels.emplace_back(to_voxels(p, frame_from_mesh, job.grid.frame));
     std::vector<float> corners;

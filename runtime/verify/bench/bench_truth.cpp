@@ -61,6 +61,7 @@ BenchTruth bench_truth(const BenchSubject& subject, glm::ivec2 size) {
         }
     });
     std::vector<PixelSide> sides;
+    sides.reserve(truth.hits.size());
     for (const auto& hit : truth.hits)
         sides.push_back(hit ? PixelSide::inside : PixelSide::outside);
     truth.silhouette = contour_of(size, sides, [&](const glm::dvec2& pixel) {

@@ -75,6 +75,7 @@ void try_batch(DeviceWalks& walks, SnapClass kind, uint64_t seed, const StressBa
                StressResult& result) {
     const FixedGrid grid = grid_of_batch(batch.start);
     std::vector<FloatRay> rays;
+    rays.reserve(batch.size);
     for (size_t i = 0; i < batch.size; ++i)
         rays.push_back(float_ray(kind, grid, seed, batch.start + i));
     const std::vector<std::optional<FixedRay>> snapped = walks.snap(grid, rays);
