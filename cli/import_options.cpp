@@ -117,6 +117,9 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
         "--ground,!--no-ground", [&choices](int64_t given) { choices.ground = given > 0; },
         "of a model file: whether it stands on a ground; it does by default unless a .vox has "
         "none");
+    app.add_flag("--transparent", choices.transparent,
+                 "show nothing where no object is: .png files are transparent there, and a model "
+                 "file has no ground by default");
     app.add_option("--fit", choices.fit,
                    "of a model file: length of its longest side in metres; the file's by default")
         ->check(in_range(1e-6, 1e6));
@@ -144,6 +147,7 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
     options.own_camera = choices.view.empty() && !choices.angle;
     options.ground = choices.ground;
     if (!choices.background.empty()) options.background = color_of(choices.background, command);
+    options.transparent = choices.transparent;
     options.clip = choices.clip;
     if (!choices.spacing.empty()) options.spacing = spacing_of(choices.spacing, command);
     options.fit = choices.fit.value_or(0);

@@ -19,6 +19,7 @@ struct ImportChoices {
     std::string view, background, up, clip, spacing;  ///< empty: not given
     std::optional<double> angle, fit;
     std::optional<bool> ground;
+    bool transparent = false;  ///< of scenes, too
 };
 
 /// The names that --view knows.

@@ -123,6 +123,8 @@ v1::SceneOptions files_of(const SceneOptions& options, Size size, const char* co
         files.changes.push_back(setting_of(text, "--set", command));
     for (const std::string& text : options.swept)
         files.changes.push_back(setting_of(text, "--sweep", command));
+    if (options.import.transparent && !is_model_file(first_slice(options.scene)))
+        files.changes.push_back({"render.transparent", "true", "--transparent"});
     // Views from around are framed for the size that they will have.
     if (options.has_views && size[0] != 0)
         files.changes.push_back({"render.size", fmt::format("{},{}", size[0], size[1]), "--size"});

@@ -109,8 +109,7 @@ bool lights_surfaces(const Scene& scene, const Pyramid& world) {
 }
 
 /// Adds the features of a sky.
-void add_sky(const Scene& scene, const Pyramid& world, Features& features) {
-    const Sky& sky = *scene.world.sky;
+void add_sky(const Sky& sky, const Scene& scene, const Pyramid& world, Features& features) {
     features.sky = sky_feature(sky);
     features.sky_hidden = !sky.visible;
     const bool is_sought = sky.strength > 0 && !shown_objects(scene, world).empty();
@@ -122,7 +121,6 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit;
     features.global = scene.render.light == LightMode::global;
-    if (scene.world.sky) add_sky(scene, world, features);
     features.area_samples =
         lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
                 std::ranges::any_of(scene.lights, [](const Light& light) {
@@ -133,6 +131,9 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
+    const auto sky = outside_of(scene).sky;
+    if (sky && (sky->visible || features.paths || has_sky_samples(scene)))
+        add_sky(*sky, scene, world, features);
     add_medium_set(scene, world, features);
 }
 

@@ -47,6 +47,9 @@ inline constexpr const char* kStamp = "stamp";
 /// The name of the attribute that has the hash of an image's frame, from which stamps are made.
 inline constexpr const char* kFrameHash = "frame hash";
 
+/// Present in the texts of images that show nothing where no object is: PNG files keep their alpha.
+inline constexpr const char* kTransparent = "transparent";
+
 }  // namespace api
 
 struct v1::Device::Implementation {

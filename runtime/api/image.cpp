@@ -107,6 +107,8 @@ PngOptions png_options(const v1::Image::Implementation& image,
     if (options.png_bits != 8 && options.png_bits != 16)
         throw Error(ErrorKind::usage, "a PNG has 8 or 16 bits a channel, not {}", options.png_bits);
     png.bits = options.png_bits;
+    png.keep_alpha = attributes.contains(api::kTransparent) ||
+                     image.image->attributes.contains(api::kTransparent);
     return png;
 }
 

@@ -33,6 +33,7 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     inside.angle = options.angle;
     inside.has_ground = options.ground;
     if (options.background) inside.background = color_of(*options.background);
+    inside.is_transparent = options.transparent;
     inside.fit = options.fit;
     if (options.spacing)
         inside.spacing = {(*options.spacing)[0], (*options.spacing)[1], (*options.spacing)[2]};

@@ -173,6 +173,7 @@ class Run {
             api::Attributes all = attributes;
             const NoiseReached& noise = result.report.report.noise;
             if (noise.tiles > 0) all["noise"] = fmt::format("{:.5f}", noise.mean());
+            if (scene_.render.transparent) all[api::kTransparent] = "true";
             all[api::kFrameHash] = hashes_.of(files.frame);
             rendered.image = api::handle_of(with_motion(result.image, files.frame), std::move(all));
         }

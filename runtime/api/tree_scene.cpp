@@ -196,7 +196,7 @@ JsonValue tree(const v1::RenderSettings& render) {
     object.add("light", render.light == v1::LightMode::global ? "global" : "local");
     object.add("bounces", render.bounces).add("lamps", name_of(render.lamps));
     object.add("filter", kFilters.at(size_t(render.filter)));
-    object.add("filter_width", render.filter_width);
+    object.add("filter_width", render.filter_width).add("transparent", render.transparent);
     return object.add("least_weight", render.min_weight).take();
 }
 

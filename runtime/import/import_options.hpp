@@ -27,6 +27,7 @@ struct ImportOptions {
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     std::optional<bool> has_ground{};       ///< none: as the file says, or else one
     std::optional<glm::vec3> background{};  ///< linear Rec. 709; the ground shows the same colour
+    bool is_transparent = false;            ///< nothing but the model is shown
     double fit = 0;                         ///< metres of the longest side; 0: the file's own size
     std::optional<glm::dvec3> spacing{};    ///< metres from voxel to voxel, before `up` turns them
     UpAxis up = UpAxis::automatic;          ///< Z for STL, Y for other meshes and voxels

@@ -172,9 +172,10 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const bool is_own = options.has_own_camera && !options.is_lattice;
     text += is_own && !contents.observer.empty() ? contents.observer
                                                  : observer_of(contents.box, studio.box, options);
-    return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}}}\n}}\n",
+    return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}{}}}\n}}\n",
                               options.size.x, options.size.y, kSamples,
-                              contents.has_glass ? ", \"shadow\": \"filtered\"" : "");
+                              contents.has_glass ? ", \"shadow\": \"filtered\"" : "",
+                              options.is_transparent ? ", \"transparent\": true" : "");
 }
 
 }  // namespace

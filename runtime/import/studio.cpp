@@ -172,7 +172,8 @@ Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const Import
     if (options.background) studio.background = *options.background;
     studio.background = rounded(studio.background, 4);
     const double radius = ground_radius(box), most = max_radius(voxel_size);
-    const bool has_ground = options.has_ground.value_or(around.has_ground);
+    const bool has_ground =
+        options.has_ground.value_or(around.has_ground && !options.is_transparent);
     if (!has_ground || options.is_lattice || options.from.latitude < 0 || radius > most)
         return studio;
     const glm::dvec3 color = ground_color(around.ground, studio.background, on_ground, options);

@@ -22,6 +22,19 @@ std::string refusal(const Scene& scene, const Object& object) {
 
 }  // namespace
 
+Outside outside_of(const Scene& scene) {
+    Outside outside{scene.world.background, scene.world.sky};
+    if (!scene.render.transparent) return outside;
+    if (!outside.sky && outside.background != glm::vec3(0)) {
+        outside.sky.emplace();
+        outside.sky->color = outside.background;
+        outside.sky->samples = 0;
+    }
+    if (outside.sky) outside.sky->visible = false;
+    outside.background = glm::vec3(0);
+    return outside;
+}
+
 std::vector<int> materials_of_groups(const Object& object,
                                      const std::vector<std::string>& group_names) {
     const std::vector<std::string_view> known(group_names.begin(), group_names.end());

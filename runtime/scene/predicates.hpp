@@ -3,12 +3,24 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {
+
+/// What rays see that leave the world.
+struct Outside {
+    glm::vec3 background;    ///< radiance, for all rays if there is no sky, or one that is hidden
+    std::optional<Sky> sky;  ///< hidden from observers if it isn't visible
+};
+
+/// Where the image is transparent, observers see nothing there, and other rays what they see
+/// otherwise: the background as a sky that lights nothing.
+Outside outside_of(const Scene& scene);
 
 /// One material per group of a mesh, or one in all for a mesh without groups. Throws Error::scene
 /// when the object names a group that the mesh does not have.

@@ -136,6 +136,8 @@ RenderSettings read_render(const SceneValue& value) {
         render.filtered_shadows = shadow->choice(kShadowNames) == 1;
     if (const auto light = fields.find("light"))
         render.light = LightMode(light->choice(kLightModes));
+    if (const auto transparent = fields.find("transparent"))
+        render.transparent = transparent->boolean();
     render.bounces = fields.integer("bounces", 0, 64, render.bounces);
     if (const auto lamps = fields.find("lamps"))
         render.lamps = LampSearch(lamps->choice(kLampSearches));

@@ -41,6 +41,8 @@ struct ImportOptions {
     std::optional<bool> ground{};
     /// Radiance of the background and of the ground; the file's (.vox) or grey by default.
     std::optional<Color> background{};
+    /// Nothing but the model is shown: `RenderSettings::transparent`, and no ground by default.
+    bool transparent = false;
     double fit = 0;  ///< metres of the longest side; 0: the file's own size
     /// Metres from voxel to voxel along X, Y and Z, before `up` turns them, instead of the file's
     /// own: of arrays, scans and files of voxels of one model. Not with `fit`.

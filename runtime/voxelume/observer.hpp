@@ -131,6 +131,9 @@ struct RenderSettings {
     ReconstructionFilter filter = ReconstructionFilter::box;  ///< of samples
     std::optional<double> filter_width{};  ///< pixels from end to end, at most 16; without it 1 of
                                            ///< a box, 2 of a tent, 3 of others
+    /// Observers see nothing where no object is: A is 0 there, and PNG files are transparent.
+    /// Mirrors and glass show the background or the sky as without it.
+    bool transparent = false;
 };
 
 }  // namespace voxelume::v1

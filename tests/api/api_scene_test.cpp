@@ -162,10 +162,11 @@ TEST(ApiScene, HasMediaAndRenderSettings) {
     scene.render = {{320, 200}, 4, 0.25, 3, false, true, 0.125};
     scene.render.filter = v1::ReconstructionFilter::blackman_harris;
     scene.render.filter_width = 1.5;
+    scene.render.transparent = true;
     const std::string settings =
         R"("render": {"size": [320, 200], "samples": 4, "adaptive": 0.25, "depth": 3,
         "shadows": false, "shadow": "filtered", "least_weight": 0.125, "filter": "blackman-harris",
-        "filter_width": 1.5})";
+        "filter_width": 1.5, "transparent": true})";
     const auto world = [](const char* density) {
         return R"(, "background": [1, 2, 3], "ambient": [0.1, 0.2, 0.3],
                   "medium": {"absorption": [1, 2, 3], "color": [4, 5, 6])" +

@@ -5,12 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/png.hpp"
 #include "tests/support/program_runner.hpp"
 
 namespace voxelume {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class CliImportTest : public ProgramTest {
   protected:
@@ -37,6 +39,29 @@ TEST_F(CliImportTest, AMeshRendersWithoutAScene) {
     EXPECT_NEAR(image.planes.at("G")[0], 0.5f, 0.01f);
     EXPECT_EQ(image.planes.at("R")[0], 0.0f);
     EXPECT_EQ(run("check wedge.obj").exit_code, 0);
+}
+
+TEST_F(CliImportTest, ATransparentPictureKeepsItsAlpha) {
+    const auto has_gaps = [&](const char* name) {
+        const Picture picture = read_png(folder / name);
+        EXPECT_EQ(picture.pixels[12 * 32 + 16][3], 255) << name;
+        return picture.pixels[0] == std::array<uint8_t, 4>{0, 0, 0, 0};
+    };
+    const std::string size = " --size 32x24 --samples 1";
+    ASSERT_EQ(run("render wedge.obj scene.json -o {name}.png --transparent" + size).exit_code, 0);
+    EXPECT_TRUE(has_gaps("wedge.png"));
+    EXPECT_TRUE(has_gaps("scene.png"));
+    ASSERT_EQ(run("render wedge.obj -o opaque.png" + size).exit_code, 0);
+    EXPECT_FALSE(has_gaps("opaque.png"));
+    ASSERT_EQ(run("import wedge.obj --transparent -o wedge.json" + size.substr(0, 13)).exit_code,
+              0);
+    EXPECT_THAT(bytes_of(folder / "wedge.json"), Not(HasSubstr("\"ground\"")));
+    for (const char* part : {"1/2", "2/2"})
+        ASSERT_EQ(run("render wedge.json -o parts.png --samples 1 --shard " + std::string(part))
+                      .exit_code,
+                  0);
+    ASSERT_EQ(run("merge parts.png.1-of-2.shard parts.png.2-of-2.shard").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "parts.png"), bytes_of(folder / "wedge.png"));
 }
 
 TEST_F(CliImportTest, ImportWritesWhatRenderShows) {

@@ -8,6 +8,7 @@
 
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/material_records.hpp"
 #include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/light/sky_map.hpp"
@@ -43,10 +44,12 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
       sky_is_hidden_(features.sky_hidden),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
+    const Outside outside = outside_of(scene);
+    environment_.background = to_float4(glm::dvec3(outside.background));
     if (features.sky == VXL_SKY_MAP) {
-        sky_.map = build_sky_map(device, *scene.world.sky);
+        sky_.map = build_sky_map(device, *outside.sky);
     } else if (features.sky != VXL_SKY_NONE) {
-        const SkyRecord record = sky_record(*scene.world.sky);
+        const SkyRecord record = sky_record(*outside.sky);
         sky_.record = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
     }
     if (features.textures) footprint_.footprint = footprint_of(scene, world);
