@@ -52,7 +52,7 @@ Action add_convert(CLI::App& app) {
         ->required();
     app.add_option("B", command->to,
                    "volumetric image to write: the same, or name.####.png .ply .kv6 .planes "
-                   ".cplanes .rgb332 .rgb565; or of voxels .vox .kv6 .binvox .npy .nrrd")
+                   ".cplanes .rgb332 .rgb565; or of voxels .vox .kv6 .binvox .npy .nrrd .vxm .vdb")
         ->required();
     app.add_option(
            "--format", command->format,

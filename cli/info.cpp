@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/report.hpp"
+#include "cli/slice_names.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {
@@ -61,8 +62,9 @@ Action add_info(CLI::App& app) {
     app.add_flag("--json", options->json, "print the result as JSON");
     app.add_flag("--verify", options->verify, "compare all of FILE with the checksum in it");
     return [options] {
-        if (options->verify) check_integrity(options->path);
-        print_report(report_of(describe_file(options->path)), options->json);
+        const std::string path = first_slice(options->path);
+        if (options->verify) check_integrity(path);
+        print_report(report_of(describe_file(path)), options->json);
         return 0;
     };
 }

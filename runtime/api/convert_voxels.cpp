@@ -2,6 +2,7 @@
 // Voxels from a file of one format to one of another, for callers.
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/process.hpp"
+#include "runtime/assets/voxel_export.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
@@ -43,10 +44,12 @@ CubeList cubes_of_volume(const std::filesystem::path& path) {
 }
 
 WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (is_grid_name(to))
+        return write_cubes(to, VoxelExport(read_voxel_model(from, Surface::cubes)));
     const auto write = cube_writer(to);
     if (!write)
         throw Error(ErrorKind::usage,
-                    "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy or .nrrd",
+                    "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy, .nrrd, .vxm or .vdb",
                     SourcePlace(to.string()));
     return write(to, holds_model(from) ? cube_list(read_voxel_model(from, Surface::cubes))
                                        : cubes_of_volume(from));
@@ -57,9 +60,10 @@ WriterNotes write_voxels(const std::filesystem::path& from, const std::filesyste
 namespace v1 {
 
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const std::string ending = ending_of(to);
+    if (is_grid_name(to)) return holds_model(from) && ending_of(from) != ".vdb";
     if (!cube_writer(to)) return false;
     // Volumetric images are written as .kv6 and .nrrd by writers of their own.
-    const std::string ending = ending_of(to);
     if (ending != ".kv6" && ending != ".nrrd") return true;
     return holds_model(from) && ending_of(from) != ".vdb";
 }

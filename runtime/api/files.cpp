@@ -3,22 +3,28 @@
 #include "runtime/voxelume/files.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/assets/voxel_export.hpp"
+#include "runtime/assets/voxel_paint.hpp"
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/file_hash.hpp"
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/memory/plan.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
+#include "runtime/voxelume/import.hpp"
+#include "runtime/world/world_cubes.hpp"
 
 namespace voxelume {
 namespace {
@@ -53,6 +59,28 @@ void check_endings(const std::vector<fs::path>& outputs, Surface surface) {
     }
 }
 
+/// The materials of a mesh's groups of faces, as pictures of the file have them; nothing where the
+/// file has none.
+std::vector<Material> materials_of(const fs::path& path, const Mesh& mesh) {
+    std::vector<Material> materials(mesh.group_names.size());
+    if (materials.empty() || !is_model_file(path)) return {};
+    const v1::Scene handle = v1::scene_of_file(path, {.ground = false});
+    const Scene& scene = api::inside(handle);
+    bool has_some = false;
+    for (const Object& object : scene.objects)
+        for (const GroupMaterial& entry : object.groups)
+            for (size_t group = 0; group < mesh.group_names.size(); ++group) {
+                if (mesh.group_names[group] != entry.group) continue;
+                materials[group] = scene.materials[size_t(entry.material)];
+                has_some = true;
+            }
+    return has_some ? materials : std::vector<Material>();
+}
+
+void add_notes(const std::vector<std::string>& notes, v1::VoxelizeReport& report) {
+    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+}
+
 v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
                                      const Device& device, const v1::VoxelizeOptions& options) {
     check_endings(outputs, static_cast<Surface>(options.surface));
@@ -75,16 +103,42 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
                               grid.brick_count,
                               seconds,
                               {}};
+    const auto painted = [&] {
+        VoxelModel cubes = voxels.cubes();
+        const std::vector<Material> materials = materials_of(path, mesh);
+        if (!materials.empty()) paint_voxels(materials, grid.attribute, cubes);
+        return cubes;
+    };
     for (const fs::path& output : outputs) {
-        if (const auto write = cube_writer(output)) {
-            for (const std::string& note : write(output, cube_list(voxels.cubes())))
-                report.notes.push_back(note);
-        } else if (ending_of(output) == ".vdb") {
+        if (const auto write = cube_writer(output))
+            add_notes(write(output, cube_list(painted())), report);
+        else if (ending_of(output) == ".vdb")
             voxels.write_vdb(output);
-        } else {
+        else
             voxels.write_model(output);
-        }
     }
+    return report;
+}
+
+v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
+                                           const std::vector<fs::path>& outputs,
+                                           const Device& device,
+                                           const v1::VoxelizeSceneOptions& options) {
+    check_endings(outputs, Surface::cubes);
+    const Scene scene = scene_at(api::inside(handle), options.frame);
+    const auto start = std::chrono::steady_clock::now();
+    VoxelModel model = world_cubes(device, scene, api::assets_of(handle, options.cache),
+                                   {options.voxel_size, options.resolution});
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    v1::VoxelizeReport report{0,
+                              api::array_of(model.frame.size),
+                              model.frame.voxel_edge.x,
+                              model.coordinates.size(),
+                              seconds,
+                              {}};
+    const VoxelExport voxels(std::move(model));
+    for (const fs::path& output : outputs) add_notes(write_cubes(output, voxels), report);
     return report;
 }
 
@@ -96,6 +150,12 @@ VoxelizeReport voxelize(const fs::path& mesh, const std::vector<fs::path>& outpu
                         const Device& device, const VoxelizeOptions& options) {
     return api::guarded(
         [&] { return voxelize_to_files(mesh, outputs, api::inside(device), options); });
+}
+
+VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<fs::path>& outputs,
+                              const Device& device, const VoxelizeSceneOptions& options) {
+    return api::guarded(
+        [&] { return voxelize_scene_to_files(scene, outputs, api::inside(device), options); });
 }
 
 std::vector<int> parse_frame_list(const std::string& list) {

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
+#include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 
 namespace voxelume {
@@ -49,16 +52,31 @@ VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surfac
       triangle_attributes_(grid.triangle_attributes.read()),
       triangle_normals_(grid.triangle_normals.read()),
       triangles_(grid.triangles.read()) {
-    header_ = {{"format", "voxelume bricks 1"},
-               {"software", fmt::format("voxelume {}", version())},
-               {"surface", std::string(kind_of(surface).name)},
-               {"size", vector_text(frame_.size)},
-               {"origin", vector_text(frame_.origin)},
-               {"voxel_edge", vector_text(frame_.voxel_edge)}};
+    set_header();
     if (shows_voxels(surface)) header_["set"] = set_name(set);
     std::string groups;
     for (const std::string& name : mesh.group_names) groups += name + "\n";
     if (!groups.empty()) header_["groups"] = groups;
+}
+
+VoxelExport::VoxelExport(VoxelModel model)
+    : frame_(model.frame),
+      surface_(Surface::cubes),
+      slots_(std::move(model.slots)),
+      coordinates_(std::move(model.coordinates)),
+      occupancy_(std::move(model.occupancy)),
+      colors_(std::move(model.colors)) {
+    set_header();
+    header_["set"] = set_name(model.set);
+}
+
+void VoxelExport::set_header() {
+    header_ = {{"format", "voxelume bricks 1"},
+               {"software", fmt::format("voxelume {}", version())},
+               {"surface", std::string(kind_of(surface_).name)},
+               {"size", vector_text(frame_.size)},
+               {"origin", vector_text(frame_.origin)},
+               {"voxel_edge", vector_text(frame_.voxel_edge)}};
 }
 
 VoxelModel VoxelExport::cubes() const {
@@ -69,6 +87,7 @@ VoxelModel VoxelExport::cubes() const {
     model.coordinates = coordinates_;
     model.occupancy = occupancy_;
     model.colors = colors_;
+    model.attributes = attributes_;
     return model;
 }
 
@@ -141,6 +160,20 @@ void VoxelExport::write_vdb(const std::filesystem::path& path) const {
     volume.origin = frame_.origin + (smooth ? 0.0 : 0.5) * frame_.voxel_edge;
     volume.metadata = header_;
     voxelume::write_vdb(path, volume);
+}
+
+bool is_grid_name(const std::filesystem::path& path) {
+    const std::string ending = ending_of(path);
+    return ending == ".vxm" || ending == ".vdb";
+}
+
+std::vector<std::string> write_cubes(const std::filesystem::path& path, const VoxelExport& voxels) {
+    if (const auto write = cube_writer(path)) return write(path, cube_list(voxels.cubes()));
+    if (ending_of(path) == ".vdb")
+        voxels.write_vdb(path);
+    else
+        voxels.write_model(path);
+    return {};
 }
 
 }  // namespace voxelume

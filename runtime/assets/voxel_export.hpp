@@ -28,7 +28,10 @@ class VoxelExport {
   public:
     VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surface, VoxelSet set);
 
-    /// The voxels of cubes, with their colours.
+    /// Cubes; `model` is left without arrays.
+    explicit VoxelExport(VoxelModel model);
+
+    /// The voxels of cubes, with their colours and the numbers of their groups of faces.
     VoxelModel cubes() const;
     /// Both of these throw Error::output.
     void write_model(const std::filesystem::path& path) const;
@@ -41,6 +44,7 @@ class VoxelExport {
         std::vector<glm::vec3> colors;
     };
 
+    void set_header();
     void add_brick(uint32_t slot, Cells& cells) const;
     void add_full_bricks(Cells& cells) const;
 
@@ -54,5 +58,13 @@ class VoxelExport {
     std::vector<uint32_t> primitive_first_, primitives_, triangle_attributes_, triangle_normals_;
     std::vector<float> triangles_;
 };
+
+/// Whether a file's name is that of voxels which are written without making a list of them: .vxm or
+/// .vdb.
+bool is_grid_name(const std::filesystem::path& path);
+
+/// Writes cubes as the name asks for. Returns sentences on what the format couldn't hold. Throws
+/// Error::output, and Error::limit for more voxels than the format has.
+std::vector<std::string> write_cubes(const std::filesystem::path& path, const VoxelExport& voxels);
 
 }  // namespace voxelume

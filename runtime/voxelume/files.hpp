@@ -13,6 +13,7 @@
 
 #include "device.hpp"
 #include "objects.hpp"
+#include "scene.hpp"
 
 namespace voxelume::v1 {
 
@@ -44,12 +45,27 @@ VoxelizeReport voxelize(const std::filesystem::path& mesh,
                         const std::vector<std::filesystem::path>& outputs, const Device& device,
                         const VoxelizeOptions& options = {});
 
+/// How the world of a scene becomes voxels.
+struct VoxelizeSceneOptions {
+    double voxel_size = 0;  ///< metres; 0: `resolution` decides
+    int resolution = 0;     ///< voxels along the world's longest side; 0: the scene's own voxels
+    int frame = 1;          ///< of a scene that moves
+    CacheOptions cache{};
+};
+
+/// Writes the voxels of a scene's world to files, likewise. All objects are cubes in it, in the
+/// colours of their voxels and materials; lights and reflections aren't told. Throws as `voxelize`
+/// and `render_frames` do.
+VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
+                              const Device& device, const VoxelizeSceneOptions& options = {});
+
 /// Whether `convert_voxels` writes the voxels of the one to the other, by their names and, where
 /// these don't decide, by what the first file begins with.
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Writes the voxels of a file to one of another format (.vox, .kv6, .binvox, .npy, .nrrd): those
-/// of a model file of cubes, or the cells of a volumetric image that are at least half opaque.
+/// Writes the voxels of a file to one of another format: those of a model file of cubes (to .vox,
+/// .kv6, .binvox, .npy, .nrrd, .vxm, .vdb), or the cells of a volumetric image that are at least
+/// half opaque (to the first five).
 /// Returns sentences on what the format couldn't hold. Throws Error::input, Error::limit,
 /// Error::output.
 std::vector<std::string> convert_voxels(const std::filesystem::path& from,

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/assets/voxel_paint.hpp"
+
+#include <bit>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "kernels/shared/voxel.h"
+#include "runtime/grid/brick_cells.hpp"
+#include "runtime/image/srgb.hpp"
+#include "runtime/io/image/png.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The colours of voxels of one material.
+class Paint {
+  public:
+    explicit Paint(const Material& material)
+        : color_(color_of(material)), opacity_(material.opacity) {}
+
+    /// 0xTTBBGGRR times the material's colour and opacity.
+    uint32_t of(uint32_t code) const {
+        static const std::vector<float> levels = srgb_levels();
+        uint32_t painted = 0;
+        for (int c = 0; c < 3; ++c)
+            painted |= uint32_t(srgb_code(levels[code >> 8 * c & 255] * color_[c])) << 8 * c;
+        const double opacity =
+            double(255 - (code >> VXL_TRANSPARENCY_SHIFT)) / 255 * double(opacity_);
+        return painted | uint32_t(std::lround(255 - 255 * opacity)) << VXL_TRANSPARENCY_SHIFT;
+    }
+
+  private:
+    glm::vec3 color_;
+    float opacity_;
+};
+
+}  // namespace
+
+void paint_voxels(std::span<const Material> materials, uint32_t attribute, VoxelModel& model) {
+    const std::vector<Paint> paints(materials.begin(), materials.end());
+    std::vector<uint32_t> colors(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFFu);
+    for (size_t leaf = 0; leaf < model.occupancy.size(); ++leaf) {
+        const size_t brick = leaf / kLeavesPerBrick * kVoxelsPerBrick;
+        const glm::ivec3 corner = leaf_corner(leaf % kLeavesPerBrick);
+        uint64_t& occupied = model.occupancy[leaf];
+        for (uint64_t bits = occupied; bits != 0; bits &= bits - 1) {
+            const size_t place =
+                brick + voxel_in_brick(corner + cell_in_leaf(std::countr_zero(bits)));
+            const uint32_t packed = model.attributes.empty() ? attribute : model.attributes[place];
+            const uint32_t own = model.colors.empty() ? 0xFFFFFFu : model.colors[place];
+            colors[place] = paints[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].of(own);
+            const bool is_clear = colors[place] >> VXL_TRANSPARENCY_SHIFT == 255;
+            if (is_clear) occupied &= ~(bits & -bits);
+            model.transparent |= !is_clear && colors[place] >> VXL_TRANSPARENCY_SHIFT > 0;
+        }
+    }
+    model.colors = std::move(colors);
+    model.attributes.clear();
+}
+
+}  // namespace voxelume
