@@ -223,7 +223,9 @@ TEST_F(GltfSkinTest, PartsThatDontGoTogetherAreRefused) {
     EXPECT_THAT(changed("/skins/0/joints", {3, 7, 11, 2}), HasSubstr("the skin has 4"));
     EXPECT_THAT(changed("/skins/0/joints", {3, 7, 11, 2, 99}),
                 HasSubstr("is the number of no node"));
-    EXPECT_THAT(changed("/skins/0/joints", {3, 7, 11, 2, 1, 1}),
+    EXPECT_THAT(changed("/skins/0/joints", {3, 7, 11, 2, 1, 3}),
+                HasSubstr("is a joint of this skin already"));
+    EXPECT_THAT(changed("/skins/0/joints", {3, 7, 11, 2, 23, 1}),
                 HasSubstr("6 joints and 5 matrices"));
     EXPECT_THAT(changed("/meshes/1/primitives/0/attributes/WEIGHTS_0", 0),
                 HasSubstr("isn't of the type"));

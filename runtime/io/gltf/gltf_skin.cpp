@@ -96,11 +96,14 @@ class WeightReader {
 
 std::vector<int> joints_of(const GltfFile& file, const GltfValue& skin) {
     std::vector<int> joints;
-    const auto nodes = double(file.root().size("nodes"));
+    std::vector<bool> is_joint(file.root().size("nodes"));
+    const auto nodes = double(is_joint.size());
     for (const GltfValue& item : skin.items("joints")) {
         const double number = item.json().is_number() ? item.json().get<double>() : -1;
         if (!(number >= 0 && number < nodes) || number != std::floor(number))
             item.fail("is the number of no node");
+        if (is_joint[size_t(number)]) item.fail("is a joint of this skin already");
+        is_joint[size_t(number)] = true;
         joints.push_back(int(number));
     }
     return joints;
