@@ -16,11 +16,10 @@ namespace {
 
 constexpr double kSunAside = 42, kSunHeight = 44;  // degrees: left of the observer, above
 constexpr double kSunSpread = 2.5;                 // degrees, half of the angle that the sun fills
-constexpr double kSkySpread = 58;
-constexpr int kSunSpots = 12, kSkySpots = 20;
+constexpr int kSunSpots = 12;
 constexpr glm::dvec3 kSunColor{1, 0.97, 0.92}, kSkyColor{0.9, 0.95, 1};
-constexpr double kSun = 0.92, kSky = 0.32;  // irradiance of a plane that faces them
-constexpr double kAmbient = 0.2;
+constexpr double kSun = 0.92;  // irradiance of a plane that faces it
+constexpr double kSky = 0.5;   // radiance
 constexpr glm::vec3 kBackground{0.8f, 0.8f, 0.8f};
 // So far away, in longest sides, that the light on the ground is even to half of a grey level.
 constexpr double kDistance = 1000;
@@ -116,14 +115,21 @@ void add_ground(const Bounds& box, double radius, const glm::dvec3& color, Studi
     studio.box = {glm::min(box.min, position - reach), glm::max(box.max, position + reach)};
 }
 
+/// A sky of one colour that observers don't see; `more` are further members.
+std::string hidden_sky(const glm::dvec3& color, const char* more = "") {
+    return fmt::format(
+        ",\n            \"sky\": {{\"kind\": \"constant\", \"color\": {}, \"visible\": false{}}}",
+        json_list(rounded(color, 4)), more);
+}
+
 /// Light of the studio's own. Returns what reaches the ground of it, per colour.
 glm::dvec3 add_own_light(const Bounds& box, double longitude, Studio& studio) {
-    studio.ambient = glm::dvec3(kAmbient);
-    glm::dvec3 on_ground = studio.ambient;
+    const glm::dvec3 sky = kSky * kSkyColor;
+    studio.sky = hidden_sky(sky, ", \"samples\": 8");
+    glm::dvec3 on_ground = sky;
     add_light({"sun", direction_of(longitude - kSunAside, kSunHeight), kSunColor, kSun, kSunSpread,
                kSunSpots},
               box, studio, on_ground);
-    add_light({"sky", {0, 1, 0}, kSkyColor, kSky, kSkySpread, kSkySpots}, box, studio, on_ground);
     return on_ground;
 }
 
@@ -138,10 +144,7 @@ glm::dvec3 add_light_of(const FileLight& around, const Bounds& box, double longi
     if (sun > 0 && to_sun.y > kLowest)
         add_light({"sun", to_sun, around.sun / sun, sun, around.sun_spread, kSunSpots}, box, studio,
                   on_ground);
-    if (around.sky != glm::dvec3(0))
-        studio.sky = fmt::format(
-            ",\n            \"sky\": {{\"kind\": \"constant\", \"color\": {}, \"visible\": false}}",
-            json_list(rounded(around.sky, 4)));
+    if (around.sky != glm::dvec3(0)) studio.sky = hidden_sky(around.sky);
     if (around.fog != glm::dvec3(0))
         studio.medium =
             fmt::format(",\n            \"medium\": {{\"absorption\": {}, \"color\": {}}}",
