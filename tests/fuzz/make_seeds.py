@@ -145,10 +145,28 @@ FLAT = b"-Y 1 +X 5\n" + bytes([2, 3, 4, 136, 1, 1, 1, 4])
 PLANES = b"+Y 1 +X 8\n" + bytes([2, 2, 0, 8, 136, 7, 136, 6, 4, 1, 2, 3, 4, 132, 9, 136, 136])
 MTL = b"newmtl a b\nKd 0.5 0.25 1\nKs 1 1 1\nNs 30\nd 0.5\nillum 7\nNi 1.5\nmap_Kd -s 2 2 t.png\n"
 
+# One triangle by Draco's two methods, and by each of meshoptimizer's codecs; in front of each stands
+# what codec_fuzz.cpp asks for.
+DRACO = [
+    "00"
+    "445241434f020201010000000301010100000107ff011101010002ff000000000001000903000002"
+    "010202030001010101010003035515ad2a03047081311000000000ff000000000000000000000000"
+    "0000000000803f0801010101010917c9311d071d070376e4770100000009000000",
+    "00"
+    "445241434f0202010000000103010001020102000903000002020300010201000101000303ad2a55"
+    "1503a07a81880100000000ff00000000010100040b01400100106ddb060100000009000000000000"
+    "0000000000000000000000803f08"]
+MESHOPT = ["00a0013c000000080800013c000000080800013c000000080800013c00000008080000000000000000"
+           "00000000000000000000000000000000000000010002000300",
+           "04e0f0007687566778a9866589689801690000",
+           "05d000040400000000"]
+
 SEEDS = {
     "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip"), nrrd("bzip2"), nrrd("text")],
     "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
+    "draco": [bytes.fromhex(text) for text in DRACO],
+    "meshopt": [bytes.fromhex(text) for text in MESHOPT],
     "1.png": [png(5, 3)], "hdr": [hdr(FLAT), hdr(PLANES)],
     "schem": [schem(), schematic(), litematic(), gzip.compress(schem(), mtime=0)],
 }
