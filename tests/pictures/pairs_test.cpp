@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -23,10 +24,11 @@ namespace {
 
 /// What an image shows that the solids' formulas don't.
 struct PairErrors {
-    size_t shown = 0;   ///< pixels that show a surface
-    size_t wrong = 0;   ///< of another object than any that the formulas have within the slack
-    double rms = 0;     ///< distance from the true surface, in voxels, where the object is right
-    double beside = 0;  ///< the same, of pixels whose neighbours show the same object
+    size_t shown = 0;    ///< pixels that show a surface
+    size_t wrong = 0;    ///< of another object than any that the formulas have within the slack
+    size_t rounded = 0;  ///< the same, of a smooth solid's edges, which lie within a voxel
+    double rms = 0;      ///< distance from the true surface, in voxels, where the object is right
+    double beside = 0;   ///< the same, of pixels whose neighbours show the same object
     double worst_beside = 0;
 };
 
@@ -70,6 +72,34 @@ class Truth {
     std::vector<oracle::Seen> seen_;
 };
 
+/// The distance of a point of an object's surface from the edges of its solid, in metres; infinite
+/// where it has none.
+double distance_from_edges(const Scene& scene, const Object& object, const glm::dvec3& point) {
+    const Solid& solid = *scene.models[size_t(object.model)].solid;
+    const glm::dvec3 p =
+        glm::abs(glm::dvec3(glm::inverse(object.world_from_object) * glm::dvec4(point, 1)));
+    std::array<double, 3> faces = {INFINITY, INFINITY, INFINITY};  // distances from them
+    for (int axis = 0; axis < 3 && solid.kind == SolidKind::box; ++axis)
+        faces[size_t(axis)] =
+            std::abs(solid.size[axis] / 2 - p[axis]) * glm::length(object.world_from_object[axis]);
+    if (solid.kind == SolidKind::cylinder)
+        faces = {std::abs(solid.radius - std::hypot(p.x, p.z)) *
+                     std::max(glm::length(object.world_from_object[0]),
+                              glm::length(object.world_from_object[2])),
+                 std::abs(solid.height / 2 - p.y) * glm::length(object.world_from_object[1]),
+                 INFINITY};
+    std::ranges::sort(faces);
+    return faces[1];
+}
+
+/// Whether a surface that a picture lacks is that of an edge, which `smooth` solids round.
+bool is_rounded(const Scene& scene, const oracle::Seen& seen, const glm::dvec3& point) {
+    if (seen.object < 0) return false;
+    const Object& object = scene.objects[size_t(seen.object)];
+    return scene.models[size_t(object.model)].surface == Surface::smooth &&
+           distance_from_edges(scene, object, point) < scene.world.voxel_size.x;
+}
+
 /// `slack`: voxels around a pixel within which a border may be.
 PairErrors errors_of(const Scene& scene, double slack) {
     const Truth truth(scene);
@@ -88,7 +118,10 @@ PairErrors errors_of(const Scene& scene, double slack) {
             const oracle::Seen& seen = truth.at(x, y);
             errors.shown += object >= 0;
             if (object != seen.object) {
-                errors.wrong += !truth.sees_near(x, y, object, slack * voxel);
+                if (truth.sees_near(x, y, object, slack * voxel)) continue;
+                const glm::dvec3 point =
+                    observer.position + seen.t * direction_at(observer, {x + 0.5, y + 0.5});
+                ++(is_rounded(scene, seen, point) ? errors.rounded : errors.wrong);
                 continue;
             }
             if (object < 0) continue;
@@ -160,6 +193,7 @@ TEST(Pairs, ShowTheObjectThatIsThere) {
             fmt::print("{}\n", what);
             EXPECT_GT(e.shown, 900u) << what;
             EXPECT_EQ(e.wrong, 0u) << what;
+            EXPECT_EQ(e.rounded, 0u) << what;
             const bool exact = first == second && std::string(first) == "exact";
             EXPECT_LT(e.rms, exact ? 1e-4 : 0.1) << what;
         }
@@ -185,11 +219,16 @@ TEST(Pairs, SmoothOnesConvergeBesideTheirBorders) {
     }
 }
 
+/// A smooth solid's edge that looks out of another surface by less than a voxel may be missing in
+/// so many pixels of a picture.
+constexpr size_t kMaxRounded = 1;
+
 TEST(Pairs, RandomOnesShowTheObjectThatIsThere) {
     constexpr uint32_t kSeed = 20;
     std::mt19937 random(kSeed);
     const int pairs = is_exhaustive() ? 100 : 16;
     double worst = 0;
+    size_t rounded = 0, shown = 0;
     for (int i = 0; i < pairs; ++i) {
         const char* second_surface = random() % 3 == 0 ? "exact" : "smooth";
         const auto first = random_solid(random, "smooth");
@@ -201,10 +240,13 @@ TEST(Pairs, RandomOnesShowTheObjectThatIsThere) {
                                   first[1], second[1]),
                       0.5);
         EXPECT_EQ(e.wrong, 0u) << "seed " << kSeed << ", pair " << i << ", " << second_surface;
+        EXPECT_LE(e.rounded, kMaxRounded) << "seed " << kSeed << ", pair " << i;
+        rounded += e.rounded, shown += e.shown;
         EXPECT_LT(e.rms, 0.1) << "seed " << kSeed << ", pair " << i << ", " << second_surface;
         worst = std::max(worst, e.rms);
     }
-    fmt::print("{} pairs, rms at most {:.2e} voxel\n", pairs, worst);
+    fmt::print("{} pairs, rms at most {:.2e} voxel; {} of {} pixels lack an edge\n", pairs, worst,
+               rounded, shown);
 }
 
 /// How far a surface may be from where its solid is.
@@ -220,6 +262,7 @@ TEST(Pairs, RandomOnesOfBothSurfacesShowTheObjectThatIsThere) {
     constexpr uint32_t kSeed = 21;
     std::mt19937 random(kSeed);
     const int pairs = is_exhaustive() ? 100 : 1;
+    size_t rounded = 0, shown = 0;
     for (const SurfaceSlack& a : kSurfaceSlacks)
         for (const SurfaceSlack& b : kSurfaceSlacks)
             for (int i = 0; i < pairs; ++i) {
@@ -234,8 +277,11 @@ TEST(Pairs, RandomOnesOfBothSurfacesShowTheObjectThatIsThere) {
                 const std::string what = fmt::format("seed {}, {} and {}, pair {}: rms {:.2e}",
                                                      kSeed, a.name, b.name, i, e.rms);
                 EXPECT_EQ(e.wrong, 0u) << what;
+                EXPECT_LE(e.rounded, kMaxRounded) << what;
                 EXPECT_LT(e.rms, std::max(a.rms, b.rms)) << what;
+                rounded += e.rounded, shown += e.shown;
             }
+    fmt::print("{} pairs of each: {} of {} pixels lack an edge\n", pairs, rounded, shown);
 }
 
 }  // namespace
