@@ -98,6 +98,7 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "render so many views around the scene; {view} in an output's name becomes the "
                    "number")
         ->check(in_range(1, 10000, Number::whole));
+    add_quilt_options(app, command.quilt);
     app.add_option("--sweep", command.sweeps,
                    "render the scene with each of the values, PATH=V1,V2 or PATH=[1,2],[3,4]; the "
                    "path's last key in braces, or {sweep}, in an output's name becomes the value "

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/quilt.hpp"
 #include "cli/scene_options.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name
@@ -20,6 +21,7 @@ struct RenderCommand {
     std::vector<std::string> sweeps;  ///< PATH=V1,V2
     int views = 0;                    ///< around the scene; 0: the scene's own alone
     std::vector<std::string> outputs, volumes;
+    QuiltChoices quilt;
     std::string frames;
     std::string crop;   ///< X,Y,WIDTH,HEIGHT; empty: all of the image
     std::string shard;  ///< I/N; empty: all of the run

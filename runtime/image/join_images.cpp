@@ -76,4 +76,37 @@ Image join_images(std::vector<Image> parts) {
     return image;
 }
 
+namespace {
+
+/// Copies the planes of a view to columns and rows from `first` on.
+template <class Value>
+void place(const Image& view, std::map<std::string, Plane<Value>> Image::*planes,
+           const glm::ivec2& first, Image& quilt) {
+    for (const auto& [name, plane] : view.*planes) {
+        Plane<Value>& whole = (quilt.*planes)[name];
+        if (whole.empty()) whole = std::vector<Value>(size_t(quilt.width) * size_t(quilt.height));
+        for (int row = 0; row < view.height; ++row)
+            std::copy_n(plane.begin() + ptrdiff_t(row) * view.width, view.width,
+                        whole.begin() + ptrdiff_t(first.y + row) * quilt.width + first.x);
+    }
+}
+
+}  // namespace
+
+Image quilt_of(const std::vector<std::shared_ptr<const Image>>& views, int columns) {
+    const glm::ivec2 size(views.front()->width, views.front()->height);
+    const int rows = (int(views.size()) + columns - 1) / columns;
+    Image quilt;
+    quilt.width = size.x * columns;
+    quilt.height = size.y * rows;
+    quilt.attributes = views.front()->attributes;
+    for (size_t i = 0; i < views.size(); ++i) {
+        const int row = int(i) / columns, column = int(i) % columns;
+        const glm::ivec2 first(column * size.x, (rows - 1 - row) * size.y);
+        place(*views[i], &Image::planes, first, quilt);
+        place(*views[i], &Image::id_planes, first, quilt);
+    }
+    return quilt;
+}
+
 }  // namespace voxelume

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// parts of a picture -> the picture.
+// parts of a picture -> the picture; views -> their quilt.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "runtime/image/image.hpp"
@@ -14,5 +15,9 @@ namespace voxelume {
 /// Throws Error::input for parts of different pictures, columns or channels, and for rows that two
 /// parts have or that none between them has.
 Image join_images(std::vector<Image> parts);
+
+/// The quilt of views of one size and of the same channels, `columns` to a row: the first one is at
+/// the bottom left, and the last one at the top right.
+Image quilt_of(const std::vector<std::shared_ptr<const Image>>& views, int columns);
 
 }  // namespace voxelume

@@ -62,6 +62,24 @@ Image render_image(const Scene& scene, const std::vector<Device>& devices, int f
 Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int frame = 1,
                      const RenderOptions& options = {}, Statistics* statistics = nullptr);
 
+/// Views of a light-field display: from places in a row, through one window.
+struct Quilt {
+    int columns = 8, rows = 6;  ///< of views in the image; at most 1,000 views in all
+    double cone = 40;           ///< degrees between the outermost places, as seen from the window
+    double focus = 0;  ///< metres before the observer to the window, where what is seen lies in the
+                       ///< screen; 0: to what the observer looks at
+};
+
+/// What the names of a quilt's files end with before ".png", by which players know it: its columns,
+/// its rows and the proportions of its views, as in "_qs8x6a0.75".
+std::string quilt_suffix(const Quilt& quilt, Size view);
+
+/// Renders a frame's views and lays them beside one another: the leftmost at the bottom left, the
+/// rightmost at the top right. The scene's image is the size of one. The observer needs a display
+/// that is a pyramid. Throws as render_image does, and Error::usage for other quilts or observers.
+Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
+                   int frame = 1, const RenderOptions& options = {});
+
 /// A frame that was rendered. What the job doesn't ask for is empty.
 struct RenderedFrame {
     int frame = 1;                   ///< its number

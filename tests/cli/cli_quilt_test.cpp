@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quilts on the command line.
+#include "runtime/io/image/exr.hpp"
+#include "tests/cli/scene_program.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+
+class CliQuiltTest : public SceneProgramTest {};
+
+TEST_F(CliQuiltTest, ViewsLieFromTheBottomLeftToTheTopRight) {
+    const ProgramResult result =
+        run("render scene.json -o q.exr -o q.png --quilt 2x2 --cone 50 --channels RGBA,objectId");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("quilt of 4 views of 20x12"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "q_qs2x2a1.667.png"));
+    const Image quilt = read_exr(folder / "q_qs2x2a1.667.exr");
+    ASSERT_EQ(quilt.width, 40);
+    ASSERT_EQ(quilt.height, 24);
+    // The leftmost observer sees the left side of the box: its middle stays in the screen, and its
+    // back, behind the screen, goes to the right as the observer does.
+    const auto sum_of_columns = [&](int column, int row) {
+        double sum = 0, count = 0;
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 20; ++x)
+                if (quilt.id_planes.at("objectId")[size_t((row + y) * 40 + column + x)] == 1)
+                    sum += x, ++count;
+        return sum / count;
+    };
+    ASSERT_EQ(run("render scene.json -o one.exr --quilt 1x1 --channels RGBA,objectId").exit_code,
+              0);
+    ASSERT_EQ(run("render scene.json -o alone.exr --channels RGBA,objectId").exit_code, 0);
+    EXPECT_EQ(read_exr(folder / "one_qs1x1a1.667.exr").planes,
+              read_exr(folder / "alone.exr").planes);
+    const std::vector<double> middles = {sum_of_columns(0, 12), sum_of_columns(20, 12),
+                                         sum_of_columns(0, 0), sum_of_columns(20, 0)};
+    for (const double middle : middles) EXPECT_NEAR(middle, 9.5, 1.5);
+    const auto tile = [&](int column, int row) {
+        std::vector<float> values;
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 20; ++x)
+                values.push_back(quilt.planes.at("G")[size_t((row + y) * 40 + column + x)]);
+        return values;
+    };
+    EXPECT_NE(tile(0, 12), tile(20, 12));
+    EXPECT_NE(tile(0, 12), tile(20, 0));
+}
+
+TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
+    for (const char* option : {"--crop 0,0,4,4", "--shard 1/2", "--noise 0.1", "--resume",
+                               "--stats-json s.json", "--volume v.vdb"})
+        EXPECT_THAT(
+            expect_failure(2, fmt::format("render scene.json -o q.png --quilt 2x2 {}", option)),
+            HasSubstr("can't be had of a quilt"));
+    for (const char* views : {"0x2", "2", "2x", "99x99", "x2", "2x2x2"})
+        EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o q.png --quilt {}", views)),
+                    HasSubstr("COLUMNSxROWS"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o - --quilt 2x2"), HasSubstr("needs a name"));
+}
+
+}  // namespace voxelume
