@@ -36,13 +36,14 @@
 // | know what can render here          | list_devices, Device::open                | device.hpp  |
 // | have a scene                       | Scene::load, Scene::parse, Scene::build   | scene.hpp   |
 // | show a model file without a scene  | scene_of_file, import_file                | import.hpp  |
-// | show voxels that are in memory      | scene_of_voxels, SceneOptions::voxels     | import.hpp  |
+// | show voxels that are in memory     | scene_of_voxels, SceneOptions::voxels     | import.hpp  |
 // | know whether it fits               | plan                                      | plan.hpp    |
 // | have one image or volume in memory | render_image, render_volume               | render.hpp  |
 // | render many frames, or to files    | render_frames                             | render.hpp  |
 // | read, write and compare images     | Image::read, Image::write, compare        | image.hpp   |
 // | read, write and view volumes       | Volume::read, Volume::write, Volume::view | volume.hpp  |
-// | turn a mesh into voxels            | voxelize, describe_file                   | files.hpp   |
+// | have views for a light field       | render_quilt                              | render.hpp  |
+// | turn a mesh or scene into voxels   | voxelize, voxelize_scene, describe_file   | files.hpp   |
 //
 // Units. Lengths are metres, angles degrees, colours linear Rec. 709, radiance is in the scene's
 // own units. Axes are right-handed with Y up.
