@@ -72,7 +72,7 @@ constexpr const char* kLattice = R"({"voxelume": 1,
 // Meshes with textures, groups and normals of their own; cuts in them; an open one.
 constexpr const char* kMeshes = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1.2, 1, 1]}},
-"materials": {"clay": {"color": [0.8, 0.6, 0.4]}},
+"materials": {"clay": {"color": [0.8, 0.6, 0.4]}, "glow": {"emission": [0.9, 0.4, 0.2]}},
 "models": {"tinted": {"mesh": "textured.gltf", "surface": "cubes", "normals": "surface"},
            "sheet": {"mesh": "textured.gltf", "surface": "exact"},
            "notch": {"mesh": "textured.gltf", "surface": "cubes", "normals": "surface",
@@ -85,7 +85,7 @@ constexpr const char* kMeshes = R"({"voxelume": 1,
             {"model": "sheet", "position": [0.1, 0.3, 0.2], "turn": [30, 20, 0]},
             {"model": "sheet", "position": [-0.2, -0.9, 0.3], "placement": "instance"},
             {"model": "notch", "position": [0.5, -0.3, 0], "turn": [200, 0, 0]},
-            {"model": "bite", "position": [-0.5, -0.6, 0.2]},
+            {"model": "bite", "material": "glow", "position": [-0.5, -0.6, 0.2]},
             {"model": "bowl", "material": "clay", "position": [0.6, 0.4, 0.1]},
             {"model": "orb", "material": "clay", "position": [0.8, -0.6, 0.4]}],
 "lights": [{"type": "directional", "direction": [1, -1, 1], "group": "key"}],
@@ -114,7 +114,7 @@ constexpr const char* kFog = R"("medium": {"absorption": [0.3, 0.2, 0.1],
                                 "density": {"kind": "height", "base": 0.1, "scale_height": 0.5}},
           )";
 
-// Half of a tetrahedron has a texture of four half transparent pixels.
+// Half of a tetrahedron has a texture of four half transparent pixels, by which it glows, too.
 constexpr const char* kTextured =
     R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":152,"uri":"data:application/octet-stream;b)"
     R"(ase64,AAAAAAAAAAAAAAAAAAAAPwAAAAAAAAAAAAAAAAAAAD8AAAAAAAAAAAAAAAAAAAA/Os0TvzrNE786zRO/AACAPwAA)"
@@ -127,8 +127,8 @@ constexpr const char* kTextured =
     R"(,"componentType":5123,"count":6,"type":"SCALAR"},{"bufferView":3,"byteOffset":12,"componentTyp)"
     R"(e":5123,"count":6,"type":"SCALAR"}],"images":[{"uri":"data:image/png;base64,iVBORw0KGgoAAAANSU)"
     R"(hEUgAAAAIAAAACCAYAAABytg0kAAAAG0lEQVR42mM4oaHRoHFC4z+DhsaJ/3fu2DQAAENHCDtARFACAAAAAElFTkSuQmCC)"
-    R"("}],"textures":[{"source":0}],"materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseC)"
-    R"(olorTexture":{"index":0}}},{"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.6,0.2,1],"metalli)"
+    R"("}],"textures":[{"source":0}],"materials":[{"alphaMode":"BLEND","emissiveFactor":[1,1,1],)"
+    R"("emissiveTexture":{"index":0},"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},{"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.6,0.2,1],"metalli)"
     R"(cFactor":0}}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},)"
     R"("indices":3,"material":0},{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":4,")"
     R"(material":1}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]})";
@@ -167,7 +167,7 @@ std::vector<KnownPicture> known_pictures() {
         {"matt", kMatt, false, "105c18b0f243990d"},
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "5177d8b338a1e18f"},
         {"global light", with(kLocal, {{"LIGHT", "global"}}), false, "1580ec99b3ef267d"},
-        {"meshes", kMeshes, false, "fda3a749a3b575ab"},
+        {"meshes", kMeshes, false, "d0f5f6be5e68e8f8"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},
         {"clear rays", lattice("default", "rays", "observer", ""), true, "10c69d6634bd4439"},

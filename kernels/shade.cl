@@ -26,6 +26,14 @@
 #else
 #define VXL_FOOTPRINT_PARAMETER
 #endif
+#if VXL_SOURCE_MESHES
+#define VXL_SOURCE_PARAMETERS \
+    global const SourceRecord *restrict source_objects, global const uint *restrict source_words,
+#define VXL_SOURCE_VIEW {source_objects, source_words}
+#else
+#define VXL_SOURCE_PARAMETERS
+#define VXL_SOURCE_VIEW {0, 0}
+#endif
 
 /// The points where rays met their surfaces: the place in the voxel, and the unit normal in
 /// metric space.
@@ -210,7 +218,8 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 /// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           VXL_SKY_PARAMETERS VXL_SKY_DEPTH_PARAMETER VXL_EMITTER_PARAMETERS
-                              VXL_FOOTPRINT_PARAMETER global const float* restrict materials,
+                              VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS
+                                  global const float* restrict materials,
                           global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
@@ -233,8 +242,9 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
     lane_float glow[3];  // what maps multiply emission by
 #if VXL_TEXTURES
-    paint_hits(&world, &h, &footprint, position, p.normal, materials, material, &batch, first,
-               glow);
+    const SourceMeshes sources = VXL_SOURCE_VIEW;
+    paint_hits(&world, &sources, &h, &footprint, position, p.normal, materials, material, &batch,
+               first, glow);
 #endif
     const Colors own = colors_of_hits(colors, h.voxel, paint, first);
     lane_float opacity = surface_opacity(materials, material, own);

@@ -64,6 +64,28 @@ void add_material_warning(const Object& object, const Model& model, const MeshSu
              warnings);
 }
 
+/// What of the textures a surface doesn't show; empty if it shows all.
+std::string missed_of_textures(const MeshPaint& paint, Surface surface) {
+    const bool is_cubes = shows_voxels(surface);
+    const bool maps = is_cubes && paint.mapped > 0,
+               alpha = surface != Surface::exact && paint.has_alpha;
+    if (maps && alpha) return "the alpha, roughness, metalness and emission of its textures aren't";
+    if (maps) return "the roughness, metalness and emission of its textures aren't";
+    return alpha ? "the alpha of its textures isn't" : "";
+}
+
+void add_texture_warning(const Model& model, const MeshPaint& paint,
+                         std::vector<Warning>& warnings) {
+    const std::string missed = missed_of_textures(paint, model.surface);
+    if (missed.empty()) return;
+    const bool wants_exact = paint.has_alpha;
+    add_once({WarningKind::ignored_materials, model.where,
+              fmt::format("{}: {} shown on \"{}\": give the model \"surface\": {}",
+                          quote(model.mesh.filename().string()), missed, kind_of(model.surface).name,
+                          wants_exact ? "\"exact\"" : "\"smooth\" or \"exact\"")},
+             warnings);
+}
+
 }  // namespace
 
 void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
@@ -73,6 +95,7 @@ void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& mes
     const MeshSummary& mesh = *meshes.summary_of(model);
     if (needs_inside(scene, object)) add_topology_warnings(model, mesh, warnings);
     add_material_warning(object, model, mesh, warnings);
+    add_texture_warning(model, mesh.paint, warnings);
 }
 
 }  // namespace voxelume

@@ -149,7 +149,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
         voxels.medium_set_capped = all.medium_set_capped;
     }
     voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
-    voxels.textures = voxels.texture_alpha = voxels.texture_maps = false;
+    voxels.leave_out_textures();
     return voxels;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernels/shared/instance.h"
+#include "kernels/shared/source_mesh.h"
 #include "runtime/grid/grid_frame.hpp"
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/scene/surface.hpp"
@@ -98,6 +99,14 @@ struct InstanceSet {
     bool empty() const { return list.empty(); }
 };
 
+/// The meshes of smooth objects with textures, for rays that meet these objects; empty if no object
+/// has one.
+struct SourceMeshes {
+    Buffer<uint32_t> words;        ///< see shared/source_mesh.h
+    Buffer<SourceRecord> objects;  ///< by the objects' numbers in the scene
+    bool has_maps = false;         ///< true if one of their textures has maps
+};
+
 /// The sparse 64-ary occupancy pyramid that rays traverse without a stack.
 ///
 /// `sectors` is dense; everything below is left-packed in ascending order, so empty space costs
@@ -137,6 +146,7 @@ struct Pyramid {
     bool texture_alpha = false, texture_maps = false;
     Buffer<uint32_t> solids;
     InstanceSet instances;
+    SourceMeshes sources;
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
                                          ///< unknown
     bool clear = false;  ///< true if the space between them is known to hold no medium

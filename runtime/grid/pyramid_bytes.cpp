@@ -40,6 +40,8 @@ uint64_t bytes_of(const Pyramid& pyramid) {
         visit("", pyramid.instances.records);
         visit("", pyramid.instances.nodes);
         visit("", pyramid.instances.materials);
+        visit("", pyramid.sources.words);
+        visit("", pyramid.sources.objects);
     });
 }
 

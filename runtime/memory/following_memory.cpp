@@ -6,6 +6,7 @@
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_image.hpp"
+#include "runtime/memory/count_sources.hpp"
 #include "runtime/memory/counted_grids.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -46,6 +47,7 @@ class FollowingWalk {
     FollowingWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
                   const DensityPlan& medium)
         : scene_(scene),
+          meshes_(meshes),
           objects_(objects),
           medium_(medium),
           changes_(changes_of(scene)),
@@ -53,6 +55,7 @@ class FollowingWalk {
 
     double run() {
         const CountedInstances instances = grids_.instances();
+        SourceMeshes sources = count_sources(device_, scene_, meshes_);
         const std::vector<PlacedObject> placed = grids_.placed();
         const WorldCounts counts = objects_.world(Estimate::expected);
         const GridFrame frame = world_frame(scene_.world);
@@ -61,6 +64,7 @@ class FollowingWalk {
         std::vector<ModelPyramid> kept;
         Pyramid joined =
             count_joining(device_, instances.listed, indexed.pyramid, instances.models, kept);
+        joined.sources = std::move(sources);
         joined.object_boxes = objects_.boxes();
         joined.clear = medium_.is_zero;
         const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
@@ -98,6 +102,7 @@ class FollowingWalk {
     }
 
     const Scene& scene_;
+    AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Changes changes_;

@@ -9,6 +9,7 @@
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_display.hpp"
 #include "runtime/memory/count_image.hpp"
+#include "runtime/memory/count_sources.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/stages/trace/sight.hpp"
@@ -21,6 +22,7 @@ class FrameWalk {
     FrameWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
               const DensityPlan& medium, Estimate estimate)
         : scene_(scene),
+          meshes_(meshes),
           objects_(objects),
           medium_(medium),
           estimate_(estimate),
@@ -39,10 +41,12 @@ class FrameWalk {
     /// Follows WorldBuilder::form.
     Pyramid form() {
         const CountedInstances instances = grids_.instances();
+        SourceMeshes sources = count_sources(device_, scene_, meshes_);
         const CountedPyramid placed = form_placed();
         std::vector<ModelPyramid> kept;
         Pyramid joined =
             count_joining(device_, instances.listed, placed.pyramid, instances.models, kept);
+        joined.sources = std::move(sources);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);
@@ -103,6 +107,7 @@ class FrameWalk {
     }
 
     const Scene& scene_;
+    AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Estimate estimate_;

@@ -181,9 +181,10 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     image_.reset();
     const Pyramid& world = built.pyramid;
     Features features = features_of(scene, world);
-    if (is_white_)
-        features.colors = features.textures = features.texture_alpha = features.texture_maps =
-            false;
+    if (is_white_) {
+        features.colors = false;
+        features.leave_out_textures();
+    }
     const Camera observer = camera_of(scene, world.frame);
 
     const uint32_t all_tiles = tiles.share.tiles();

@@ -17,9 +17,10 @@ struct Features {
     bool field_lists = false;     ///< some voxel lists the distance fields in it
     bool attributes = false;      ///< voxels differ in object, material or kind
     bool colors = false;          ///< voxels have colours of their own
-    bool textures = false;        ///< some triangle wears a texture
-    bool texture_alpha = false;   ///< ... whose alpha counts
-    bool texture_maps = false;    ///< ... that has maps
+    bool worn_triangles = false;  ///< some exact triangle wears a texture
+    bool source_meshes = false;   ///< some smooth object shows the textures of its mesh
+    bool texture_alpha = false;   ///< the alpha of some triangle's texture counts
+    bool texture_maps = false;    ///< some texture has maps
     bool medium = false;          ///< the environment absorbs light
     bool medium_grid = false;     ///< ... and its density varies
     bool medium_colors = false;   ///< ... and so does its colour
@@ -61,6 +62,11 @@ struct Features {
     friend bool operator==(const Features&, const Features&) = default;
 
     bool exact() const { return triangles || solids; }
+    /// Whether hits have colours of their own.
+    bool textures() const { return worn_triangles || source_meshes; }
+    void leave_out_textures() {
+        worn_triangles = source_meshes = texture_alpha = texture_maps = false;
+    }
     /// Whether paths send rays to emitters or to the sky.
     bool looks() const { return emitters != 0 || sky_rays != 0; }
     /// Whether light falls by normals that aren't those of the surfaces that rays meet.
@@ -81,7 +87,9 @@ struct Features {
                 {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
-                {"VXL_TEXTURES", textures},
+                {"VXL_TEXTURES", textures()},
+                {"VXL_WORN_TRIANGLES", worn_triangles},
+                {"VXL_SOURCE_MESHES", source_meshes},
                 {"VXL_TEXTURE_ALPHA", texture_alpha},
                 {"VXL_TEXTURE_MAPS", texture_maps},
                 {"VXL_MEDIUM", medium},

@@ -20,7 +20,7 @@ enum class WarningKind {
     open_mesh,            ///< a mesh has holes, and its surface or material needs an inside
     inside_out_mesh,      ///< a mesh's faces turn inwards, likewise
     unlikely_unit,        ///< a mesh is far larger or smaller than the world
-    ignored_materials,    ///< a material library or textures that a mesh's file names aren't shown
+    ignored_materials,    ///< a mesh's material library or textures, or parts of them, aren't shown
     world_not_cached,     ///< the world is too large to be kept on disk
     cache_not_writable    ///< nothing can be kept on disk
 };

@@ -155,11 +155,14 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
 
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
+    SourceMeshes sources;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
         listed = list_instances(scene, meshes_, [&](const Object&, const Model& model) {
             return grids_->own_grid_of(model);
         });
+        sources = sources_.meshes_of(scene, meshes_, listed);
+        if (!keeps_) sources_.forget();
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     BuiltWorld built{kept_or_new_world({scene, retained, keeps_, room, report}, indexer),
@@ -176,6 +179,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
     built.pyramid.object_boxes = std::move(boxes);
+    built.pyramid.sources = std::move(sources);
     built.pyramid.clear = plan.medium.is_zero;
     device_.finish();
     indexing.stop();

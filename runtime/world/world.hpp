@@ -13,6 +13,7 @@
 #include "runtime/stages/place/placed_world.hpp"
 #include "runtime/world/grid_cache.hpp"
 #include "runtime/world/instances.hpp"
+#include "runtime/world/source_meshes.hpp"
 
 namespace voxelume {
 
@@ -66,7 +67,8 @@ class WorldBuilder {
           follows_(follows),
           meshes_(std::move(meshes)),
           indexer_(device),
-          models_(device) {}
+          models_(device),
+          sources_(device) {}
 
     /// Builds S from the scene's objects. Models that no object shows inside the world are not
     /// read.
@@ -135,6 +137,7 @@ class WorldBuilder {
     Indexer indexer_;
     std::optional<Origin> origin_;
     InstanceModels models_;
+    SourceMeshCache sources_;
     std::vector<InstancePlace> instance_places_;
     InstanceReport instances_;
     BuiltWorld world_;

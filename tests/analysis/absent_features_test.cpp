@@ -98,6 +98,7 @@ const std::set<std::string> kRemoved = {"lib/surface/smooth.h",
                                         "lib/surface/begin_inside.h",
                                         "lib/surface/shading_normal.h",
                                         "lib/surface/paint.h",
+                                        "lib/surface/source_mesh.h",
                                         "lib/surface/texture_mean.h",
                                         "lib/surface/texture_alpha.h",
                                         "lib/surface/texture_maps.h",
@@ -176,7 +177,7 @@ TEST(AbsentFeatures, ArePhysicalSurfacesInGlobalLightWithoutThem) {
 
 TEST(AbsentFeatures, AreMapsOfTexturesInScenesWithoutThem) {
     Features features = plain_features();
-    features.triangles = features.textures = true;
+    features.triangles = features.worn_triangles = true;
     const Source source("shade.cl", {"shade_surface"}, {"lib/surface/texture_maps.h"});
     EXPECT_GE(source.gutted_functions(), 4u);
     Program::from_text(shared_device(), source.text(), features.defines(shared_device()))
@@ -185,6 +186,21 @@ TEST(AbsentFeatures, AreMapsOfTexturesInScenesWithoutThem) {
     EXPECT_THROW(
         Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
         Error);
+}
+
+TEST(AbsentFeatures, AreSourceMeshesInScenesOfExactTexturesAlone) {
+    Features features = plain_features();
+    features.triangles = features.smooth = features.worn_triangles = true;
+    const Source source("shade.cl", {"shade_surface"}, {"lib/surface/source_mesh.h"});
+    EXPECT_GE(source.gutted_functions(), 8u);
+    Program::from_text(shared_device(), source.text(), features.defines(shared_device()))
+        .kernel("shade_surface");
+    const int fewer = parameters_of("shade.cl", "shade_surface", features);
+    features.source_meshes = true;
+    EXPECT_THROW(
+        Program::from_text(shared_device(), source.text(), features.defines(shared_device())),
+        Error);
+    EXPECT_EQ(parameters_of("shade.cl", "shade_surface", features), fewer + 2);
 }
 
 TEST(AbsentFeatures, TakeNoArgumentsOfKernels) {

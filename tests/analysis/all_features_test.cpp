@@ -46,6 +46,7 @@ std::string scene_text(const std::string& light) {
                    "normals": "surface"},
            "floor": {"shape": "box", "size": [2.8, 0.2, 3], "surface": "cubes"},
            "thing": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
+           "slick": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "smooth"},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(
@@ -56,6 +57,7 @@ std::string scene_text(const std::string& light) {
             {"model": "ice", "material": "glow", "position": [0.9, 0.6, 0.4]},
             {"model": "ice", "material": "brass", "position": [0.9, -0.5, 0.9]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
+            {"model": "slick", "material": "glow", "position": [-0.6, 0.6, 0.4]},
             {"model": "lens", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
 "lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
@@ -126,6 +128,8 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     // The kernels that list the lamp's surface are a program of their own: rays don't need them.
     const Program lists(device, "light_samples.cl",
                         features_of(scene, world.pyramid).defines(device));
+    // So is the one that finds how bright its map is there.
+    if (!is_global) Program(device, "glow.cl", features_of(scene, world.pyramid).defines(device));
     const uint64_t before = counters.programs_built;
     const Image image = Renderer(device, false).new_image(scene, world, report);
     EXPECT_EQ(counters.programs_built - before, 1u);
@@ -133,7 +137,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
                                "shade_surface", "trace_shadows", "absorb_sight", "list_emissive"})
         EXPECT_GT(counters.launches[kernel], 0u) << kernel;
     for (const char* kernel :
-         {"add_light", "pass_layer", "scatter_rays", "gather_light", "add_sky_light"})
+         {"add_light", "pass_layer", "scatter_rays", "gather_light", "add_sky_light", "find_glow"})
         EXPECT_EQ(counters.launches[kernel] > 0, !is_global) << kernel;
     for (const char* kernel : {"add_area_light", "extend_paths"})
         EXPECT_EQ(counters.launches[kernel] > 0, is_global) << kernel;

@@ -2,7 +2,9 @@
 // What is said of meshes: their unit, holes, faces, materials; and that it is read once.
 #include "runtime/analysis/mesh_warnings.hpp"
 
+#include "runtime/io/image/png.hpp"
 #include "tests/analysis/warned_scene.hpp"
+#include "tests/support/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {
@@ -87,6 +89,49 @@ TEST_F(MeshWarnings, NameMaterialsThatAreNotRead) {
     EXPECT_EQ(warnings()[0].text, "\"m.obj\": its texture \"wood.png\" isn't in its folder");
     put_bytes(folder / "wood.png", "no picture");
     EXPECT_THAT(warnings()[0].text, HasSubstr("neither PNG nor JPEG"));
+}
+
+/// A glTF tetrahedron with a texture of one pixel.
+std::string textured_gltf(const nlohmann::json& material) {
+    GltfWriter writer;
+    const int p =
+        writer.accessor(std::vector<float>{0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f}, "VEC3", 3);
+    const int t = writer.accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, "VEC2", 2);
+    const int i =
+        writer.accessor(std::vector<uint16_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, "SCALAR", 1);
+    Image texel{1, 1, {}, {}, {}};
+    for (const char* channel : {"R", "G", "B"}) texel.planes[channel] = Plane<float>{0.5f};
+    writer.json["images"] = {
+        {{"uri", "data:image/png;base64," + GltfWriter::base64(png_bytes(texel, {}))}}};
+    writer.json["textures"] = {{{"source", 0}}};
+    writer.json["materials"] = {material};
+    writer.show(p, t, i);
+    return writer.gltf();
+}
+
+TEST_F(MeshWarnings, NameWhatASurfaceDoesNotShowOfTextures) {
+    const nlohmann::json texture = {{"index", 0}};
+    const nlohmann::json plain = {{"pbrMetallicRoughness", {{"baseColorTexture", texture}}}};
+    nlohmann::json mapped = plain, clear = plain;
+    mapped["pbrMetallicRoughness"]["metallicRoughnessTexture"] = texture;
+    clear["alphaMode"] = "BLEND";
+    const std::string maps =
+        "\"m.gltf\": the roughness, metalness and emission of its textures aren't shown on "
+        "\"cubes\": give the model \"surface\": \"smooth\" or \"exact\"";
+    const std::string alpha =
+        "\"m.gltf\": the alpha of its textures isn't shown on \"smooth\": give the model "
+        "\"surface\": \"exact\"";
+    const std::tuple<nlohmann::json, const char*, std::string> cases[] = {
+        {plain, "cubes", ""},     {mapped, "cubes", maps}, {mapped, "smooth", ""},
+        {clear, "smooth", alpha}, {clear, "exact", ""},    {mapped, "exact", ""}};
+    for (const auto& [material, surface, text] : cases) {
+        put_bytes(folder / "m.gltf", textured_gltf(material));
+        json["models"]["ball"] = {{"mesh", "m.gltf"}, {"surface", surface}};
+        const std::vector<Warning> found = warnings();
+        ASSERT_EQ(found.size(), text.empty() ? 0u : 1u) << material << surface;
+        if (text.empty()) continue;
+        EXPECT_EQ(found[0].text, text);
+    }
 }
 
 TEST_F(MeshWarnings, NameATextureOfPly) {

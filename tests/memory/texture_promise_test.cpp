@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `check` promises of the memory of textures that exact meshes wear, which copies share.
+// What `check` promises of the memory of textures that meshes wear, which copies share.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,6 +22,11 @@ class TexturePromise : public FileTest {
         put_bytes(folder / "sheet.obj",
                   "mtllib sheet.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvt 0 0\nvt 1 1\n"
                   "usemtl m\nf 1/1 4/2 3/1\nf 1 3 2\n");
+        put_bytes(folder / "slab.obj",
+                  "mtllib sheet.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 -0.5 -1\n"
+                  "v 1 -0.5 -1\nv 1 -0.5 1\nv -1 -0.5 1\nvt 0 0\nvt 1 1\nusemtl m\n"
+                  "f 1/1 4/2 3/1 2/2\nf 5/1 6/2 7/1 8/2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n"
+                  "f 4 1 5 8\n");
         put_bytes(folder / "sheet.mtl", "newmtl m\nmap_Kd sheet.png\n");
         Image image{1024, 512, {}, {}, {}};
         for (const char* channel : {"R", "G", "B"})
@@ -29,7 +34,8 @@ class TexturePromise : public FileTest {
         write_png(folder / "sheet.png", image);
     }
 
-    Scene copies(const char* placement, int count) const {
+    Scene copies(const char* placement, int count, const char* mesh = "sheet",
+                 const char* surface = "exact") const {
         std::string objects;
         for (int i = 0; i < count; ++i)
             objects +=
@@ -39,15 +45,33 @@ class TexturePromise : public FileTest {
             fmt::format(
                 R"({{"voxelume": 1, "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1.1, -0.1, -1.1], "max": [1.1, 0.9, 1.1]}}}},
 "materials": {{"default": {{}}}},
-"models": {{"sheet": {{"mesh": "sheet.obj", "surface": "exact", "voxel_size": 0.05}}}},
+"models": {{"sheet": {{"mesh": "{}.obj", "surface": "{}", "voxel_size": 0.05}}}},
 "objects": [{}], "lights": [],
 "observer": {{"position": [0.2, 1.5, -2.5], "look_at": [0, 0.2, 0],
              "display": {{"shape": "pyramid", "angles": [50, 40]}}}},
 "render": {{"size": [64, 48]}}}})",
-                objects),
+                mesh, surface, objects),
             folder / "scene.json", {});
     }
 };
+
+TEST_F(TexturePromise, IsKeptForSmoothCopies) {
+    for (const char* placement : {"world", "instance"}) {
+        Scene scene = copies(placement, 2, "slab", "smooth");
+        const Device device = test_device();
+        AssetStore meshes;
+        find_potentially_visible(scene, std::vector<int>{1}, meshes);
+        const FramePlan planned = plan_frames(scene, std::vector<int>{1}, meshes, device.info());
+        const double promise = planned.plan.run_bytes(1, double(device.info().memory));
+        RenderReport report;
+        render(device, scene, report);
+        const auto fact = double(device.counters().peak_bytes);
+        EXPECT_GE(device.counters().allocated_bytes.at("source meshes"), 1024u * 512 * 4);
+        EXPECT_LT(device.counters().allocated_bytes.at("source meshes"), 1.5 * 1024 * 512 * 4);
+        EXPECT_GE(promise, fact) << placement;
+        EXPECT_LE(promise, 1.5 * fact) << placement;
+    }
+}
 
 TEST_F(TexturePromise, IsKeptForCopiesInTheWorldAndAsInstances) {
     for (const char* placement : {"world", "instance"}) {

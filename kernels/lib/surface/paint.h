@@ -4,13 +4,16 @@
 #ifndef VXL_PAINT_H
 #define VXL_PAINT_H
 
+#include "lib/light/medium_set.h"
 #include "lib/surface/shading_normal.h"
+#include "lib/surface/source_mesh.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_maps.h"
 #include "lib/surface/texture_mean.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/footprint.h"
+#include "shared/paths.h"
 
 /// Where no surface is seen at a smaller angle, for textures: their samples would have no end.
 #define VXL_LEAST_SEEN 0.015625f
@@ -107,37 +110,38 @@ static inline Vector in_hit_voxels(const ShadedHit* h, Vector v, float4 inverse_
     return select_vector(h->of_instance, own, v);
 }
 
-/// Where triangles, whose records of what they wear begin at `worn`, are met, and how far their
-/// places on textures move along `sides`, those of the span on the surface. `share` becomes that of
-/// each corner.
-static inline TextureArea area_of(const WorldView* world, const ShadedHit* h, lane_uint number,
-                                  lane_uint worn, const Vector* sides, const RaySpan* span,
-                                  lane_float* share) {
-    Vector from[3];
-    for (uint i = 0; i < 3; ++i) {
-        const Vector corner = triangle_corner(world->surface.triangles, number, i);
-        from[i] = add_scaled(difference(h->ray.origin, corner), h->ray.direction, h->ray.t);
-    }
-    corner_shares(from, share);
-    const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
-    const Vector n = cross_of(ab, ac);
+/// The triangles whose textures a packet's surfaces show, and where.
+typedef struct {
+    lane_int wears;            // mask: there is one, with a texture
+    lane_uint worn;            // where the record of what it wears begins
+    lane_uint texture;         // where its texture begins
+    Vector ab, ac;             // its sides from the first corner
+    lane_float share[3];       // of each corner in the place
+    const Vector* sides;       // what a ray spans on the surface, in the space of `ab` and `ac`
+    global const uint* words;  // the records
+    global const uint* textures;
+} WornTriangle;
+
+/// Where triangles are met, and how far their places on textures move along the sides of the span.
+static inline TextureArea area_of(const WornTriangle* w, const RaySpan* span) {
+    const Vector n = cross_of(w->ab, w->ac);
     const lane_float squared = dot_product(n, n);
     const lane_int some = LANE_MASK(squared > 0.0f);
     const lane_float inverse = LANES_SELECT(
         some, exact_reciprocal(LANES_SELECT(some, squared, (lane_float)1.0f)), (lane_float)0.0f);
-    global const float* places = (global const float*)world->surface.triangle_textures;
+    global const float* places = (global const float*)w->words;
     lane_float u[3], v[3];
     TextureArea area;
     area.u = area.v = (lane_float)0.0f;
     for (uint i = 0; i < 3; ++i) {
-        u[i] = LANES_GATHER_FLOAT(places, worn + (VXL_WORN_UVS + 2u * i));
-        v[i] = LANES_GATHER_FLOAT(places, worn + (VXL_WORN_UVS + 2u * i + 1u));
-        area.u = fma(share[i], u[i], area.u);
-        area.v = fma(share[i], v[i], area.v);
+        u[i] = LANES_GATHER_FLOAT(places, w->worn + (VXL_WORN_UVS + 2u * i));
+        v[i] = LANES_GATHER_FLOAT(places, w->worn + (VXL_WORN_UVS + 2u * i + 1u));
+        area.u = fma(w->share[i], u[i], area.u);
+        area.v = fma(w->share[i], v[i], area.v);
     }
     for (int i = 0; i < 2; ++i) {
-        const lane_float b = dot_product(cross_of(sides[i], ac), n) * inverse;
-        const lane_float c = dot_product(cross_of(ab, sides[i]), n) * inverse;
+        const lane_float b = dot_product(cross_of(w->sides[i], w->ac), n) * inverse;
+        const lane_float c = dot_product(cross_of(w->ab, w->sides[i]), n) * inverse;
         area.side_u[i] = fma(b, u[1] - u[0], c * (u[2] - u[0]));
         area.side_v[i] = fma(b, v[1] - v[0], c * (v[2] - v[0]));
         area.off[i] = span->off[i];
@@ -146,42 +150,91 @@ static inline TextureArea area_of(const WorldView* world, const ShadedHit* h, la
     return area;
 }
 
-/// The colours of the surfaces in `color`, and their opacity: their voxels', or of those that wear
-/// a texture its mean over what the rays span, times the colour that lies between the corners'.
-/// Where textures have maps, sets their values.
-static inline void paint_of_hits(const WorldView* world, const ShadedHit* h, const RaySpan* span,
-                                 Vector normal, Vector way, lane_float* color, MapValues* maps) {
+/// Replaces the colours of surfaces that wear a texture by its mean over what the rays span, times
+/// the colour that lies between the corners', and sets the values of its maps. Returns the mean of
+/// its alpha.
+static inline lane_float paint_triangles(const WornTriangle* w, const RaySpan* span,
+                                         lane_float* color, MapValues* maps) {
+    lane_float mean[4];
+    const TextureArea area = area_of(w, span);
+    texture_mean(w->textures, w->texture, &area, w->wears, mean);
+    if (VXL_TEXTURE_MAPS) set_maps(w->textures, w->texture, &area, w->wears, maps);
+    global const float* curve = (global const float*)w->textures;
+    lane_uint corner[3];
+    for (uint i = 0; i < 3; ++i)
+        corner[i] =
+            LANES_GATHER_UINT(w->words, w->worn + (VXL_WORN_COLORS + i)) & LANES_AS_UINT(w->wears);
+    for (int c = 0; c < 3; ++c) {
+        lane_float between = (lane_float)0.0f;
+        for (int i = 0; i < 3; ++i)
+            between = fma(w->share[i],
+                          LANES_GATHER_FLOAT(curve, (corner[i] >> (uint)(8 * c)) & 255u), between);
+        color[c] = LANES_SELECT(w->wears, mean[c] * between, color[c]);
+    }
+    return mean[3];
+}
+
+/// Paints hits on exact triangles.
+static inline void paint_exact(const WorldView* world, const ShadedHit* h, const RaySpan* span,
+                               const Vector* sides, lane_float* color, MapValues* maps) {
+    const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
+    const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
+    WornTriangle w;
+    w.words = world->surface.triangle_textures;
+    w.textures = world->surface.textures;
+    w.worn = number * (uint)VXL_WORN_WORDS;
+    w.texture = LANES_GATHER_UINT(w.words, w.worn + (uint)VXL_WORN_TEXTURE);
+    w.wears = triangle & LANE_MASK(w.texture != VXL_NO_TEXTURE);
+    if (!lanes_any(w.wears)) return;
+    Vector from[3];
+    for (uint i = 0; i < 3; ++i) {
+        const Vector corner = triangle_corner(world->surface.triangles, number, i);
+        from[i] = add_scaled(difference(h->ray.origin, corner), h->ray.direction, h->ray.t);
+    }
+    corner_shares(from, w.share);
+    w.ab = difference(from[0], from[1]), w.ac = difference(from[0], from[2]);
+    w.sides = sides;
+    const lane_float alpha = paint_triangles(&w, span, color, maps);
+    if (VXL_TEXTURE_ALPHA)
+        color[VXL_PAINT_OPACITY] = LANES_SELECT(w.wears, alpha, color[VXL_PAINT_OPACITY]);
+}
+
+/// Paints the points `at` of smooth objects by the closest points of their meshes, where lanes
+/// `ask`. Alpha counts for nothing there: a smooth object is a body.
+static inline void paint_smooth(const SourceMeshes* sources, Vector at, lane_uint object,
+                                lane_int ask, const RaySpan* span, const Vector* sides,
+                                lane_float* color, MapValues* maps) {
+    const SourceHit s = closest_of_points(sources, at, object, ask, sides);
+    WornTriangle w;
+    w.words = w.textures = sources->words;
+    w.worn = s.worn;
+    w.texture = LANES_GATHER_UINT(w.words, w.worn + (uint)VXL_WORN_TEXTURE);
+    w.wears = s.found & LANE_MASK(w.texture != VXL_NO_TEXTURE);
+    w.texture += s.textures;
+    if (!lanes_any(w.wears)) return;
+    closest_on_triangle(s.from, w.share);
+    w.ab = difference(s.from[0], s.from[1]), w.ac = difference(s.from[0], s.from[2]);
+    w.sides = s.sides;
+    paint_triangles(&w, span, color, maps);
+}
+
+/// The colours of the surfaces in `color`, and their opacity: their voxels', or those of textures
+/// that they wear. Where textures have maps, sets their values.
+static inline void paint_of_hits(const WorldView* world, const SourceMeshes* sources,
+                                 const ShadedHit* h, const RaySpan* span, Vector normal, Vector way,
+                                 lane_float* color, MapValues* maps) {
     if (VXL_TEXTURE_MAPS) *maps = no_map_values();
     for (int c = 0; c < 3; ++c) color[c] = voxel_color(world->surface.colors, h->voxel, c);
     color[VXL_PAINT_OPACITY] = voxel_opacity(world->surface.colors, h->voxel);
-    const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
-    const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
-    const lane_uint worn = number * (uint)VXL_WORN_WORDS;
-    global const uint* words = world->surface.triangle_textures;
-    const lane_uint texture = LANES_GATHER_UINT(words, worn + (uint)VXL_WORN_TEXTURE);
-    const lane_int wears = triangle & LANE_MASK(texture != VXL_NO_TEXTURE);
-    if (!lanes_any(wears)) return;
     Vector sides[2];
     for (int i = 0; i < 2; ++i)
         sides[i] =
             in_hit_voxels(h, on_surface(span->side[i], normal, way), world->shape.inverse_edge);
-    lane_float share[3], mean[4];
-    const TextureArea area = area_of(world, h, number, worn, sides, span, share);
-    texture_mean(world->surface.textures, texture, &area, wears, mean);
-    if (VXL_TEXTURE_MAPS) *maps = maps_over(world->surface.textures, texture, &area, wears);
-    global const float* curve = (global const float*)world->surface.textures;
-    lane_uint corner[3];
-    for (uint i = 0; i < 3; ++i)
-        corner[i] = LANES_GATHER_UINT(words, worn + (VXL_WORN_COLORS + i)) & LANES_AS_UINT(wears);
-    for (int c = 0; c < 3; ++c) {
-        lane_float between = (lane_float)0.0f;
-        for (int i = 0; i < 3; ++i)
-            between = fma(share[i], LANES_GATHER_FLOAT(curve, (corner[i] >> (uint)(8 * c)) & 255u),
-                          between);
-        color[c] = LANES_SELECT(wears, mean[c] * between, color[c]);
+    if (VXL_WORN_TRIANGLES && lanes_any(h->exact)) paint_exact(world, h, span, sides, color, maps);
+    if (VXL_SOURCE_MESHES && lanes_any(h->smooth)) {
+        const Vector at = add_scaled(h->ray.origin, h->ray.direction, h->ray.t);
+        paint_smooth(sources, at, h->packed & VXL_OBJECT_MASK, h->smooth, span, sides, color, maps);
     }
-    if (VXL_TEXTURE_ALPHA)
-        color[VXL_PAINT_OPACITY] = LANES_SELECT(wears, mean[3], color[VXL_PAINT_OPACITY]);
 }
 
 /// Writes the paint of a packet's hits.
@@ -196,10 +249,11 @@ static inline void store_paint(const lane_float* all, global float* restrict pai
 
 /// Finds and writes the paint of hits at `position`, of these materials. Where textures have maps,
 /// sets what they multiply emission by.
-static inline void paint_hits(const WorldView* world, const ShadedHit* h, const Footprint* f,
-                              Vector position, Vector normal,
-                              global const float* restrict materials, lane_uint material,
-                              const RayBatch* batch, uint first, lane_float* glow) {
+static inline void paint_hits(const WorldView* world, const SourceMeshes* sources,
+                              const ShadedHit* h, const Footprint* f, Vector position,
+                              Vector normal, global const float* restrict materials,
+                              lane_uint material, const RayBatch* batch, uint first,
+                              lane_float* glow) {
     const float4 edge = world->shape.edge;
     const Vector metres = scaled(h->world_way, edge);
     const Vector way = unit(metres);
@@ -210,7 +264,7 @@ static inline void paint_hits(const WorldView* world, const ShadedHit* h, const 
     const RaySpan span = span_of(f, edge, position, normal, way, before, travelled);
     lane_float all[VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS)];
     MapValues maps;
-    paint_of_hits(world, h, &span, normal, way, all, &maps);
+    paint_of_hits(world, sources, h, &span, normal, way, all, &maps);
     all[VXL_PAINT_WIDTH] = span.width;
     if (VXL_TEXTURE_MAPS) {
         map_material(materials, material, &maps, all + (VXL_PAINT_WIDTH + 1));

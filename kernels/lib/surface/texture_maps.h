@@ -45,20 +45,18 @@ static inline lane_int map_mean(global const uint* restrict textures, lane_uint 
     return has;
 }
 
-/// The values of the maps of the textures that begin at `place`, over `area`.
-static inline MapValues maps_over(global const uint* restrict textures, lane_uint place,
-                                  const TextureArea* area, lane_int wears) {
-    MapValues m = no_map_values();
+/// Sets the values of the maps of the textures that begin at `place`, over `area`.
+static inline void set_maps(global const uint* restrict textures, lane_uint place,
+                            const TextureArea* area, lane_int wears, MapValues* m) {
     lane_float mean[4];
     const lane_int gloss = map_mean(textures, place, VXL_MAP_GLOSS, area, wears, mean);
     if (lanes_any(gloss)) {
-        m.roughness = LANES_SELECT(gloss, mean[1], m.roughness);
-        m.metallic = LANES_SELECT(gloss, mean[2], m.metallic);
+        m->roughness = LANES_SELECT(gloss, mean[1], m->roughness);
+        m->metallic = LANES_SELECT(gloss, mean[2], m->metallic);
     }
     const lane_int glows = map_mean(textures, place, VXL_MAP_EMISSION, area, wears, mean);
     if (lanes_any(glows))
-        for (int c = 0; c < 3; ++c) m.emission[c] = LANES_SELECT(glows, mean[c], m.emission[c]);
-    return m;
+        for (int c = 0; c < 3; ++c) m->emission[c] = LANES_SELECT(glows, mean[c], m->emission[c]);
 }
 
 /// The values of materials behind VXL_PAINT_WIDTH, with maps. Local light shows them in Whitted's

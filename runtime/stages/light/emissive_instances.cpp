@@ -44,6 +44,8 @@ EmissiveSource model_source(const Scene& scene, const Pyramid& world, const Mode
                           .is_emissive = {1},
                           .light_samples = {use.light_samples}};
     source.pyramid.frame = model.frame;
+    for (const Instance& instance : world.instances.list)
+        if (instance.model == use.model) source.instance = instance.object;
     // Packed attributes of models hold numbers of groups.
     for (size_t group = 0; group <= VXL_MATERIAL_MASK; ++group)
         source.emission.push_back(

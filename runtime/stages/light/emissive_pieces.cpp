@@ -39,7 +39,8 @@ class PieceFinder {
     PieceFinder(const Device& device, const Features& features, const EmissiveSource& source)
         : device_(device),
           source_(source),
-          program_(device, "light_samples.cl", features.defines(device)),
+          defines_(features.defines(device)),
+          program_(device, "light_samples.cl", defines_),
           list_(program_.kernel("list_emissive")),
           surface_(program_.kernel("find_surface")),
           emissive_objects_(device, "emissive objects", std::span(source.is_emissive)),
@@ -81,6 +82,41 @@ class PieceFinder {
         return surfaces;
     }
 
+    /// Multiplies the light of smooth objects' pieces by the means of their emission maps.
+    void add_glow(const std::vector<ListedPiece>& listed, std::vector<EmissivePiece>& pieces) {
+        const SourceMeshes& sources = source_.pyramid.sources;
+        if (!sources.has_maps) return;
+        std::vector<size_t> numbers;
+        for (size_t i = 0; i < listed.size(); ++i)
+            if (listed[i][1] >> 16 == VXL_PIECE_FIELD && pieces[i].area > 0) numbers.push_back(i);
+        if (numbers.empty()) return;
+        const auto count = uint32_t(numbers.size());
+        const uint32_t stride = (count + 15) / 16 * 16;
+        std::vector<float> places(size_t(stride) * 7);
+        std::vector<uint32_t> objects(stride);
+        for (uint32_t i = 0; i < count; ++i) {
+            const EmissivePiece& piece = pieces[numbers[i]];
+            objects[i] = source_.instance.value_or(listed[numbers[i]][3] & VXL_OBJECT_MASK);
+            for (int axis = 0; axis < 3; ++axis) {
+                places[size_t(axis) * stride + i] =
+                    float(piece.position[axis] / source_.pyramid.frame.voxel_edge[axis]);
+                places[size_t(3 + axis) * stride + i] = float(piece.normal[axis]);
+            }
+            places[size_t(6) * stride + i] = float(std::sqrt(piece.area));
+        }
+        const Buffer<float> glow(device_, "emissive surface", size_t(stride) * 3);
+        Program(device_, "glow.cl", defines_)
+            .kernel("find_glow")
+            .launch_packets(count, shape_of(source_.pyramid), count, stride,
+                            Buffer<uint32_t>(device_, "emissive surface", std::span(objects)),
+                            Buffer<float>(device_, "emissive surface", std::span(places)),
+                            sources.objects, sources.words, glow);
+        const std::vector<float> found = glow.read();
+        for (uint32_t i = 0; i < count; ++i)
+            for (int c = 0; c < 3; ++c)
+                pieces[numbers[i]].emission[c] *= double(found[size_t(c) * stride + i]);
+    }
+
   private:
     std::vector<ListedPiece> list_all(bool by_voxel) {
         const uint32_t count = list(by_voxel, 0, {});
@@ -104,6 +140,7 @@ class PieceFinder {
 
     Device device_;
     const EmissiveSource& source_;
+    Defines defines_;
     Program program_;
     Kernel list_, surface_;
     Buffer<uint32_t> emissive_objects_, emissive_materials_;
@@ -176,6 +213,7 @@ PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
     const std::vector<VoxelSurface> surfaces =
         listed.empty() ? std::vector<VoxelSurface>() : finder.surfaces(listed);
     const glm::dvec3& edge = source.pyramid.frame.voxel_edge;
+    std::vector<EmissivePiece> pieces;
     for (size_t i = 0; i < listed.size(); ++i) {
         const auto& [xy, z_form, number, packed] = listed[i];
         const glm::dvec3 cell(xy & 0xFFFFu, xy >> 16, z_form & 0xFFFFu);
@@ -183,8 +221,12 @@ PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
         EmissivePiece piece = form < VXL_PIECE_FIELD ? face_piece(cell, form, edge)
                                                      : voxel_piece(cell, surfaces[i], edge);
         piece.emission = source.emission[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK];
-        if (piece.area > 0) found[packed & VXL_OBJECT_MASK].push_back(piece);
+        pieces.push_back(piece);
     }
+    finder.add_glow(listed, pieces);
+    for (size_t i = 0; i < listed.size(); ++i)
+        if (pieces[i].area > 0 && pieces[i].emission != glm::dvec3(0))
+            found[listed[i][3] & VXL_OBJECT_MASK].push_back(pieces[i]);
     if (source.triangle_count > 0) add_emissive_triangles(source, found);
     return found;
 }

@@ -29,7 +29,8 @@ struct EmissiveSource {
     /// By objects' numbers in packed attributes; a model's are 0.
     std::vector<uint32_t> is_emissive{};
     std::vector<std::optional<int>> light_samples{};
-    std::vector<glm::vec3> emission{};  ///< by materials' numbers in packed attributes
+    std::vector<glm::vec3> emission{};   ///< by materials' numbers in packed attributes
+    std::optional<uint32_t> instance{};  ///< for a model: the number of an object that shows it
 };
 
 /// A piece as kernels list it, see shared/light_samples.h.

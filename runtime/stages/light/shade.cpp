@@ -30,6 +30,10 @@ std::vector<uint32_t> object_ranks(const std::vector<Object>& objects) {
 
 }  // namespace
 
+void bind(KernelArguments& to, const SourceMeshes& sources) {
+    if (!sources.words.empty()) to.add(sources.objects, sources.words);
+}
+
 Environment environment_of(const World& world) {
     return {to_float4(glm::dvec3(world.background)), to_float4(glm::dvec3(world.ambient)),
             to_float4(glm::dvec3(world.medium.absorption)),
@@ -42,6 +46,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
       materials_(device, "materials",
                  std::span<const MaterialRecord>(material_records(scene, world, features))),
       sky_is_hidden_(features.sky_hidden),
+      has_sources_(features.source_meshes),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
     const Outside outside = outside_of(scene);
@@ -52,7 +57,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
         const SkyRecord record = sky_record(*outside.sky);
         sky_.record = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
     }
-    if (features.textures) footprint_.footprint = footprint_of(scene, world);
+    if (features.textures()) footprint_.footprint = footprint_of(scene, world);
     if (features.global) environment_.ambient = {};  // it stands for light that paths find
     if (features.paths)
         ranks_ = Buffer<uint32_t>(device, "ranks",
@@ -61,11 +66,12 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count,
                          bool from_observer) {
+    const SourceMeshes sources = has_sources_ ? pyramid.sources : SourceMeshes();
     if (sky_is_hidden_)
         surface_.launch_packets(count, pyramid, environment_, sky_, uint32_t(from_observer),
-                                emitters_, footprint_, materials_, ranks_, batch, count);
+                                emitters_, footprint_, sources, materials_, ranks_, batch, count);
     else
-        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, footprint_,
+        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, footprint_, sources,
                                 materials_, ranks_, batch, count);
 }
 

@@ -15,6 +15,9 @@
 
 namespace voxelume {
 
+/// VXL_SOURCE_PARAMETERS of kernels: nothing in scenes without such meshes.
+void bind(KernelArguments& to, const SourceMeshes& sources);
+
 /// The world's background, ambient light and medium.
 Environment environment_of(const World& world);
 
@@ -46,7 +49,7 @@ class ShadeStage {
     Buffer<MaterialRecord> materials_;
     Buffer<uint32_t> ranks_;
     SkyView sky_;
-    bool sky_is_hidden_;
+    bool sky_is_hidden_, has_sources_;
     EmitterTable emitters_;
     FootprintArgument footprint_;
     Program program_;

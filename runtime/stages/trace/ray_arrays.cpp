@@ -34,7 +34,7 @@ class ArrayMaker {
 size_t path_components(const Features& features) {
     const size_t emitter = features.looks() ? 1 : 0;
     const size_t travelled = features.instances && features.emitters != 0 ? 1 : 0;
-    const size_t width = features.textures && features.radiance ? 1 : 0;
+    const size_t width = features.textures() && features.radiance ? 1 : 0;
     if (features.transmission)
         return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter + travelled + width;
     const bool has_all = features.instances || features.global || width > 0;
@@ -67,7 +67,7 @@ void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     if (features.paths) maker.make(batch.sides, "sides", 1);
     if (features.paths && features.absorbs) maker.make(batch.transmittance, "transmittance", 3);
     if (features.transmission) maker.make(batch.coverage, "coverage", 1);
-    if (features.textures)
+    if (features.textures())
         maker.make(batch.paint, "paint", VXL_PAINT_FLOATS(features.texture_maps));
 }
 

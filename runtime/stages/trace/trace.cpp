@@ -12,9 +12,11 @@ Features features_of(const Pyramid& pyramid) {
     features.voxel_opacity = pyramid.transparent;
     features.smooth = !pyramid.fields.empty();
     features.triangles = !pyramid.triangles.empty();
-    features.textures = !pyramid.triangle_textures.empty();
-    features.texture_alpha = features.textures && pyramid.texture_alpha;
-    features.texture_maps = features.textures && pyramid.texture_maps;
+    features.worn_triangles = !pyramid.triangle_textures.empty();
+    features.source_meshes = !pyramid.sources.words.empty();
+    features.texture_alpha = features.worn_triangles && pyramid.texture_alpha;
+    features.texture_maps =
+        (features.worn_triangles && pyramid.texture_maps) || pyramid.sources.has_maps;
     features.corner_normals = !pyramid.triangle_normals.empty();
     features.voxel_normals = !pyramid.normals.empty();
     features.solids = !pyramid.solids.empty();

@@ -27,6 +27,23 @@ uint32_t texture_level(double texels, double voxels, int levels);
 /// Kernels gather by signed indices.
 inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
 
+/// Whether the alpha of textures counts where rays meet them.
+enum class TextureAlpha : uint8_t { counts, is_ignored };
+
+/// Textures as they were written: where each begins, from their start, and a hash of all.
+struct WrittenTextures {
+    std::vector<uint32_t> places;
+    uint64_t hash = 0;
+};
+
+/// Writes the textures of a mesh, as BrickGrid::textures has them, from `start` on into words with
+/// room for texture_words().
+WrittenTextures write_textures(const Mesh& mesh, Buffer<uint32_t>& words, size_t start,
+                               TextureAlpha alpha);
+
+/// What a mesh's triangles wear, in the words of shared/texture.h; `places` are those of textures.
+std::vector<uint32_t> worn_words(const Mesh& mesh, const std::vector<uint32_t>& places);
+
 /// What triangles of exact voxels wear, as the job's grid keeps it for rays. Meshes without
 /// textures get nothing. Throws Error::limit for more texels than a device's buffer holds.
 void keep_textures(VoxelizeJob& job, const Mesh& mesh);

@@ -37,8 +37,8 @@ uint32_t corner_color(const Mesh& mesh, size_t triangle, int corner) {
 /// Writes pieces of textures one behind the other, and hashes them.
 class TextureWriter {
   public:
-    TextureWriter(const Device& device, uint64_t words)
-        : words_(device, "source textures", words), state_(XXH3_createState(), XXH3_freeState) {
+    TextureWriter(Buffer<uint32_t>& words, size_t start)
+        : words_(words), place_(start), state_(XXH3_createState(), XXH3_freeState) {
         XXH3_64bits_reset(state_.get());
     }
 
@@ -48,16 +48,11 @@ class TextureWriter {
         place_ += words.size();
     }
 
-    size_t place() const { return place_; }
-
-    void store(BrickGrid& grid) {
-        grid.textures = std::move(words_);
-        grid.texture_key = XXH3_64bits_digest(state_.get());
-    }
+    uint64_t hash() const { return XXH3_64bits_digest(state_.get()); }
 
   private:
-    Buffer<uint32_t> words_;
-    size_t place_ = 0;
+    Buffer<uint32_t>& words_;
+    size_t place_;
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
@@ -86,14 +81,11 @@ void write_maps(const Texture& texture, uint32_t place, const std::vector<uint32
     }
 }
 
-/// Writes all textures; returns where each begins.
-std::vector<uint32_t> write_textures(VoxelizeJob& job, const Mesh& mesh) {
-    const MeshPaint paint = paint_of(mesh);
-    const uint64_t words = texture_words(paint);
-    if (words > kMaxTextureWords)
-        throw Error(ErrorKind::limit, "the mesh has textures of {} texels, more than 2^31",
-                    paint.texels);
-    TextureWriter writer(job.device, words);
+}  // namespace
+
+WrittenTextures write_textures(const Mesh& mesh, Buffer<uint32_t>& words, size_t start,
+                               TextureAlpha alpha) {
+    TextureWriter writer(words, start);
     std::vector<uint32_t> curve;
     for (const float level : srgb_levels()) curve.push_back(std::bit_cast<uint32_t>(level));
     writer.write(curve);
@@ -107,26 +99,19 @@ std::vector<uint32_t> write_textures(VoxelizeJob& job, const Mesh& mesh) {
             uint32_t(image.width), uint32_t(image.height),
             uint32_t(texture.wrap_u) | uint32_t(texture.wrap_v) << VXL_TEXTURE_WRAP_V_SHIFT |
                 (has_maps ? VXL_TEXTURE_HAS_MAPS : 0u),
-            texture.alpha};
+            alpha == TextureAlpha::counts ? texture.alpha : VXL_ALPHA_OPAQUE};
         writer.write(head);
         writer.write(image.texels);
     }
-    writer.store(job.grid);
-    job.grid.texture_alpha = paint.has_alpha;
-    job.grid.texture_maps = paint.mapped > 0;
-    return places;
+    return {places, writer.hash()};
 }
-
-}  // namespace
 
 uint64_t texture_words(const MeshPaint& paint) {
     return VXL_TEXTURE_CURVE + paint.textures * VXL_TEXTURE_HEAD + paint.texels +
            paint.mapped * VXL_MAP_COUNT * VXL_MAP_WORDS;
 }
 
-void keep_textures(VoxelizeJob& job, const Mesh& mesh) {
-    if (mesh.textures.empty()) return;
-    const std::vector<uint32_t> places = write_textures(job, mesh);
+std::vector<uint32_t> worn_words(const Mesh& mesh, const std::vector<uint32_t>& places) {
     const auto& numbers = mesh.triangle_uvs.empty() ? mesh.triangles : mesh.triangle_uvs;
     std::vector<uint32_t> words;
     words.reserve(mesh.triangles.size() * VXL_WORN_WORDS);
@@ -140,7 +125,23 @@ void keep_textures(VoxelizeJob& job, const Mesh& mesh) {
         words.push_back(texture == kNoTexture ? VXL_NO_TEXTURE : places[texture]);
         for (int corner = 0; corner < 3; ++corner) words.push_back(corner_color(mesh, i, corner));
     }
-    job.grid.triangle_textures =
+    return words;
+}
+
+void keep_textures(VoxelizeJob& job, const Mesh& mesh) {
+    if (mesh.textures.empty()) return;
+    const MeshPaint paint = paint_of(mesh);
+    if (texture_words(paint) > kMaxTextureWords)
+        throw Error(ErrorKind::limit, "the mesh has textures of {} texels, more than 2^31",
+                    paint.texels);
+    BrickGrid& grid = job.grid;
+    grid.textures = Buffer<uint32_t>(job.device, "source textures", texture_words(paint));
+    const WrittenTextures written = write_textures(mesh, grid.textures, 0, TextureAlpha::counts);
+    grid.texture_key = written.hash;
+    grid.texture_alpha = paint.has_alpha;
+    grid.texture_maps = paint.mapped > 0;
+    const std::vector<uint32_t> words = worn_words(mesh, written.places);
+    grid.triangle_textures =
         Buffer<uint32_t>(job.device, "source texture places", std::span<const uint32_t>(words));
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/world/source_meshes.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+
+#include "runtime/analysis/object_lattice.hpp"
+#include "runtime/grid/world_frame.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Voxels by which a surface may lie off its mesh. What is farther away, as a cut or the cap over a
+/// hole, has its voxels' colours.
+constexpr double kReach = 2;
+
+/// The map from a lattice's voxels to the space that it lies in.
+glm::dmat4 space_from_voxels(const GridFrame& frame) {
+    glm::dmat4 map(1);
+    for (int axis = 0; axis < 3; ++axis) map[axis][axis] = frame.voxel_edge[axis];
+    map[3] = glm::dvec4(frame.origin, 1);
+    return map;
+}
+
+SourceRecord record_of(const SourcePlaces& places, const glm::dmat4& mesh_from_voxels,
+                       double longest_edge) {
+    SourceRecord record{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            record.mesh_from_voxels[4 * row + column] = float(mesh_from_voxels[column][row]);
+    record.nodes = places.nodes;
+    record.triangles = places.triangles;
+    record.worn = places.worn;
+    record.textures = places.textures;
+    for (int axis = 0; axis < 3; ++axis)
+        longest_edge = std::max(longest_edge, glm::length(glm::dvec3(mesh_from_voxels[axis])));
+    record.reach = float(kReach * longest_edge);
+    return record;
+}
+
+/// The longest edge of the voxels that an object was made of; 0 on the world's own lattice.
+double own_edge(ObjectLattices& lattices, const Object& object) {
+    if (lattices.lattice_of(object) == Lattice::world) return 0;
+    const glm::dvec3 edge = lattices.own_frame(object).voxel_edge;
+    return std::max({edge.x, edge.y, edge.z});
+}
+
+/// The records of all objects, those without a mesh included.
+std::vector<SourceRecord> records_of(const Scene& scene, AssetStore& meshes,
+                                     const ListedSources& sources, const ListedInstances& listed,
+                                     const std::vector<SourcePlaces>& places) {
+    std::vector<SourceRecord> records(scene.objects.size(), record_of({}, glm::dmat4(1), 0));
+    ObjectLattices lattices(scene, meshes);
+    const glm::dmat4 world = space_from_voxels(world_frame(scene.world));
+    for (const SourceObject& source : sources.objects) {
+        const auto instance = std::ranges::find(listed.list, source.object, &Instance::object);
+        SourceRecord& record = records[source.object];
+        const SourcePlaces& place = places[source.model];
+        if (instance != listed.list.end()) {
+            record = record_of(place, space_from_voxels(listed.grids[instance->model]->frame), 0);
+            continue;
+        }
+        const Object& object = scene.objects[source.object];
+        record = record_of(place, glm::inverse(object.world_from_object) * world,
+                           own_edge(lattices, object));
+    }
+    return records;
+}
+
+}  // namespace
+
+SourceMeshes SourceMeshCache::meshes_of(const Scene& scene, AssetStore& meshes,
+                                        const ListedInstances& listed) {
+    const ListedSources sources = list_sources(scene, meshes);
+    if (sources.objects.empty()) {
+        forget();
+        return {};
+    }
+    std::vector<Model> models;
+    for (const int model : sources.models) {
+        models.push_back(scene.models[size_t(model)]);
+        models.back().extent = {};  // which changes with the places of objects
+    }
+    if (models != models_) {
+        forget();
+        std::vector<const Mesh*> read;
+        for (const Model& model : models) read.push_back(meshes.mesh_of(model));
+        joined_ = join_source_meshes(device_, read);
+        models_ = std::move(models);
+    }
+    const std::vector<SourceRecord> records =
+        records_of(scene, meshes, sources, listed, joined_.places);
+    return {joined_.words,
+            Buffer<SourceRecord>(device_, "source objects", std::span<const SourceRecord>(records)),
+            joined_.has_maps};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene -> the meshes at which rays look up what smooth objects with textures show.
+#pragma once
+
+#include <vector>
+
+#include "runtime/analysis/placed_objects.hpp"
+#include "runtime/analysis/source_objects.hpp"
+#include "runtime/grid/grid.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/lookup/source_mesh.hpp"
+
+namespace voxelume {
+
+/// Brings source meshes to a device, and keeps those of the frame before.
+class SourceMeshCache {
+  public:
+    explicit SourceMeshCache(const Device& device) : device_(device) {}
+
+    /// The meshes of a scene whose instances are `listed`. Throws Error::limit for textures that
+    /// memory doesn't suffice for.
+    SourceMeshes meshes_of(const Scene& scene, AssetStore& meshes, const ListedInstances& listed);
+
+    void forget() { models_.clear(), joined_ = {}; }
+
+  private:
+    Device device_;
+    std::vector<Model> models_;  ///< those of the frame before
+    JoinedSources joined_;
+};
+
+}  // namespace voxelume
