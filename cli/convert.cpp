@@ -6,6 +6,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/slice_names.hpp"
 #include "cli/tell.hpp"
 
 namespace voxelume::cli {
@@ -26,9 +27,9 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
                                 std::pair{std::string_view("z"), Axis::z}};
 
 int run(const ConvertCommand& command) {
-    if (command.format.empty() && can_convert_voxels(command.from, command.to)) {
-        for (const std::string& note : convert_voxels(command.from, command.to))
-            tell("note: {}\n", note);
+    const std::string from = first_slice(command.from);
+    if (command.format.empty() && can_convert_voxels(from, command.to)) {
+        for (const std::string& note : convert_voxels(from, command.to)) tell("note: {}\n", note);
         return 0;
     }
     VolumeFileOptions options = command.options;
@@ -37,7 +38,7 @@ int run(const ConvertCommand& command) {
     options.compress = !command.uncompressed;
     options.format =
         command.format.empty() ? volume_format_of(command.to) : volume_format_named(command.format);
-    Volume::read(command.from).write(command.to, options);
+    Volume::read(from).write(command.to, options);
     return 0;
 }
 

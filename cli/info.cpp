@@ -64,7 +64,9 @@ Action add_info(CLI::App& app) {
     return [options] {
         const std::string path = first_slice(options->path);
         if (options->verify) check_integrity(path);
-        print_report(report_of(describe_file(path)), options->json);
+        const bool is_stack = path != options->path;
+        print_report(report_of(is_stack ? describe_slices(path) : describe_file(path)),
+                     options->json);
         return 0;
     };
 }

@@ -85,7 +85,8 @@ void tell_of(const VoxelizeCommand& command, const std::string& what, const Voxe
 }
 
 void voxelize_mesh(const VoxelizeCommand& command) {
-    if (command.frame > 0) fail_usage("voxelize: --frame is for scenes, and not for meshes");
+    if (command.frame > 0)
+        fail_usage("voxelize: --frame is for scenes; `import` makes one of a file that moves");
     const VoxelizeOptions options = options_of(command);
     const Device device = Device::open(command.device);
     const VoxelizeReport report =
@@ -97,10 +98,12 @@ void voxelize_mesh(const VoxelizeCommand& command) {
 void refuse_mesh_options(const VoxelizeCommand& command) {
     const bool is_other = !command.surface.empty() && command.surface != "cubes";
     if (is_other || !command.set.empty() || !command.normals.empty())
-        fail_usage("voxelize: {} is for meshes: scenes and files of voxels become cubes",
-                   is_other               ? "--surface"
-                   : !command.set.empty() ? "--set"
-                                          : "--normals");
+        fail_usage(
+            "voxelize: {} is for meshes: scenes and files of voxels become cubes, by the "
+            "\"set\" of each model",
+            is_other               ? "--surface"
+            : !command.set.empty() ? "--set"
+                                   : "--normals");
 }
 
 void voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
@@ -179,7 +182,7 @@ Action add_voxelize(CLI::App& app) {
                    "normals that light cubes: faces (the default), or surface (those of the mesh, "
                    "kept in .vxm)")
         ->type_name("faces|surface");
-    app.add_option("--frame", command->frame, "frame of a scene or file that moves; 1 by default")
+    app.add_option("--frame", command->frame, "frame of a scene that moves; 1 by default")
         ->check(in_range(1, 1000000, Number::whole));
     app.add_option("--assets", command->assets,
                    "folder to look for a scene's models in; may be given again")

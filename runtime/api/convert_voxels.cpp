@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voxels from a file of one format to one of another, for callers.
 #include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "runtime/voxelume/files.hpp"
+#include "runtime/voxelume/import.hpp"
 
 namespace voxelume {
 namespace {
@@ -43,16 +46,24 @@ CubeList cubes_of_volume(const std::filesystem::path& path) {
     return cubes;
 }
 
+/// The voxels of a model file, those of an array as pictures of the file have them.
+VoxelModel model_of(const std::filesystem::path& path) {
+    const VoxelFileFormat* const format = voxel_file_format(path);
+    if (!format || !format->array || !is_model_file(path))
+        return read_voxel_model(path, Surface::cubes);
+    const v1::Scene handle = v1::scene_of_file(path, {.ground = false});
+    const Model& shown = api::inside(handle).models.front();
+    return read_voxel_model(path, Surface::cubes, shown.part, shown.values);
+}
+
 WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (is_grid_name(to))
-        return write_cubes(to, VoxelExport(read_voxel_model(from, Surface::cubes)));
+    if (is_grid_name(to)) return write_cubes(to, VoxelExport(model_of(from)));
     const auto write = cube_writer(to);
     if (!write)
         throw Error(ErrorKind::usage,
                     "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy, .nrrd, .vxm or .vdb",
                     SourcePlace(to.string()));
-    return write(to, holds_model(from) ? cube_list(read_voxel_model(from, Surface::cubes))
-                                       : cubes_of_volume(from));
+    return write(to, holds_model(from) ? cube_list(model_of(from)) : cubes_of_volume(from));
 }
 
 }  // namespace

@@ -215,6 +215,20 @@ Facts describe_file(const std::filesystem::path& file) {
     });
 }
 
+Facts describe_slices(const std::filesystem::path& first) {
+    return api::guarded([&] {
+        api::apply_process_options();
+        const VoxelFileFormat* const format = voxel_format_named(first);
+        if (!format || !format->is_numbered)
+            throw voxelume::Error(voxelume::ErrorKind::usage,
+                                  "{}: the name of a slice is that of a PNG file and has a number",
+                                  SourcePlace(first.string()));
+        api::Report report = {{"file", first.string()}};
+        report.update(api::describe_array(first, *format));
+        return api::facts_of(report, {});
+    });
+}
+
 FileIntegrity verify_file(const std::filesystem::path& file) {
     return api::guarded([&] {
         const bool is_model = api::find_description(file) == api::describe_model;

@@ -81,6 +81,15 @@ void add_notes(const std::vector<std::string>& notes, v1::VoxelizeReport& report
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
 }
 
+/// What is lost of voxels that aren't cubes in files that know cubes alone.
+std::string note_of_edges(const fs::path& output, const glm::dvec3& edge) {
+    const std::string ending = ending_of(output);
+    const bool has_edges = ending == ".vxm" || ending == ".vdb" || ending == ".nrrd";
+    if (has_edges || (edge.x == edge.y && edge.y == edge.z)) return {};
+    return fmt::format("{}: voxels of {:.4g} x {:.4g} x {:.4g} m became cubes",
+                       output.filename().string(), edge.x, edge.y, edge.z);
+}
+
 v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
                                      const Device& device, const v1::VoxelizeOptions& options) {
     check_endings(outputs, static_cast<Surface>(options.surface));
@@ -112,6 +121,8 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
     for (const fs::path& output : outputs) {
         if (const auto write = cube_writer(output))
             add_notes(write(output, cube_list(painted())), report);
+        else if (ending_of(output) == ".vdb" && shows_voxels(model.surface))
+            VoxelExport(painted()).write_vdb(output);
         else if (ending_of(output) == ".vdb")
             voxels.write_vdb(output);
         else
@@ -125,20 +136,29 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
                                            const Device& device,
                                            const v1::VoxelizeSceneOptions& options) {
     check_endings(outputs, Surface::cubes);
-    const Scene scene = scene_at(api::inside(handle), options.frame);
+    const Scene& whole = api::inside(handle);
+    const int frames = moves(whole) ? whole.animation.frames : 1;
+    if (options.frame < 1 || options.frame > frames)
+        throw Error(ErrorKind::usage, "{}: there is no frame {}: the last one is {}",
+                    SourcePlace(whole.file.string()), options.frame, frames);
+    const Scene scene = scene_at(whole, options.frame);
     const auto start = std::chrono::steady_clock::now();
     VoxelModel model = world_cubes(device, scene, api::assets_of(handle, options.cache),
                                    {options.voxel_size, options.resolution});
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     v1::VoxelizeReport report{0,
-                              api::array_of(model.frame.size),
+                              api::array_of(size_of_cubes(model)),
                               model.frame.voxel_edge.x,
                               model.coordinates.size(),
                               seconds,
                               {}};
     const VoxelExport voxels(std::move(model));
-    for (const fs::path& output : outputs) add_notes(write_cubes(output, voxels), report);
+    for (const fs::path& output : outputs) {
+        add_notes(write_cubes(output, voxels), report);
+        if (const std::string note = note_of_edges(output, scene.world.voxel_size); !note.empty())
+            add_notes({note}, report);
+    }
     return report;
 }
 

@@ -65,7 +65,8 @@ VoxelExport::VoxelExport(VoxelModel model)
       slots_(std::move(model.slots)),
       coordinates_(std::move(model.coordinates)),
       occupancy_(std::move(model.occupancy)),
-      colors_(std::move(model.colors)) {
+      colors_(std::move(model.colors)),
+      full_colors_(std::move(model.full_colors)) {
     set_header();
     header_["set"] = set_name(model.set);
 }
@@ -88,6 +89,7 @@ VoxelModel VoxelExport::cubes() const {
     model.occupancy = occupancy_;
     model.colors = colors_;
     model.attributes = attributes_;
+    model.full_colors = full_colors_;
     return model;
 }
 
@@ -139,9 +141,12 @@ void VoxelExport::add_full_bricks(Cells& cells) const {
         const glm::ivec3 corner = brick_corner(frame_, brick);
         for (uint32_t number = 0; number < kVoxelsPerBrick; ++number)
             cells.cells.push_back(corner + cell_in_brick(number));
+        if (!colors_.empty())
+            cells.colors.resize(cells.cells.size(), full_colors_.empty()
+                                                        ? glm::vec3(1)
+                                                        : linear_color(full_colors_[brick]));
     }
     cells.values.resize(cells.cells.size(), 1);
-    if (!colors_.empty()) cells.colors.resize(cells.cells.size(), glm::vec3(1));
 }
 
 void VoxelExport::write_vdb(const std::filesystem::path& path) const {

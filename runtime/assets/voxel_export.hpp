@@ -55,6 +55,7 @@ class VoxelExport {
     std::vector<uint64_t> occupancy_;
     std::vector<int16_t> distance_;
     std::vector<uint32_t> attributes_, colors_, normals_;
+    std::vector<uint32_t> full_colors_;  ///< as in VoxelModel
     std::vector<uint32_t> primitive_first_, primitives_, triangle_attributes_, triangle_normals_;
     std::vector<float> triangles_;
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/assets/voxel_paint.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,36 @@ class Paint {
     float opacity_;
 };
 
+/// The colour of a stored brick's voxel, where there is one: in the middle of its side at +X, or
+/// else any.
+std::optional<uint32_t> color_in(const VoxelModel& model, uint32_t slot,
+                                 std::span<const uint32_t> colors) {
+    constexpr glm::ivec3 kMiddle(kBrickSize - 1, kBrickSize / 2, kBrickSize / 2);
+    const auto leaves = std::span(model.occupancy).subspan(slot * kLeavesPerBrick, kLeavesPerBrick);
+    const size_t first = slot * kVoxelsPerBrick;
+    if ((leaves[leaf_in_brick(kMiddle)] & bit_in_leaf(kMiddle)) != 0)
+        return colors[first + voxel_in_brick(kMiddle)];
+    for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf)
+        if (leaves[leaf] != 0)
+            return colors[first + voxel_in_brick(leaf_corner(leaf) +
+                                                 cell_in_leaf(std::countr_zero(leaves[leaf])))];
+    return std::nullopt;
+}
+
+/// Gives full bricks, whose material isn't kept, the colour of what they touch at -X: the solid's
+/// that fills them.
+std::vector<uint32_t> colors_of_full(const VoxelModel& model, std::span<const uint32_t> colors) {
+    if (std::ranges::find(model.slots, kBrickInside) == model.slots.end()) return {};
+    std::vector<uint32_t> full(model.slots.size());
+    uint32_t last = 0xFFFFFFu;
+    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+        const uint32_t slot = model.slots[brick];
+        if (slot < kBrickInside) last = color_in(model, slot, colors).value_or(last);
+        if (slot == kBrickInside) full[brick] = last;
+    }
+    return full;
+}
+
 }  // namespace
 
 void paint_voxels(std::span<const Material> materials, uint32_t attribute, VoxelModel& model) {
@@ -56,6 +88,7 @@ void paint_voxels(std::span<const Material> materials, uint32_t attribute, Voxel
             model.transparent |= !is_clear && colors[place] >> VXL_TRANSPARENCY_SHIFT > 0;
         }
     }
+    model.full_colors = colors_of_full(model, colors);
     model.colors = std::move(colors);
     model.attributes.clear();
 }

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kFilledShare = 0.92;  // of the image's width or height: shadows need room, too
 constexpr int kSamples = 4;
+constexpr double kAmbientInside = 0.15;
 
 struct ModelFormat {
     std::string_view ending;
@@ -154,10 +155,15 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
 std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const Studio studio =
         make_studio(contents.box, contents.voxel_size, options, contents.file_light);
+    const bool is_own = options.has_own_camera && !options.is_lattice;
+    const bool has_camera = is_own && !contents.observer.empty();
+    // A file's own camera may be in a closed room, where neither sun nor sky comes.
+    const glm::dvec3 ambient(
+        has_camera && !contents.file_light && contents.lights.empty() ? kAmbientInside : 0.0);
     std::string text = "{\n  \"voxelume\": 1,\n";
     text += fmt::format(
         "  \"world\": {{\"voxel_size\": {}, \"background\": {}, \"ambient\": {}{}{}{}}},\n",
-        json_size(contents.voxel_size), json_list(studio.background), json_list(studio.ambient),
+        json_size(contents.voxel_size), json_list(studio.background), json_list(ambient),
         bounds_member(contents, studio.box), studio.sky, studio.medium);
     text += part("materials", '{', joined(contents.materials, studio.materials), '}');
     text += part("models", '{', joined(contents.models, studio.models), '}');
@@ -169,9 +175,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
         text += fmt::format(
             "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",
             contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
-    const bool is_own = options.has_own_camera && !options.is_lattice;
-    text += is_own && !contents.observer.empty() ? contents.observer
-                                                 : observer_of(contents.box, studio.box, options);
+    text += has_camera ? contents.observer : observer_of(contents.box, studio.box, options);
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}{}}}\n}}\n",
                               options.size.x, options.size.y, kSamples,
                               contents.has_glass ? ", \"shadow\": \"filtered\"" : "",

@@ -100,7 +100,7 @@ double max_radius(const glm::dvec3& voxel_size) {
 void add_ground(const Bounds& box, double radius, const glm::dvec3& color, Studio& studio) {
     const glm::dvec3 middle = (box.min + box.max) / 2.0;
     // Cameras that stand low would see the side of a thick disk.
-    const double height = rounded(longest_side(box) / 512, 3);
+    const double height = rounded(longest_side(box) / 8192, 3);
     const glm::dvec3 position(rounded(middle.x, 6), box.min.y - height / 2, rounded(middle.z, 6));
     studio.materials.push_back(fmt::format("\"ground\": {{\"color\": {}}}", json_list(color)));
     studio.models.push_back(

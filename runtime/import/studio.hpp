@@ -12,7 +12,6 @@ namespace voxelume {
 
 struct Studio {
     std::vector<std::string> materials, models, objects, lights;  ///< members and items of a scene
-    glm::dvec3 ambient{0};
     glm::dvec3 background{0};
     std::string sky, medium;  ///< `, "sky": {...}`, or empty
     Bounds box;               ///< around what is shown and the ground

@@ -48,7 +48,7 @@ VoxelizeReport voxelize(const std::filesystem::path& mesh,
 /// How the world of a scene becomes voxels.
 struct VoxelizeSceneOptions {
     double voxel_size = 0;  ///< metres; 0: `resolution` decides
-    int resolution = 0;     ///< voxels along the world's longest side; 0: the scene's own voxels
+    int resolution = 0;     ///< along the longest side of all that is shown; 0: the scene's voxels
     int frame = 1;          ///< of a scene that moves
     CacheOptions cache{};
 };
@@ -92,6 +92,9 @@ struct Facts {
 /// mesh would become. Returns an object whose members stand in the order in which people read them.
 /// Throws Error::input.
 Facts describe_file(const std::filesystem::path& file);
+
+/// What is in the stack of slices that a PNG file with a number in its name begins, likewise.
+Facts describe_slices(const std::filesystem::path& first);
 
 /// What the checksums in a file say of it.
 enum class FileIntegrity {

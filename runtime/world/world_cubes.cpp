@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/world/world_cubes.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/placed_objects.hpp"
+#include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/assets/voxel_paint.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene/fitted.hpp"
 #include "runtime/stages/place/placed_world.hpp"
@@ -13,8 +19,22 @@
 namespace voxelume {
 namespace {
 
+/// Throws where a file has a surface that isn't one of cubes.
+void refuse_field(const Model& model) {
+    if (model.voxels.empty() || model.given) return;
+    const std::optional<Surface> found = surface_of_voxel_model(model.voxels);
+    const bool is_level_set = model.voxels.extension() == ".vdb" && stores_distances(model.surface);
+    if ((!found || shows_voxels(*found)) && !is_level_set) return;
+    throw Error(ErrorKind::input,
+                "{}: {} has a surface that is {}, of which no cubes can be made: voxelize what it "
+                "was made from with --surface cubes",
+                model.where, model.voxels.filename().string(),
+                kind_of(found.value_or(Surface::smooth)).name);
+}
+
 void show_as_cubes(Scene& scene) {
     for (Model& model : scene.models) {
+        refuse_field(model);
         model.surface = Surface::cubes;
         model.is_surface_open = false;
         model.normals = CubeNormals::faces;
@@ -23,13 +43,9 @@ void show_as_cubes(Scene& scene) {
     for (Object& object : scene.objects) object.placement = Placement::world;
 }
 
-/// Gives the world voxels of the size, and the models those that become such.
-void resize_voxels(CubeSize size, Scene& scene) {
+/// Gives the world voxels of the edge, and the models those that become such.
+void resize_voxels(double edge, Scene& scene) {
     World& world = scene.world;
-    const double edge = size.edge > 0         ? size.edge
-                        : size.resolution > 0 ? longest_side(world.bounds) / size.resolution
-                                              : 0;
-    if (edge <= 0) return;
     const glm::dvec3 factor = edge / world.voxel_size;
     world.voxel_size = glm::dvec3(edge);
     count_voxels(world);
@@ -37,11 +53,7 @@ void resize_voxels(CubeSize size, Scene& scene) {
         if (!model.is_sized) model.voxel_size *= factor;
 }
 
-}  // namespace
-
-VoxelModel world_cubes(const Device& device, Scene scene, AssetStore meshes, CubeSize size) {
-    resize_voxels(size, scene);
-    show_as_cubes(scene);
+VoxelModel cubes_of(const Device& device, const Scene& scene, AssetStore& meshes) {
     check_tables(scene, device.info());
     check_memory(scene, plan_scene(scene, meshes), device.info());
     GridCache grids(device, meshes);
@@ -63,6 +75,18 @@ VoxelModel world_cubes(const Device& device, Scene scene, AssetStore meshes, Cub
     model.attributes = grid.attributes.read();
     paint_voxels(scene.materials, grid.attribute, model);
     return model;
+}
+
+}  // namespace
+
+VoxelModel world_cubes(const Device& device, Scene scene, AssetStore meshes, CubeSize size) {
+    show_as_cubes(scene);
+    if (size.edge > 0) resize_voxels(size.edge, scene);
+    VoxelModel model = cubes_of(device, scene, meshes);
+    if (size.edge > 0 || size.resolution == 0) return model;
+    const glm::dvec3 sides = glm::dvec3(size_of_cubes(model)) * model.frame.voxel_edge;
+    resize_voxels(std::max({sides.x, sides.y, sides.z}) / size.resolution, scene);
+    return cubes_of(device, scene, meshes);
 }
 
 }  // namespace voxelume

@@ -11,7 +11,7 @@ namespace voxelume {
 /// The voxels of a world's cubes.
 struct CubeSize {
     double edge = 0;     ///< metres; 0: `resolution` decides
-    int resolution = 0;  ///< along the world's longest side; 0: they are the scene's
+    int resolution = 0;  ///< along the longest side of all that is shown; 0: they are the scene's
 };
 
 /// The voxels of the scene's world with every object as cubes in it, in the colours of voxels times

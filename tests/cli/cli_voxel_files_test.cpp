@@ -43,6 +43,8 @@ TEST_F(CliVoxelFilesTest, ANameWithHashesIsAStackOfSlices) {
     EXPECT_EQ(scene.at("models").at("s 009").at("voxels"), "s 009.png");
     EXPECT_EQ(scene.at("models").at("s 009").at("surface"), "cubes");
     EXPECT_EQ(info("'s ###.png'")["file"], "s 009.png");
+    EXPECT_EQ(info("'s ###.png'")["size"], nlohmann::json({3, 1, 2}));
+    EXPECT_EQ(run("convert 's ###.png' slices.vox").exit_code, 0);
     EXPECT_EQ(run("voxelize 's ###.png' -o stack.npy").exit_code, 0);
     const ProgramResult none = run("render 't##.png' -o a.png");
     EXPECT_EQ(none.exit_code, run("render none.json -o a.png").exit_code);

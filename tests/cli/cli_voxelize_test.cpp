@@ -96,6 +96,52 @@ TEST_F(CliVoxelizeTest, AWorldAndAFileTakeOtherVoxels) {
     EXPECT_EQ(Json::parse(run("info c.vox --json").out)["voxels"], 64);
 }
 
+TEST_F(CliVoxelizeTest, TheInsideOfASolidHasItsColor) {
+    // 60 cubes a side, of which bricks of 16 are full.
+    write_scene([](Json& scene) {
+        scene["world"] = {{"voxel_size", 0.02}};
+        scene["materials"]["brick"] = {{"color", {1, 0, 0}}, {"opacity", 0.5}};
+        scene["models"]["thing"] = {
+            {"shape", "box"}, {"size", {1.2, 1.2, 1.2}}, {"surface", "cubes"}, {"set", "solid"}};
+        scene["objects"][0]["position"] = {0, 0, 0};
+    });
+    ASSERT_EQ(run("voxelize scene.json -o s.npy -o s.vdb").exit_code, 0);
+    const ColorCells cells = cells_of(bytes_of(folder / "s.npy"));
+    ASSERT_EQ(cells.size, (std::array{60, 60, 60}));
+    for (size_t i = 0; i < cells.bytes.size(); i += 4)
+        ASSERT_EQ(cells.bytes.compare(i, 4, "\xff\0\0\x7f", 4), 0) << i;
+}
+
+TEST_F(CliVoxelizeTest, AResolutionCountsVoxelsOfWhatIsShown) {
+    put_bytes(folder / "block.npy", npy_bytes("|u1", "6, 4, 2, 4", std::string(192, '\xff')));
+    ASSERT_EQ(run("voxelize block.npy --resolution 12 -o b.npy").exit_code, 0);
+    const ColorCells cells = cells_of(bytes_of(folder / "b.npy"));
+    EXPECT_EQ(*std::ranges::max_element(cells.size), 12);
+    EXPECT_EQ(*std::ranges::min_element(cells.size), 4);
+}
+
+TEST_F(CliVoxelizeTest, AScanHasTheVoxelsThatItsPictureHas) {
+    // Noise from 0 to 3 around a block of values of 90.
+    std::vector<float> values;
+    for (int i = 0; i < 10 * 10 * 10; ++i) {
+        const int x = i / 100, y = i / 10 % 10, z = i % 10;
+        const bool is_block =
+            std::max({std::abs(2 * x - 9), std::abs(2 * y - 9), std::abs(2 * z - 9)}) < 4;
+        values.push_back(is_block ? 90.0f + float(i % 3) : float(i % 4));
+    }
+    put_bytes(folder / "scan.npy", npy_bytes("<f4", "10, 10, 10", bytes_of_values(values)));
+    put_bytes(folder / "labels.npy", npy_bytes("|u1", "1, 1, 4", std::string("\0\1\2\2", 4)));
+    for (const char* command : {"voxelize {} -o {}", "convert {} {}"}) {
+        const auto made = [&](const char* from) {
+            EXPECT_EQ(run(fmt::format(fmt::runtime(command), from, "made.vox")).exit_code, 0);
+            return Json::parse(run("info made.vox --json").out);
+        };
+        EXPECT_EQ(made("scan.npy")["voxels"], 64) << command;
+        EXPECT_EQ(made("labels.npy")["voxels"], 3) << command;
+        EXPECT_EQ(made("labels.npy")["colors used"], 2) << command;
+    }
+}
+
 TEST_F(CliVoxelizeTest, AFrameOfASceneThatMovesIsChosen) {
     write_scene([](Json& scene) {
         scene["animation"] = {
@@ -105,6 +151,7 @@ TEST_F(CliVoxelizeTest, AFrameOfASceneThatMovesIsChosen) {
                {"keys",
                 {{{"frame", 1}, {"value", {1, 0, 0}}}, {{"frame", 3}, {"value", {0, 0, 1}}}}}}}}};
     });
+    EXPECT_EQ(run("voxelize scene.json --frame 4 -o s.npy").exit_code, 2);
     ASSERT_EQ(run("voxelize scene.json --frame 3 -o s.npy").exit_code, 0);
     EXPECT_EQ(cells_of(bytes_of(folder / "s.npy")).at(0, 0, 0), (std::array{0, 0, 255, 255}));
 }
@@ -127,6 +174,8 @@ TEST_F(CliVoxelizeTest, OptionsOfOtherInputsAreRefused) {
         EXPECT_THAT(expect_failure(2, fmt::format("voxelize scene.json -o a.vox {}", option)),
                     HasSubstr("is for meshes"));
     EXPECT_THAT(expect_failure(2, "voxelize t.obj -o a.vox --frame 2"), HasSubstr("for scenes"));
+    EXPECT_THAT(expect_failure(2, "voxelize scene.json -o a.vox --frame 2"),
+                HasSubstr("the last one is 1"));
     EXPECT_THAT(expect_failure(4, "voxelize none.json -o a.vox"), HasSubstr("no such file"));
     write_scene([](Json& scene) { scene["objects"] = Json::array(); });
     EXPECT_THAT(expect_failure(4, "voxelize scene.json -o a.vox"), HasSubstr("no voxels"));

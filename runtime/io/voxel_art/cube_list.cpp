@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <climits>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
@@ -28,10 +29,46 @@ void add_stored(const VoxelModel& model, size_t slot, CubeList& cubes) {
 void add_full(const VoxelModel& model, size_t brick, CubeList& cubes) {
     const glm::ivec3 first = brick_corner(model.frame, brick);
     for (size_t i = 0; i < kVoxelsPerBrick; ++i) cubes.cells.push_back(first + cell_in_brick(i));
-    if (!model.colors.empty()) cubes.colors.resize(cubes.cells.size(), 0xFFFFFF);
+    if (!model.colors.empty())
+        cubes.colors.resize(cubes.cells.size(),
+                            model.full_colors.empty() ? 0xFFFFFF : model.full_colors[brick]);
 }
 
+[[noreturn]] void refuse_empty() {
+    throw Error(ErrorKind::input, "there are no voxels to write");
+}
+
+/// The smallest box of cells that has all that are added.
+struct CellBox {
+    glm::ivec3 low{INT_MAX}, high{INT_MIN};
+
+    void add(const glm::ivec3& first, const glm::ivec3& last) {
+        low = glm::min(low, first);
+        high = glm::max(high, last);
+    }
+};
+
 }  // namespace
+
+glm::ivec3 size_of_cubes(const VoxelModel& model) {
+    CellBox box;
+    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+        const size_t slot = model.slots[brick];
+        if (slot == kBrickOutside) continue;
+        const glm::ivec3 first = brick_corner(model.frame, brick);
+        if (slot == kBrickInside) box.add(first, first + kBrickSize - 1);
+        if (slot == kBrickInside) continue;
+        for (size_t leaf = 0; leaf < kLeavesPerBrick; ++leaf)
+            for (uint64_t bits = model.occupancy[slot * kLeavesPerBrick + leaf]; bits != 0;
+                 bits &= bits - 1) {
+                const glm::ivec3 cell =
+                    first + leaf_corner(leaf) + cell_in_leaf(std::countr_zero(bits));
+                box.add(cell, cell);
+            }
+    }
+    if (box.high.x < box.low.x) refuse_empty();
+    return box.high - box.low + 1;
+}
 
 CubeList cube_list(const VoxelModel& model) {
     CubeList cubes;
@@ -53,15 +90,12 @@ CubeList cube_list(const VoxelModel& model) {
 }
 
 void shrink(CubeList& cubes) {
-    if (cubes.cells.empty()) throw Error(ErrorKind::input, "there are no voxels to write");
-    glm::ivec3 low = cubes.cells[0], high = cubes.cells[0];
-    for (const glm::ivec3& cell : cubes.cells) {
-        low = glm::min(low, cell);
-        high = glm::max(high, cell);
-    }
-    for (glm::ivec3& cell : cubes.cells) cell -= low;
-    cubes.origin += cubes.voxel_edge * glm::dvec3(low);
-    cubes.size = high - low + 1;
+    if (cubes.cells.empty()) refuse_empty();
+    CellBox box;
+    for (const glm::ivec3& cell : cubes.cells) box.add(cell, cell);
+    for (glm::ivec3& cell : cubes.cells) cell -= box.low;
+    cubes.origin += cubes.voxel_edge * glm::dvec3(box.low);
+    cubes.size = box.high - box.low + 1;
 }
 
 WriterNotes (*cube_writer(const std::filesystem::path& path))(const std::filesystem::path&,

@@ -19,6 +19,10 @@ struct CubeList {
     std::vector<uint32_t> colors;   ///< 0xTTBBGGRR, transparency on top; empty: all are white
 };
 
+/// The number of voxels along each axis of the smallest box that has all of a model. Throws
+/// Error::input for a model without voxels.
+glm::ivec3 size_of_cubes(const VoxelModel& model);
+
 /// The voxels of cubes, with those of bricks that are full. Throws Error::limit for more than 2^28.
 CubeList cube_list(const VoxelModel& model);
 
