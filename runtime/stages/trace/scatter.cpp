@@ -48,7 +48,7 @@ uint32_t ScatterStage::rays(const Pyramid& pyramid, RayBatch& entries, uint32_t 
                             Children& children, RayBatch& queue) {
     counters_.fill(0);
     rays_.launch_packets(end - begin, shape_of(pyramid), surroundings_, min_weight_,
-                         uint32_t(compact_), entries, begin, end, children, counters_,
+                         uint32_t(compact_), pyramid.colors, entries, begin, end, children, counters_,
                          static_cast<const RayQueue&>(queue));
     const uint32_t sent = take(kCountChildren);
     return compact_ ? sent : branches_ * (end - begin);
