@@ -152,13 +152,13 @@ static inline void store_tints(const Surroundings* around, const ScatterPoint* p
                                global const uint* restrict colors, const RayBatch* batch,
                                global float* restrict child_weights, uint first) {
     global const float* materials = around->materials;
-    const lane_uint voxel = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first) &
-                            LANES_AS_UINT(p->hit);
+    const lane_uint voxel =
+        LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first) & LANES_AS_UINT(p->hit);
     const Colors own = colors_of_hits(colors, voxel, batch->paint, first);
     const lane_uint place =
         color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
-    const lane_float tint = mapped_value(materials, p->material + VXL_MATERIAL_MIRROR_TINT, own,
-                                         VXL_PAINT_MIRROR_TINT);
+    const lane_float tint =
+        mapped_value(materials, p->material + VXL_MATERIAL_MIRROR_TINT, own, VXL_PAINT_MIRROR_TINT);
     for (uint c = 0; c < 3; ++c)
         LANES_STORE(tinted(surface_color(materials, place, own, (int)c), tint), child_weights,
                     tint_of(c, batch->stride, first));
@@ -168,9 +168,9 @@ static inline void store_tints(const Surroundings* around, const ScatterPoint* p
 /// for each entry, the node and the weight of its reflected light and, `stride` values later, those
 /// of its refracted light.
 kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float min_weight,
-                         uint compact, global const uint* restrict colors, VXL_BATCH_PARAMETERS, uint begin, uint end,
-                         VXL_CHILDREN_PARAMETERS, global uint* restrict counters,
-                         VXL_QUEUE_PARAMETERS) {
+                         uint compact, global const uint* restrict colors, VXL_BATCH_PARAMETERS,
+                         uint begin, uint end, VXL_CHILDREN_PARAMETERS,
+                         global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
     const uint first = begin + work_item() * VXL_LANES;
     if (first >= end) return;
     const Surroundings around = VXL_SURROUNDINGS;

@@ -80,8 +80,7 @@ Report describe_mesh(const std::filesystem::path& path) {
         report["textures"].push_back({texture.image->width, texture.image->height});
     if (summary.paint.mapped > 0)
         report["texture maps"] = "roughness, metalness or emission, which \"cubes\" don't show";
-    if (summary.paint.has_alpha)
-        report["texture alpha"] = "only \"exact\" surfaces show it";
+    if (summary.paint.has_alpha) report["texture alpha"] = "only \"exact\" surfaces show it";
     if (!clips.empty()) report["clips"] = clips;
     if (!mesh.notes.empty()) report["notes"] = mesh.notes;
     if (box.min == box.max) return report;
