@@ -165,7 +165,7 @@ std::vector<KnownFile> known_files() {
 std::vector<KnownPicture> known_pictures() {
     return {
         {"matt", kMatt, false, "105c18b0f243990d"},
-        {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "5177d8b338a1e18f"},
+        {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light", with(kLocal, {{"LIGHT", "global"}}), false, "1580ec99b3ef267d"},
         {"meshes", kMeshes, false, "d0f5f6be5e68e8f8"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},

@@ -141,13 +141,36 @@ static inline lane_float weight_behind(const RayBatch* batch,
     return path_float(batch->paths, VXL_PATH_WEIGHT, batch->stride, first) * largest(node_weight);
 }
 
+/// The number of a value of VXL_TINTED among the children's weights: of the colours that surfaces
+/// give to what they mirror.
+static inline uint tint_of(uint channel, uint stride, uint entry) {
+    return ((VXL_REFRACTS ? 2u : 1u) + channel) * stride + entry;
+}
+
+/// Writes the colours that a packet's surfaces give to what they mirror.
+static inline void store_tints(const Surroundings* around, const ScatterPoint* p,
+                               global const uint* restrict colors, const RayBatch* batch,
+                               global float* restrict child_weights, uint first) {
+    global const float* materials = around->materials;
+    const lane_uint voxel =
+        LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + first) & LANES_AS_UINT(p->hit);
+    const Colors own = colors_of_hits(colors, voxel, batch->paint, first);
+    const lane_uint place =
+        color_offset(materials, p->material, p->position.x, p->position.y, p->position.z);
+    const lane_float tint =
+        mapped_value(materials, p->material + VXL_MATERIAL_MIRROR_TINT, own, VXL_PAINT_MIRROR_TINT);
+    for (uint c = 0; c < 3; ++c)
+        LANES_STORE(tinted(surface_color(materials, place, own, (int)c), tint), child_weights,
+                    tint_of(c, batch->stride, first));
+}
+
 /// Sends reflected and refracted rays from entries begin .. end-1 of the batch. The children hold,
 /// for each entry, the node and the weight of its reflected light and, `stride` values later, those
 /// of its refracted light.
 kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float min_weight,
-                         uint compact, VXL_BATCH_PARAMETERS, uint begin, uint end,
-                         VXL_CHILDREN_PARAMETERS, global uint* restrict counters,
-                         VXL_QUEUE_PARAMETERS) {
+                         uint compact, global const uint* restrict colors, VXL_BATCH_PARAMETERS,
+                         uint begin, uint end, VXL_CHILDREN_PARAMETERS,
+                         global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
     const uint first = begin + work_item() * VXL_LANES;
     if (first >= end) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -169,6 +192,7 @@ kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float 
     ray.weight = weight * reflected.returned;
     reflect_rays(shape, &around, &p, &batch, first, &ray);
     put_children(&to, &ray, reflected, p.valid);
+    if (VXL_TINTED) store_tints(&around, &p, colors, &batch, child_weights, first);
     if (!VXL_REFRACTS) return;
     ray.weight = weight * refracted.returned;
     refract_rays(shape, &around, &p, &batch, first, &ray);
@@ -194,6 +218,7 @@ kernel void gather_light(uint begin, uint end, VXL_CHILDREN_PARAMETERS,
         float sum = 0.0f;
         if (reflected != VXL_NO_CHILD)
             sum = child_weights[entry] * light[c * light_stride + reflected];
+        if (VXL_TINTED) sum *= child_weights[tint_of(c, stride, entry)];
         if (refracted != VXL_NO_CHILD)
             sum += child_weights[stride + entry] * light[c * light_stride + refracted];
         float node_weight = 1.0f;

@@ -29,10 +29,12 @@
 #if VXL_SOURCE_MESHES
 #define VXL_SOURCE_PARAMETERS \
     global const SourceRecord *restrict source_objects, global const uint *restrict source_words,
-#define VXL_SOURCE_VIEW {source_objects, source_words}
+#define VXL_SOURCE_VIEW \
+    { source_objects, source_words }
 #else
 #define VXL_SOURCE_PARAMETERS
-#define VXL_SOURCE_VIEW {0, 0}
+#define VXL_SOURCE_VIEW \
+    { 0, 0 }
 #endif
 
 /// The points where rays met their surfaces: the place in the voxel, and the unit normal in

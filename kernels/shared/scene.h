@@ -132,6 +132,11 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_MATERIAL_MAPPED VXL_MATERIAL_FRESNEL
 #define VXL_ROUGHNESS_STEPS 16
 
+// In local light: the share of a material's highlight, and of its mirror image, that has the
+// surface's colour, as metals' have; the rest is colourless.
+#define VXL_MATERIAL_HIGHLIGHT_TINT VXL_MATERIAL_ALBEDOS
+#define VXL_MATERIAL_MIRROR_TINT VXL_MATERIAL_MISSING
+
 // Physically based materials that let light through have VXL_MATERIAL_REFRACTION, the share of the
 // surface that does, and here the number of the first value of their block, 0 for none:
 #define VXL_MATERIAL_GLASS VXL_MATERIAL_SHININESS

@@ -55,7 +55,7 @@
 // What rays have seen: of each hit its colour, its opacity, and how wide the ray was there, all
 // floats, hit by hit. The first three multiply the material's colour, the fourth its opacity.
 // Where textures have maps, values of the material at the hit follow: in global light the first
-// two, of physically based ones; in local light the last four.
+// two, of physically based ones; in local light the last six.
 #define VXL_PAINT_OPACITY 3
 #define VXL_PAINT_WIDTH 4
 #define VXL_PAINT_ROUGHNESS 5
@@ -64,6 +64,8 @@
 #define VXL_PAINT_SPECULAR 6
 #define VXL_PAINT_SHININESS 7
 #define VXL_PAINT_REFLECTION 8
-#define VXL_PAINT_FLOATS(maps) ((maps) ? 9 : 5)
+#define VXL_PAINT_HIGHLIGHT_TINT 9
+#define VXL_PAINT_MIRROR_TINT 10
+#define VXL_PAINT_FLOATS(maps) ((maps) ? 11 : 5)
 
 #endif

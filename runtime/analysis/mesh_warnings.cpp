@@ -79,11 +79,12 @@ void add_texture_warning(const Model& model, const MeshPaint& paint,
     const std::string missed = missed_of_textures(paint, model.surface);
     if (missed.empty()) return;
     const bool wants_exact = paint.has_alpha;
-    add_once({WarningKind::ignored_materials, model.where,
-              fmt::format("{}: {} shown on \"{}\": give the model \"surface\": {}",
-                          quote(model.mesh.filename().string()), missed, kind_of(model.surface).name,
-                          wants_exact ? "\"exact\"" : "\"smooth\" or \"exact\"")},
-             warnings);
+    add_once(
+        {WarningKind::ignored_materials, model.where,
+         fmt::format("{}: {} shown on \"{}\": give the model \"surface\": {}",
+                     quote(model.mesh.filename().string()), missed, kind_of(model.surface).name,
+                     wants_exact ? "\"exact\"" : "\"smooth\" or \"exact\"")},
+        warnings);
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         refraction |= (effects & kRefracts) != 0;
         opacity |= (effects & kIsSeenThrough) != 0;
         reflection |= (effects & kReflects) != 0 || mirrors_by_map(*m, features);
+        features.tinted |= !features.global && is_physical(*m) && m->metallic.value_or(0) > 0;
         features.physical |= features.global && (effects & kIsPhysical) != 0;
         features.coat |= features.global && (effects & kHasCoat) != 0;
         features.weak_facets |= features.global && is_weak(*m);

@@ -80,17 +80,38 @@ float shininess_of(double rough) {
     return float(std::clamp(2 / (width * width) - 2, 2.0, 1000.0));
 }
 
+/// Parts of the light that a surface of metal, or of clear facets over matt ones, reflects in local
+/// light.
+struct LocalGloss {
+    double metal, rough, mirror;       ///< `mirror`: of what metal reflects
+    double of_metal, of_facets, coat;  ///< highlights
+
+    explicit LocalGloss(const Material& material)
+        : metal(material.metallic.value_or(0)),
+          rough(material.roughness.value_or(kRoughness)),
+          mirror((1 - rough) * (1 - rough)),
+          of_metal(metal * (1 - 0.4 * rough)) {
+        constexpr double kGlint = 0.2;  // the root of what glass reflects straight on
+        of_facets = kGlint * material.specular.value_or(1) * (1 - metal) * (1 - rough);
+        coat = kGlint * material.coat.value_or(0) *
+               (1 - material.coat_roughness.value_or(kCoatRoughness));
+    }
+
+    bool shows_coat() const { return coat > of_metal + of_facets; }
+    /// What metal neither mirrors nor returns in its highlight, whose light is about 8 / (n + 7.6)
+    /// for an exponent n. It stands for what rough metal reflects of all that is around.
+    double spread() const {
+        const double highlight = (1 - 0.4 * rough) * 8 / (double(shininess_of(rough)) + 7.6);
+        return std::max(1 - mirror - highlight, 0.0);
+    }
+};
+
 }  // namespace
 
 Material whitted_material(const Material& material) {
     if (!is_physical(material)) return material;
-    constexpr double kGlint = 0.2;  // the root of what glass reflects straight on
-    const double metal = material.metallic.value_or(0);
-    const double rough = material.roughness.value_or(kRoughness);
-    const double smooth = (1 - rough) * (1 - rough);
-    const double clear = kGlint * material.specular.value_or(1) * (1 - metal) * (1 - rough);
-    const double coat_rough = material.coat_roughness.value_or(kCoatRoughness);
-    const double coat = kGlint * material.coat.value_or(0) * (1 - coat_rough);
+    const LocalGloss gloss(material);
+    const double glass = glass_share(material);
     Material m = material;
     m.color = color_of(material);
     m.base_color.reset();
@@ -99,17 +120,23 @@ Material whitted_material(const Material& material) {
     m.transmission.reset();
     m.coat.reset();
     m.coat_roughness.reset();
-    m.diffuse = float(1 - 0.5 * metal * smooth);
-    m.specular = std::max(0.6 * metal + clear, coat);
-    m.shininess = shininess_of(coat > 0.6 * metal + clear ? coat_rough : rough);
-    m.reflection = float(0.65 * metal * smooth);
-    const double glass = glass_share(material);
+    m.diffuse = float(1 - gloss.metal * (1 - gloss.spread()) - glass);
+    m.specular = std::max(gloss.of_metal + gloss.of_facets, gloss.coat);
+    m.shininess = shininess_of(gloss.shows_coat() ? material.coat_roughness.value_or(kCoatRoughness)
+                                                  : gloss.rough);
+    m.reflection = float(gloss.metal * gloss.mirror + glass);
     if (glass == 0) return m;
-    m.diffuse *= float(1 - glass);
-    m.reflection += float(glass);
     m.refraction = float(glass);
     m.fresnel = true;
     return m;
+}
+
+MetalTint metal_tint(const Material& material) {
+    if (!is_physical(material)) return {};
+    const LocalGloss gloss(material);
+    const auto share = [](double part, double rest) { return part > 0 ? part / (part + rest) : 0; };
+    return {gloss.shows_coat() ? 0 : share(gloss.of_metal, gloss.of_facets),
+            share(gloss.metal * gloss.mirror, glass_share(material))};
 }
 
 std::span<const std::string_view> physical_keys() {

@@ -88,9 +88,15 @@ bool takes_gloss_map(const Material& material);
 glm::vec3 color_of(const Material& material);
 
 /// A physically based material's place in Whitted's model, by which local light shows it; others as
-/// they are. Mirrors are sharp and colourless there, so a rough metal reflects less and shows more
-/// of its own colour.
+/// they are. Mirrors are sharp there, so a rough metal mirrors less, and shows its own colour in
+/// the place of what it would reflect from all around.
 Material whitted_material(const Material& material);
+
+/// The shares of a material's highlight and mirror image, in local light, that have its colour.
+struct MetalTint {
+    double highlight = 0, mirror = 0;
+};
+MetalTint metal_tint(const Material& material);
 
 /// The keys that make a material physically based, and those of Whitted's model that they are in
 /// the place of.

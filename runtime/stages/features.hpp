@@ -27,6 +27,7 @@ struct Features {
     bool shadows = false;         ///< lights can be hidden
     bool area_samples = false;    ///< some light has an area
     bool checker = false;         ///< some material changes its colour from block to block
+    bool tinted = false;          ///< some metal in local light reflects in its own colour
     bool paths = false;           ///< rays are reflected, refracted or continue through surfaces
     bool transmission = false;    ///< some object lets light through
     bool refracts = false;        ///< some surface bends rays, or reflects by Fresnel's law
@@ -98,6 +99,7 @@ struct Features {
                 {"VXL_SHADOWS", shadows},
                 {"VXL_AREA_SAMPLES", area_samples},
                 {"VXL_CHECKER", checker},
+                {"VXL_TINTED", tinted},
                 {"VXL_PATHS", paths},
                 {"VXL_TRANSMISSION", transmission},
                 {"VXL_REFRACTS", refracts},

@@ -152,7 +152,6 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
     const uint64_t room =
         keeps_ && retains_ ? std::min(uint64_t(spare), device_.info().memory / kRetainedPart) : 0;
-
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
     SourceMeshes sources;

@@ -187,10 +187,14 @@ TEST(PhysicalMaterials, HaveThePlaceInWhittedsModelThatTheManualTells) {
     const Material shown = whitted_material(brass);
     EXPECT_FALSE(is_physical(shown));
     EXPECT_EQ(shown.color, glm::vec3(0.9f, 0.7f, 0.25f));
-    EXPECT_FLOAT_EQ(shown.diffuse, 1 - 0.5f * 0.75f * 0.25f);
-    EXPECT_DOUBLE_EQ(shown.specular.value(), 0.6 * 0.75 + 0.2 * 0.25 * 0.5);
+    EXPECT_NEAR(shown.diffuse, 0.25 + 0.75 * (1 - 0.25 - 0.8 * 8 / 37.6), 1e-6);
+    EXPECT_DOUBLE_EQ(shown.specular.value(), 0.8 * 0.75 + 0.2 * 0.25 * 0.5);
     EXPECT_FLOAT_EQ(shown.shininess, 30);
-    EXPECT_FLOAT_EQ(shown.reflection, 0.65f * 0.75f * 0.25f);
+    EXPECT_FLOAT_EQ(shown.reflection, 0.75f * 0.25f);
+    EXPECT_DOUBLE_EQ(metal_tint(brass).highlight, 0.6 / 0.625);
+    EXPECT_DOUBLE_EQ(metal_tint(brass).mirror, 1);
+    brass.transmission = 0.5;
+    EXPECT_DOUBLE_EQ(metal_tint(brass).mirror, 0.1875 / (0.1875 + 0.125));
     EXPECT_EQ(shown.refraction, 0);
     EXPECT_EQ(shown.opacity, 0.5f);
     Material lacquer;
@@ -201,6 +205,7 @@ TEST(PhysicalMaterials, HaveThePlaceInWhittedsModelThatTheManualTells) {
     lacquer.coat_roughness = 0.3;
     EXPECT_EQ(effects_of(lacquer), kIsPhysical | kHasCoat);
     EXPECT_DOUBLE_EQ(whitted_material(lacquer).specular.value(), 0.2 * 0.5 * 0.7);
+    EXPECT_EQ(metal_tint(lacquer).highlight, 0);
     EXPECT_FLOAT_EQ(whitted_material(lacquer).shininess, float(2 / std::pow(0.3, 4) - 2));
     EXPECT_FALSE(is_physical(whitted_material(lacquer)));
     Material plain;

@@ -124,6 +124,10 @@ static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_f
     const lane_float specular =
         surface_specular(materials, material, colors) *
         exact_power(highlight, surface_shininess(materials, material, colors));
+    lane_float tint = (lane_float)0.0f;
+    if (VXL_TINTED)
+        tint = mapped_value(materials, material + VXL_MATERIAL_HIGHLIGHT_TINT, colors,
+                            VXL_PAINT_HIGHLIGHT_TINT);
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     const lane_float falloff = i->falloff * surface_opacity(materials, material, colors);
     const lane_uint color_at =
@@ -131,7 +135,9 @@ static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_f
     lane_int any_contribution = (lane_int)0;
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color = surface_color(materials, color_at, colors, channel);
-        contribution[channel] = fma(color, diffuse, specular) * falloff * intensity[channel];
+        lane_float shine = specular;
+        if (VXL_TINTED) shine *= tinted(color, tint);
+        contribution[channel] = fma(color, diffuse, shine) * falloff * intensity[channel];
         any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
     }
     return any_contribution;

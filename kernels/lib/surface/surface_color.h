@@ -96,6 +96,11 @@ static inline lane_float mapped_value(global const float* restrict materials, la
     return LANES_GATHER_FLOAT(materials, value);
 }
 
+/// What a colourless share of light is multiplied by where `tint` of it has the surface's colour.
+static inline lane_float tinted(lane_float color, lane_float tint) {
+    return fma(tint, color - 1.0f, (lane_float)1.0f);
+}
+
 /// The part of the light that falls on a surface which it returns in all directions; in global
 /// light that of surfaces that aren't physically based.
 static inline lane_float surface_diffuse(global const float* restrict materials, lane_uint material,

@@ -59,6 +59,9 @@ static inline void set_maps(global const uint* restrict textures, lane_uint plac
         for (int c = 0; c < 3; ++c) m->emission[c] = LANES_SELECT(glows, mean[c], m->emission[c]);
 }
 
+/// The number of values behind VXL_PAINT_WIDTH.
+#define VXL_MAPPED_VALUES (VXL_PAINT_FLOATS(1) - VXL_PAINT_WIDTH - 1)
+
 /// The values of materials behind VXL_PAINT_WIDTH, with maps. Local light shows them in Whitted's
 /// model, by the formulas of whitted_material().
 static inline void map_material(global const float* restrict materials, lane_uint material,
@@ -72,7 +75,7 @@ static inline void map_material(global const float* restrict materials, lane_uin
         rough = exact_sqrt(rough);
         values[0] = LANES_SELECT(takes, rough * m->roughness, rough);
         values[1] = LANES_SELECT(takes, metallic * m->metallic, metallic);
-        values[2] = values[3] = zero;
+        for (int i = 2; i < VXL_MAPPED_VALUES; ++i) values[i] = zero;
         return;
     }
     const lane_int takes = LANE_MASK(rough > 0.0f);
@@ -82,15 +85,25 @@ static inline void map_material(global const float* restrict materials, lane_uin
     const lane_float glint =
         0.2f * LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFLECTANCE);
     const lane_float width = fmax(rough * rough, (lane_float)0.04f);
-    const lane_float own[4] = {
-        fma(-0.5f * metallic, smooth, one),
-        fma((lane_float)0.6f, metallic, glint * (one - metallic) * clear),
-        clamp(fma((lane_float)2.0f, exact_reciprocal(width * width), (lane_float)-2.0f), 2.0f,
-              1000.0f),
-        0.65f * metallic * smooth};
-    const uint places[4] = {VXL_MATERIAL_DIFFUSE, VXL_MATERIAL_SPECULAR, VXL_MATERIAL_SHININESS,
-                            VXL_MATERIAL_REFLECTION};
-    for (int i = 0; i < 4; ++i)
+    const lane_float shininess = clamp(
+        fma((lane_float)2.0f, exact_reciprocal(width * width), (lane_float)-2.0f), 2.0f, 1000.0f);
+    const lane_float shine = fma((lane_float)-0.4f, rough, one);
+    const lane_float spread =
+        fmax(one - smooth - shine * 8.0f * exact_reciprocal(shininess + 7.6f), (lane_float)0.0f);
+    const lane_float of_metal = metallic * shine;
+    const lane_float specular = fma(glint * (one - metallic), clear, of_metal);
+    const lane_int shines = LANE_MASK(specular > 0.0f);
+    const lane_float own[VXL_MAPPED_VALUES] = {
+        fma(metallic, spread - one, one),
+        specular,
+        shininess,
+        metallic * smooth,
+        exact_divide(of_metal, LANES_SELECT(shines, specular, one)),
+        one};
+    const uint places[VXL_MAPPED_VALUES] = {VXL_MATERIAL_DIFFUSE,        VXL_MATERIAL_SPECULAR,
+                                            VXL_MATERIAL_SHININESS,      VXL_MATERIAL_REFLECTION,
+                                            VXL_MATERIAL_HIGHLIGHT_TINT, VXL_MATERIAL_MIRROR_TINT};
+    for (int i = 0; i < VXL_MAPPED_VALUES; ++i)
         values[i] =
             LANES_SELECT(takes, own[i], LANES_GATHER_FLOAT(materials, material + places[i]));
 }

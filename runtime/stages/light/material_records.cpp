@@ -118,6 +118,9 @@ class RecordList {
 
     void add_whitted(const Material& material) {
         MaterialRecord record = material_record(whitted_material(material), world_);
+        const MetalTint tint = metal_tint(material);
+        record.albedos = float(tint.highlight);
+        record.missing = float(tint.mirror);
         if (has_maps_ && takes_gloss_map(material)) {
             record.metallic = float(material.metallic.value_or(0));
             record.width = float(std::max(material.roughness.value_or(kRoughness), 1e-6));

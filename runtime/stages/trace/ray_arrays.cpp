@@ -97,7 +97,8 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
     if (features.global) return;
     if (features.transmission) maker.make(depth.children.node_weights, "path node weights", 3);
     maker.make(depth.children.nodes, "path children", branches_of(features));
-    maker.make(depth.children.child_weights, "path child weights", branches_of(features));
+    maker.make(depth.children.child_weights, "path child weights",
+               branches_of(features) + (features.tinted ? 3 : 0));
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ uint32_t ScatterStage::rays(const Pyramid& pyramid, RayBatch& entries, uint32_t 
                             Children& children, RayBatch& queue) {
     counters_.fill(0);
     rays_.launch_packets(end - begin, shape_of(pyramid), surroundings_, min_weight_,
-                         uint32_t(compact_), entries, begin, end, children, counters_,
-                         static_cast<const RayQueue&>(queue));
+                         uint32_t(compact_), pyramid.colors, entries, begin, end, children,
+                         counters_, static_cast<const RayQueue&>(queue));
     const uint32_t sent = take(kCountChildren);
     return compact_ ? sent : branches_ * (end - begin);
 }

@@ -21,7 +21,8 @@ inline constexpr uint32_t kCountToEmitters = kCountLayer;  ///< global light has
 struct Children {
     Buffer<uint32_t> nodes;  ///< node of each entry's reflected ray; `stride` later that of its
                              ///< refracted ray
-    Buffer<float> child_weights;  ///< the part of the child node's light that the surface returns
+    Buffer<float> child_weights;  ///< the part of the child node's light that the surface returns;
+                                  ///< behind them with VXL_TINTED the colours of what it mirrors
     Buffer<float> node_weights;   ///< 3: the weight of that light in the entry's node
 };
 
