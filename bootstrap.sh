@@ -178,7 +178,8 @@ python_package() {
     cmake --install "$build" --prefix "$folder/library" >/dev/null
     python3 -m venv "$folder/fresh" --clear
     "$folder/fresh/bin/pip" wheel -q --no-deps -w "$folder/wheels" ./python \
-        -C build-dir="$folder/module" -C cmake.define.voxelume_DIR="$folder/library/lib/cmake/voxelume"
+        -C build-dir="$folder/module" -C cmake.define.CMAKE_UNITY_BUILD=ON \
+        -C cmake.define.voxelume_DIR="$folder/library/lib/cmake/voxelume"
     "$folder/fresh/bin/pip" install -q "$(echo "$folder"/wheels/*.whl)[test]"
     say "Testing the wheel"
     # From a folder without sources, so that what is tested is what was installed.

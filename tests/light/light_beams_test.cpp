@@ -167,12 +167,14 @@ INSTANTIATE_TEST_SUITE_P(Lanes, LightBeamLanes, testing::Values(1, 4, 8, 16));
 TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
     const Device device = test_device(GetParam());
     int shadowed = 0, lit = 0, shortened = 0;
+    size_t turn = GetParam() / 4;  // by default, each number of lanes has two of the worlds
     for (const auto& [voxels, of] : {std::pair(3, DilationLevel::leaves),
-                                     {400, DilationLevel::leaves},
-                                     {4000, DilationLevel::leaves},
-                                     {3, DilationLevel::bricks},
                                      {60, DilationLevel::bricks},
+                                     {400, DilationLevel::leaves},
+                                     {3, DilationLevel::bricks},
+                                     {4000, DilationLevel::leaves},
                                      {150, DilationLevel::bricks}}) {
+        if (!is_exhaustive() && turn++ % 3 != 0) continue;
         ShadowedCubes world(device, voxels);
         for (const Light& light : lights_outside()) {
             const BeamGrid grid = beam_grid(light_record(light, world.pyramid().frame), kSize,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every frame of the animations in scenes/, small and coarse: a run that retains what it can and
-// overlaps its frames gives the bits of each frame rendered from nothing.
+// Every frame of the animations in scenes/, by default every fifth one, small and coarse: a run
+// that retains what it can and overlaps its frames gives the bits of each frame rendered from
+// nothing.
 #include <gtest/gtest.h>
 
 #include "runtime/analysis/scene_choices.hpp"
@@ -83,10 +84,11 @@ TEST_P(AnimationFrames, HaveTheBitsOfEachAlone) {
     ASSERT_GE(run.size(), 48u);
     size_t changes = 0;
     for (size_t n = 0; n < run.size(); ++n) {
+        if (n > 0) changes += run[n].image != run[n - 1].image;
+        if (!is_exhaustive() && n % 5 != 2) continue;
         const Frame alone = frame_alone(scene_at(scene, double(n + 1)), GetParam().is_volume);
         EXPECT_EQ(run[n].image, alone.image) << "frame " << n + 1;
         EXPECT_TRUE(run[n].volume == alone.volume) << "frame " << n + 1;
-        if (n > 0) changes += run[n].image != run[n - 1].image;
     }
     EXPECT_GT(changes, run.size() / 2);
 }
