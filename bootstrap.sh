@@ -71,7 +71,7 @@ configure() {
     say "Configuring $build"
     # Several files at a time: what they include is read once.
     cmake --preset "$preset" -DVXL_WERROR="${VXL_WERROR:-OFF}" -DCMAKE_UNITY_BUILD=ON \
-        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DVXL_FIRST_BUILD="${VXL_FIRST_BUILD:-OFF}"
 }
 
 build_targets() {
