@@ -71,7 +71,7 @@ configure() {
     say "Configuring $build"
     # Several files at a time: what they include is read once.
     cmake --preset "$preset" -DVXL_WERROR="${VXL_WERROR:-OFF}" -DCMAKE_UNITY_BUILD=ON \
-        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DVXL_FIRST_BUILD="${VXL_FIRST_BUILD:-OFF}"
 }
 
 build_targets() {
@@ -178,7 +178,8 @@ python_package() {
     cmake --install "$build" --prefix "$folder/library" >/dev/null
     python3 -m venv "$folder/fresh" --clear
     "$folder/fresh/bin/pip" wheel -q --no-deps -w "$folder/wheels" ./python \
-        -C build-dir="$folder/module" -C cmake.define.voxelume_DIR="$folder/library/lib/cmake/voxelume"
+        -C build-dir="$folder/module" -C cmake.define.CMAKE_UNITY_BUILD=ON \
+        -C cmake.define.voxelume_DIR="$folder/library/lib/cmake/voxelume"
     "$folder/fresh/bin/pip" install -q "$(echo "$folder"/wheels/*.whl)[test]"
     say "Testing the wheel"
     # From a folder without sources, so that what is tested is what was installed.

@@ -47,19 +47,27 @@ function(patterns_of variable)
     set(${variable} "${patterns}" PARENT_SCOPE)
 endfunction()
 
+# PoCL links each kernel by the first ld that clang finds: 6 % less of the time of a kernel with gold.
+if(GOLD)
+    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/linker)
+    file(CREATE_LINK ${GOLD} ${CMAKE_BINARY_DIR}/linker/ld SYMBOLIC)
+endif()
+
 # finish_test(NAME): what all tests of ctest have in common. A filter that names no test fails.
 function(finish_test name)
-    set_tests_properties(${name} PROPERTIES ENVIRONMENT_MODIFICATION VOXELUME_CACHE_DIR=set:${test_cache})
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION VOXELUME_CACHE_DIR=set:${test_cache})
+    if(GOLD)
+        set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION COMPILER_PATH=set:${CMAKE_BINARY_DIR}/linker)
+    endif()
     set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
-# Tests whose kernels the OpenCL compiler optimizes, as it does for users: images' golden bits, device functions, what
-# compares rays with exact answers, and what compiling takes. The optimizer changes no bit (golden_test, matrix_test,
-# determinism_test), and takes half of the time of most tests.
-set(optimized_tests golden_test shipped_scenes_test determinism_test all_features_test accuracy_test stress_again_test
-                    whitted_test noise_test voxelize_open_test animation_frames_test
+# Tests whose kernels the OpenCL compiler optimizes, as it does for users: device functions, what compares rays with
+# exact answers, and what compiling takes. The optimizer changes no bit (matrix_test, determinism_test), and takes half
+# of the time of most tests.
+set(optimized_tests stress_again_test voxelize_open_test
                     matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test
-                    api_compiling_test api_import_test cli_cache_test cli_interrupt_test)
+                    api_compiling_test cli_cache_test cli_interrupt_test)
 
 set(not_optimized VOXELUME_BUILD_OPTIONS=set:-cl-opt-disable)
 

@@ -13,6 +13,8 @@
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/gltf_writer.hpp"
 #include "tests/support/shared_device.hpp"
@@ -102,15 +104,21 @@ std::string textured_tetrahedron() {
     return writer.gltf();
 }
 
-class AllFeatures : public FileTest, public testing::WithParamInterface<const char*> {};
+class AllFeatures : public FileTest, public testing::WithParamInterface<const char*> {
+  protected:
+    Scene scene_here() const {
+        put_bytes(folder / "m.gltf", textured_tetrahedron());
+        write_fog(folder / "fog.vdb");
+        put_bytes(folder / "around.hdr",
+                  "#?RADIANCE\n\n-Y 1 +X 2\n\x40\x50\x60\x80\x20\x20\x20\x80");
+        return parse_scene(scene_text(GetParam()), folder / "s.json", {});
+    }
+};
 
 INSTANTIATE_TEST_SUITE_P(Lights, AllFeatures, testing::Values("local", "global"));
 
 TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
-    put_bytes(folder / "m.gltf", textured_tetrahedron());
-    write_fog(folder / "fog.vdb");
-    put_bytes(folder / "around.hdr", "#?RADIANCE\n\n-Y 1 +X 2\n\x40\x50\x60\x80\x20\x20\x20\x80");
-    const Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});
+    const Scene scene = scene_here();
     const bool is_global = scene.render.light == LightMode::global;
     const Device& device = shared_device();
     RenderReport report;
@@ -146,6 +154,21 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const Plane<float>& red = image.planes.at("R");
     const auto [minimum, maximum] = std::ranges::minmax(red);
     EXPECT_GT(maximum, minimum);
+}
+
+/// By default, these kernels are those of each feature that other numbers of lanes run.
+TEST_P(AllFeatures, HaveTheSameBitsOnAnyNumberOfLanes) {
+    const bool is_global = GetParam() == std::string("global");
+    const Scene scene = scene_here();
+    std::vector<int> others = {1, 4, 8, 16};
+    std::erase(others, shared_device().lanes());
+    const auto hash_on = [&](const Device& device) {
+        RenderReport report;
+        return oracle::image_hash(render(device, scene, report));
+    };
+    const uint64_t expected = hash_on(shared_device());
+    for (const int lanes : in_turn(others, is_global ? 1 : 2))
+        EXPECT_EQ(hash_on(test_device(lanes)), expected) << lanes;
 }
 
 }  // namespace

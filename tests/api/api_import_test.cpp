@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/api/api_fixture.hpp"
+#include "tests/support/exhaustive.hpp"
 
 namespace voxelume::v1 {
 namespace {
@@ -58,6 +59,7 @@ Taken pixels_of(const Image& image, uint32_t object) {
 }
 
 TEST_F(ApiImport, AMeshFillsThePictureFromEverySideWithoutBeingCut) {
+    size_t turn = 0;
     for (const auto& [longitude, latitude] : {std::pair{35.0, 25.0},
                                               {0.0, 0.0},
                                               {90.0, 0.0},
@@ -65,7 +67,7 @@ TEST_F(ApiImport, AMeshFillsThePictureFromEverySideWithoutBeingCut) {
                                               {0.0, 90.0},
                                               {20.0, -35.0}})
         for (const bool parallel : {false, true})
-            for (const Size size : {Size{96, 72}, Size{72, 96}, Size{128, 48}}) {
+            for (const Size size : in_turn<Size>({{96, 72}, {72, 96}, {128, 48}}, turn++)) {
                 SCOPED_TRACE(testing::Message() << longitude << " " << latitude << " " << parallel
                                                 << " " << size[0] << "x" << size[1]);
                 const Image image = picture({.longitude = longitude,

@@ -156,7 +156,8 @@ TEST_F(VoxelModels, OfOpenVdbThatAreDamagedAnywhereAreRefusedOrRead) {
     voxelize_to("a", Surface::cubes);
     const std::string bytes = bytes_of(folder / "a.vdb");
     size_t refused = 0;
-    for (size_t i = 0; i < bytes.size(); i += bytes.size() / 80) {
+    const size_t places = is_exhaustive() ? 80 : 40;
+    for (size_t i = 0; i < bytes.size(); i += bytes.size() / places) {
         std::string changed = bytes;
         changed[i] = char(changed[i] ^ 0x41);
         put_bytes(folder / "b.vdb", changed);

@@ -66,8 +66,9 @@ class CliFaultsTest : public SceneProgramTest {
         for (const auto& [name, bytes] : left) EXPECT_TRUE(bytes == expected.at(name)) << name;
     }
 
-    /// Has calls of all functions fail: of each the first, the last or one between by turns; in an
-    /// exhaustive run all three and some forty others, each with all statuses.
+    /// Has calls of all functions fail: of every other one the first, the last or one between by
+    /// turns; in an exhaustive run of each one all three and some forty others, each with all
+    /// statuses.
     void expect_all_handled(const std::string& arguments, size_t turn) {
         command_ = "render scene.json --no-cache " + arguments;
         remove_files();
@@ -77,6 +78,11 @@ class CliFaultsTest : public SceneProgramTest {
         // Of memory, of a dead queue, of an event, and one that no list has.
         const std::vector statuses = {-5, -6, -4, -36, -14, -9999};
         for (const auto& [function, count] : counts()) {
+            // By default each render has every other function fail, which differ by its turn.
+            if (!is_exhaustive() && turn % 2 != 0) {
+                ++turn;
+                continue;
+            }
             std::vector<long> numbers = {1, (count + 1) / 2, count};
             if (is_exhaustive())
                 for (long i = 2; i < count; i = i + 1 + count / 40) numbers.push_back(i);

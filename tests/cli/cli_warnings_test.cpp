@@ -160,10 +160,11 @@ TEST_F(CliWarningsTest, SayThatTheCacheCannotBeWritten) {
     write_scene([](Json&) {});
     put_bytes(folder / "file", "no folder");
     const Setting setting("VOXELUME_CACHE_DIR", (folder / "file" / "cache").c_str());
-    const std::string line = run("render scene.json -o a.png").err;
+    const std::string line = run("render scene.json -o a.exr --channels Z").err;
     EXPECT_THAT(line, HasSubstr("/file/cache/models: nothing can be kept in this folder (Not a "
                                 "directory)"));
-    EXPECT_THAT(run("render scene.json -o a.png --no-cache").err, Not(HasSubstr("warning")));
+    EXPECT_THAT(run("render scene.json -o a.exr --channels Z --no-cache").err,
+                Not(HasSubstr("warning")));
 }
 
 /// Access rights don't keep the superuser from writing; a file and a file system do.
@@ -179,7 +180,7 @@ TEST_F(CliWarningsTest, SayOnceThatTheCacheCannotBeWrittenToTheSuperuser) {
         if (first == std::string::npos) return;
         EXPECT_EQ(err.find("nothing can be kept", first + 1), std::string::npos) << err;
     };
-    const std::string render = "voxelume render scene.json -o a.png";
+    const std::string render = "voxelume render scene.json -o a.exr --channels Z";
     is_told_once("VOXELUME_CACHE_DIR=file " + render, "Not a directory");
     const std::string mount =
         "unshare -m sh -c 'mount -t tmpfs none fixed && mount -o remount,ro fixed && ";

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs every `voxelume` command of README.md and of the command line's manual in order, each page in
-# its own folder. A line that ends in \ continues in the next one.
+# its own folder. A line that ends in \ continues in the next one. What a command leaves to the scene,
+# the size of pictures and the number of a display's voxels, is small unless VXL_TEST_ALL is set.
 # Usage: readme_test.sh SOURCE_FOLDER PROGRAM
 set -euo pipefail
 source=$1
@@ -18,6 +19,11 @@ run_page() {
     ln -s "$source/scenes" "$here/scenes"
     cd "$here"
     while read -r line; do
+        case "${VXL_TEST_ALL:-}$line" in
+            'voxelume render '*' --volume '*) line="$line --set observer.display.voxels=48,36,48" ;;
+            *size*) ;;
+            'voxelume render '*) line="$line --size 160x90" ;;
+        esac
         echo "\$ $line"
         PATH="$here:$PATH" bash -c "$line"
         commands=$((commands + 1))

@@ -186,24 +186,29 @@ std::string text_of(const char* surface, const CoverCase& c, const CoverDifferen
 // Outlines within a voxel's side leave differences: smooth objects have more of them, as two lines
 // a voxel may meet the rounding of their edges.
 TEST(Covering, AlongEachAxisIsThatOfTheFlatPicture) {
+    size_t turn = 0;
     for (const auto& [surface, limit] :
-         {std::pair{"exact", 0.02}, {"smooth", 0.05}, {"cubes", 0.002}})
+         {std::pair{"exact", 0.02}, {"smooth", 0.05}, {"cubes", 0.002}}) {
         for (const CoverCase& c : kCoverCases)
-            for (int axis = 0; axis < 3; ++axis) {
+            for (const int axis : in_turn<int>({0, 1, 2}, turn++)) {
                 const CoverDifference d = compare_along(c, surface, axis);
                 SCOPED_TRACE(fmt::format("along {}: {}", "xyz"[axis], text_of(surface, c, d)));
                 EXPECT_GT(d.pixels, 400);
                 EXPECT_LT(d.mean(), limit);
                 EXPECT_LT(d.largest_inside, 0.002);
             }
+        ++turn;  // the next surface has other axes
+    }
 }
 
 // Rays pass few voxels from corner to corner and many beside corners, so what they cover is right
 // on average.
 TEST(Covering, AlongTheObserversDiagonalSightLinesIsThatOfTheFlatPictureOnAverage) {
+    size_t turn = 0;
     for (const auto& [surface, limit] :
          {std::pair{"exact", 0.02}, {"smooth", 0.02}, {"cubes", 0.03}})
-        for (const CoverCase& c : kCoverCases) {
+        for (const CoverCase& c :
+             in_turn<CoverCase>({kCoverCases.begin(), kCoverCases.end()}, turn++)) {
             const CoverDifference d = compare_from_corner(c, surface);
             SCOPED_TRACE(text_of(surface, c, d));
             EXPECT_GT(d.pixels, 400);

@@ -14,7 +14,8 @@ namespace {
 /// What the display of a turntable shows, whose objects have such surfaces.
 Volume shown(Surface surface) {
     Scene scene = small_scene("turntable", {96, 72}, 80);
-    scene.observer.display.voxels = {64, 44, 64};
+    scene.observer.display.voxels =
+        is_exhaustive() ? glm::ivec3(64, 44, 64) : glm::ivec3(40, 28, 40);
     for (Model& model : scene.models) model.surface = surface;
     for (Object& object : scene.objects) object.placement = Placement::world;
     RenderReport report;

@@ -106,6 +106,7 @@ TEST_F(DisplayedScan, ItsVoxelsHaveTheColorsOfTheirDepthsHoweverMuchIsInFront) {
 }
 
 TEST_F(DisplayedScan, HasTheSameBitsForEveryNumberOfLanes) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     write_scan({12, 8, 20}, 0.25);
     const Scene scene = parsed_here(display_scene(
         std::string(kDisplayCases[0].keys) + R"(, "voxels": [16, 12, 20])", "exact",

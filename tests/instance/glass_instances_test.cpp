@@ -95,6 +95,9 @@ TEST_F(GlassInstances, OfSolidsLookAsInTheWorld) {
         for (const char* observer : {kFromOutside, kFromInside})
             for (const char* inner : {"instance", "world"}) {
                 const bool is_mixed = std::string(inner) == "world";
+                const bool is_inside = observer == kFromInside;
+                // By default, each pair of two values but those of mixed sheer ones.
+                if (!is_exhaustive() && (is_mixed != is_inside) != (materials == kSheer)) continue;
                 if (is_mixed && materials == kSheer && !is_exhaustive()) continue;
                 const GlassScene s{.materials = materials, .inner = inner, .observer = observer};
                 // A ray that meets an edge of the floor's blocks may go to another one.

@@ -163,6 +163,7 @@ TEST(Instance, TheNearestOfManyIsSeen) {
 }
 
 TEST_P(Instances, LanesDoNotChangeABit) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     std::vector<std::string> objects = turned_objects();
     const std::vector<std::string> whole = whole_voxel_objects();
     objects.insert(objects.end(), whole.begin(), whole.end());

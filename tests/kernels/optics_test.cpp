@@ -234,7 +234,7 @@ TEST(Optics, AlongASurfaceAllIsReflectedUnlessIndicesAreEqual) {
 TEST(Optics, HasTheSameBitsForEveryNumberOfLanes) {
     const auto [etas, cosines] = all_sorts(1 << 16);
     const std::vector<Met> expected = Boundaries(1).met(etas, cosines);
-    for (const int lanes : {4, 8, 16})
+    for (const int lanes : in_turn<int>({4, 8, 16}, 0))
         EXPECT_EQ(Boundaries(lanes).met(etas, cosines), expected) << lanes;
 }
 

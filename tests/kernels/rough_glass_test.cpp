@@ -16,9 +16,10 @@ using oracle::at_cosine;
 
 std::vector<GlassSurface> glass_surfaces() {
     std::vector<GlassSurface> list;
-    for (const uint32_t inside : {0u, 1u})
-        for (const auto& [roughness, ior] :
-             {std::pair(0.3, 1.5), std::pair(0.6, 1.5), std::pair(1.0, 1.33), std::pair(0.5, 2.4)})
+    size_t turn = 0;
+    for (const auto& [roughness, ior] :
+         {std::pair(0.3, 1.5), std::pair(0.6, 1.5), std::pair(1.0, 1.33), std::pair(0.5, 2.4)})
+        for (const uint32_t inside : in_turn<uint32_t>({0, 1}, turn++))
             list.push_back({roughness, ior, 1, 0, inside});
     return list;
 }
@@ -88,8 +89,9 @@ TEST_P(RoughGlass, ReturnsAsMuchInBothDirections) {
 
 std::vector<GlassSurface> clear_surfaces() {
     std::vector<GlassSurface> list;
-    for (const uint32_t inside : {0u, 1u})
-        for (const double roughness : {0.02, 0.1, 0.3, 0.6, 1.0})
+    size_t turn = 0;
+    for (const double roughness : {0.02, 0.1, 0.3, 0.6, 1.0})
+        for (const uint32_t inside : in_turn<uint32_t>({0, 1}, turn++))
             list.push_back({roughness, 1.5, 1, 0, inside});
     list.push_back({0.4, 1.5, 0.5, 0.5, 0});
     list.push_back({0.4, 1.5, 0.5, 0.5, 1});
@@ -168,7 +170,8 @@ INSTANTIATE_TEST_SUITE_P(Physical, RoughGlassLanes,
 TEST_P(RoughGlassLanes, AreTheSameInAnyNumber) {
     const GlassSurface s = GetParam();
     const std::vector<float> one = scattered(s, 0.6, 1024, 3, 1);
-    for (const int lanes : {4, 8, 16}) EXPECT_EQ(scattered(s, 0.6, 1024, 3, lanes), one);
+    for (const int lanes : in_turn<int>({4, 8, 16}, 1))
+        EXPECT_EQ(scattered(s, 0.6, 1024, 3, lanes), one);
 }
 
 }  // namespace

@@ -248,7 +248,8 @@ TEST_F(SkyMapTest, ChoosesDirectionsAsTheDensitySays) {
 TEST_F(SkyMapTest, IsTheSameOnAnyNumberOfLanes) {
     const SkyMapData data = picture(37, 19);
     const std::vector<float> one = choose(data, 4096, 0.1, 1);
-    for (const int lanes : {4, 8, 16}) EXPECT_EQ(choose(data, 4096, 0.1, lanes), one);
+    for (const int lanes : in_turn<int>({4, 8, 16}, 1))
+        EXPECT_EQ(choose(data, 4096, 0.1, lanes), one);
 }
 
 TEST(SkyCells, LeaveNoneOutAndCoverEverything) {

@@ -131,6 +131,7 @@ TEST_F(MeshPieces, OfAnOpenMeshFaceBothWays) {
 }
 
 TEST(EmissivePieces, AreTheSameWithAnyNumberOfLanes) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     const Scene scene =
         emissive_scene(R"({"shape": "torus", "radius": 0.12, "tube": 0.05, "surface": "exact"})",
                        R"(, "turn": [10, 20, 30])");

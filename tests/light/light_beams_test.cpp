@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -167,12 +168,17 @@ INSTANTIATE_TEST_SUITE_P(Lanes, LightBeamLanes, testing::Values(1, 4, 8, 16));
 TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
     const Device device = test_device(GetParam());
     int shadowed = 0, lit = 0, shortened = 0;
-    for (const auto& [voxels, of] : {std::pair(3, DilationLevel::leaves),
+    // By default each number of lanes has the densest world and some of the others.
+    const size_t own_turn =
+        GetParam() == 1 ? 0 : size_t(std::countr_zero(unsigned(GetParam())) - 1);
+    size_t turn = 0;
+    for (const auto& [voxels, of] : {std::pair(4000, DilationLevel::leaves),
+                                     {3, DilationLevel::leaves},
                                      {400, DilationLevel::leaves},
-                                     {4000, DilationLevel::leaves},
                                      {3, DilationLevel::bricks},
                                      {60, DilationLevel::bricks},
                                      {150, DilationLevel::bricks}}) {
+        if (!is_exhaustive() && voxels != 4000 && turn++ % 4 != own_turn) continue;
         ShadowedCubes world(device, voxels);
         for (const Light& light : lights_outside()) {
             const BeamGrid grid = beam_grid(light_record(light, world.pyramid().frame), kSize,

@@ -183,6 +183,7 @@ TEST(EmissiveObject, InsideAGlowingShellASurfaceReturnsItsColorTimesTheRadiance)
 }
 
 TEST(EmissiveObject, GivesTheSameBitsWithAnyNumberOfLanes) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     size_t turn = 0;
     for (const char* surface : {"cubes", "smooth", "exact"}) {
         const Scene scene = ball_scene(surface, R"(, "spots": 32)");

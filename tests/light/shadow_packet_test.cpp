@@ -79,6 +79,7 @@ TEST_P(Veils, PacketsThatKeepTheirRaysGiveTheSameLight) {
 }
 
 TEST_P(Veils, LanesDoNotChangeABit) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     const Scene scene = room(GetParam(), "mirror");
     const auto expected = colors(scene, 1);
     for (const int lanes : in_turn<int>({4, 16}, GetParam()))

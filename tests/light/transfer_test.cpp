@@ -241,6 +241,7 @@ TEST_F(TransferTest, OpticalDepthOfARampIsExactFromBothEnds) {
 }
 
 TEST_F(TransferTest, HasTheSameBitsWithAnyNumberOfLanes) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     const Scene scene = ramp_scene("[-3, 2.5, 4]");
     RenderReport report;
     const Image one = render(test_device(1), scene, report);

@@ -144,9 +144,11 @@ TEST_P(SlicesOfAllKernels, Compile) {
         const std::vector<KernelSlice> slices = slice_kernels(source, options);
         EXPECT_FALSE(slices.empty()) << file;
         for (const KernelSlice& slice : slices) {
+            // By default, each kernel has one of the two values.
+            ++kernels;
+            if (!is_exhaustive() && int(kernels % 2) != GetParam()) continue;
             EXPECT_NO_THROW(Program::from_text(device, slice.text, defines))
                 << file << ": " << slice.kernel;
-            ++kernels;
         }
     }
     EXPECT_GT(kernels, 80u);

@@ -217,6 +217,7 @@ TEST_F(SoftCubes, ChangeNeitherWhatIsSeenNorWhere) {
 
 /// A world in which cubes with normals, cubes without, a field and instances share voxels.
 TEST_F(SoftCubes, AreTheSameBitsInAnyNumberOfLanes) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     write_obj(folder / "mesh.obj", wavy_ring(24, 12));
     const Scene scene =
         scene_of(fmt::format(

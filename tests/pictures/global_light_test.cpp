@@ -209,7 +209,7 @@ Json mixed_scene() {
 
 TEST(GlobalLight, HasTheSameBitsOnAnyNumberOfLanes) {
     const Scene scene = parse_scene(mixed_scene().dump(), "mixed", {});
-    for (const int lanes : lanes_in_turn(1)) {
+    for (const int lanes : lanes_with_all()) {
         RenderReport report;
         const Image image = render(test_device(lanes), scene, report);
         EXPECT_EQ(report.not_finite, 0u);

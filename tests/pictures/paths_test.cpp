@@ -135,6 +135,7 @@ TEST(Paths, PanesCoverWhatLiesBehindByTheirOpacity) {
 }
 
 TEST_P(AllSurfaces, LanesDoNotChangeABit) {
+    if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
     const Scene scene = leaky_room(GetParam(), 5);
     const uint64_t expected = oracle::image_hash(path_image(scene, 1).image);
     const size_t turn = GetParam() == std::string("exact") ? 1 : 2;

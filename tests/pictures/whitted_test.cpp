@@ -15,7 +15,9 @@ namespace voxelume {
 namespace {
 
 Scene whitted() {
-    return read_scene(std::filesystem::path(VXL_SOURCE_DIR) / "scenes/whitted.json", {});
+    Scene scene = read_scene(std::filesystem::path(VXL_SOURCE_DIR) / "scenes/whitted.json", {});
+    if (!is_exhaustive()) resize(scene, scene.render.size / 2);
+    return scene;
 }
 
 /// The Whitted scene with `smooth` surfaces. They form a union where objects overlap, so a

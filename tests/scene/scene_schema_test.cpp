@@ -21,6 +21,7 @@
 #include "runtime/scene_file/scene_keys.hpp"
 #include "tests/scene/full_scenes.hpp"
 #include "tests/scene/small_scene.hpp"
+#include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -163,6 +164,10 @@ std::vector<json::json_pointer> places_in(const json& document) {
 
 class SceneVerdicts : public SceneSchema {
   protected:
+    /// By default one of four changes of a place is tried, each place having others than the one
+    /// before it, so that every place is changed and every change occurs at some places.
+    bool is_left_out() { return !is_exhaustive() && turn_++ % 4 != 0; }
+
     void expect_same_verdict(const json& document, const std::string& change) {
         const std::string refused = objection(document);
         const bool accepted = schema_.accepts(document);
@@ -171,7 +176,7 @@ class SceneVerdicts : public SceneSchema {
         ADD_FAILURE() << change << ": the schema " << (accepted ? "accepts" : "refuses")
                       << " it, the parser says: " << (refused.empty() ? "fine" : refused);
     }
-    int count_ = 0;
+    size_t count_ = 0, turn_ = 0;
 };
 
 TEST_F(SceneVerdicts, AgreeOnScenesWithEveryKey) {
@@ -197,13 +202,14 @@ TEST_F(SceneVerdicts, AgreeWhenAnyValueIsReplaced) {
     for (const json& scene : full_scenes()) {
         for (const auto& at : places_in(scene)) {
             for (const json& replacement : replacements) {
+                if (is_left_out()) continue;
                 json changed = scene;
                 changed[at] = replacement;
                 expect_same_verdict(changed, at.to_string() + " = " + replacement.dump());
             }
         }
     }
-    EXPECT_GT(count_, 5000);
+    EXPECT_GT(count_, 5000u);
 }
 
 TEST_F(SceneVerdicts, AgreeWhenAnyKeyOrItemIsTakenOutOrTwice) {
@@ -238,7 +244,7 @@ TEST_F(SceneVerdicts, AgreeWhenAnyKeyIsAddedToAnyObject) {
             if (!scene[at].is_object()) continue;
             for (const KeyTable& table : scene_key_tables()) {
                 for (const std::string_view key : table.keys) {
-                    if (scene[at].contains(key)) continue;
+                    if (scene[at].contains(key) || is_left_out()) continue;
                     json changed = scene;
                     changed[at][std::string(key)] = values.value(std::string(key), json(0.5));
                     expect_same_verdict(changed, "with " + (at / std::string(key)).to_string());

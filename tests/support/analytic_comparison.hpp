@@ -61,8 +61,10 @@ inline void expect_image(const Scene& scene, const oracle::AnalyticImage& expect
     EXPECT_LE(beside.worst, worst) << words;
 }
 
-/// expect_image for the analytic image of the scene itself.
-inline void expect_analytic_image(const Scene& scene, double rms, double worst) {
+/// expect_image for the analytic image of the scene itself, which by default has two thirds of its
+/// width and height.
+inline void expect_analytic_image(Scene scene, double rms, double worst) {
+    if (!is_exhaustive()) resize(scene, scene.render.size * 2 / 3);
     expect_image(scene, oracle::analytic_image(scene), rms, worst);
 }
 

@@ -22,4 +22,14 @@ std::vector<T> in_turn(const std::vector<T>& values, size_t turn) {
     return {values[turn % values.size()]};
 }
 
+/// One lane and, in an exhaustive run, 4, 8 and 16, otherwise the number of these whose turn it is.
+inline std::vector<int> lanes_to_compare(size_t turn) {
+    std::vector<int> lanes = in_turn<int>({4, 8, 16}, turn);
+    lanes.insert(lanes.begin(), 1);
+    return lanes;
+}
+
+/// Why a test is skipped by default.
+inline constexpr const char* kOnlyWithAll = "`./bootstrap.sh test --all` runs it";
+
 }  // namespace voxelume

@@ -37,14 +37,11 @@ inline Device test_device(int lanes = 0) {
     return Device::open(name, lanes, OpenContext::device);
 }
 
-/// All numbers of lanes in an exhaustive run, otherwise the device's own and the one of the others
-/// whose turn it is. Each makes kernels compile again.
-inline std::vector<int> lanes_in_turn(size_t turn) {
-    std::vector<int> others = {1, 4, 8, 16};
-    std::erase(others, test_device().lanes());
-    std::vector<int> lanes = in_turn(others, turn);
-    lanes.insert(lanes.begin(), test_device().lanes());
-    return lanes;
+/// All numbers of lanes in an exhaustive run, otherwise the device's own alone: each makes kernels
+/// compile again.
+inline std::vector<int> lanes_with_all() {
+    if (is_exhaustive()) return {1, 4, 8, 16};
+    return {test_device().lanes()};
 }
 
 }  // namespace voxelume

@@ -88,7 +88,7 @@ TEST(DeviceWalks, AreTheSameForEveryNumberOfLanesAndEachTime) {
     const FixedGrid grid = fixed_grid({64, 61, 37});
     const std::vector<FixedRay> rays = rays_of_all_classes(grid, 1003);
     const std::vector<WalkDigest> expected = digests(test_device(1), grid, rays);
-    for (const int lanes : {4, 16})
+    for (const int lanes : in_turn<int>({4, 16}, 0))
         EXPECT_EQ(digests(test_device(lanes), grid, rays), expected) << lanes;
     for (int i = 0; i < 9; ++i) EXPECT_EQ(digests(test_device(1), grid, rays), expected);
 }

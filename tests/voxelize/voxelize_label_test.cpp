@@ -177,7 +177,7 @@ TEST(Labels, AreTheSameForEveryNumberOfLanes) {
     for (size_t i = 0; i < mesh.positions.size(); ++i)
         mesh.vertex_colors.emplace_back(float(i % 7) / 6, float(i % 11) / 10, float(i % 5) / 4);
     std::vector<uint32_t> words, colors, primitives;
-    for (const int lanes : {16, 8, 4, 1}) {
+    for (const int lanes : lanes_to_compare(1)) {
         Voxelizer voxelizer(test_device(lanes));
         const BrickGrid grid =
             voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(kSize), surface(Surface::exact));

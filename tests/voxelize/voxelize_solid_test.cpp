@@ -246,12 +246,13 @@ TEST(VoxelizeSolid, ExactVoxelsListTheSolid) {
 
 TEST(VoxelizeSolid, GridsHaveTheSameBitsForAnyNumberOfLanes) {
     const Solid solid = combination_cases()[2].solid;
+    size_t turn = 0;
     for (const VoxelizeOptions options :
          {VoxelizeOptions{Surface::smooth, {}}, VoxelizeOptions{Surface::cubes, VoxelSet::solid},
           VoxelizeOptions{Surface::cubes, VoxelSet::thin}, VoxelizeOptions{Surface::exact, {}}}) {
         const BrickGrid one =
             voxelize_solid(test_device(1), solid, glm::dmat4(1), case_frame(), options);
-        for (const int lanes : {4, 8, 16}) {
+        for (const int lanes : in_turn<int>({4, 8, 16}, turn++)) {
             const BrickGrid many =
                 voxelize_solid(test_device(lanes), solid, glm::dmat4(1), case_frame(), options);
             EXPECT_EQ(one.slots.read(), many.slots.read());
