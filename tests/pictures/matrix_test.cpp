@@ -15,6 +15,7 @@
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/golden_hash.hpp"
 #include "tests/pictures/small_scene.hpp"
+#include "tests/support/exhaustive.hpp"
 #include "tests/support/setting.hpp"
 
 namespace voxelume {
