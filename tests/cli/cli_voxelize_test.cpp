@@ -57,7 +57,7 @@ TEST_F(CliVoxelizeTest, ASceneBecomesTheCubesOfItsWorldInTheirColors) {
     });
     const ProgramResult result = run("voxelize scene.json -o s.npy -o s.vxm -o s.vdb -o s.vox");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("2 objects to 30x20x10 voxels of 0.1 m"));
+    EXPECT_THAT(result.err, HasSubstr("2 objects to 12x10x4 voxels of 0.1 m"));
     const ColorCells cells = cells_of(bytes_of(folder / "s.npy"));
     EXPECT_EQ(cells.size, (std::array{12, 10, 4}));
     for (int x = 0; x < 12; ++x)
@@ -127,7 +127,7 @@ TEST_F(CliVoxelizeTest, AScanHasTheVoxelsThatItsPictureHas) {
         const int x = i / 100, y = i / 10 % 10, z = i % 10;
         const bool is_block =
             std::max({std::abs(2 * x - 9), std::abs(2 * y - 9), std::abs(2 * z - 9)}) < 4;
-        values.push_back(is_block ? 90.0f + float(i % 3) : float(i % 4));
+        values.push_back((is_block ? 90.0f : 0.0f) + 0.01f * float(i * 37 % 300));
     }
     put_bytes(folder / "scan.npy", npy_bytes("<f4", "10, 10, 10", bytes_of_values(values)));
     put_bytes(folder / "labels.npy", npy_bytes("|u1", "1, 1, 4", std::string("\0\1\2\2", 4)));
