@@ -45,7 +45,7 @@ void refuse_others(const RenderCommand& command) {
     for (const auto& [name, is_given] : others)
         if (is_given) fail_usage("render: --quilt: {} can't be had of a quilt yet", name);
     for (const std::string& output : command.outputs)
-        if (output.starts_with("-"))
+        if (output.starts_with('-'))
             fail_usage("render: --quilt: a quilt needs a name that says what is in it, not {}",
                        output);
 }

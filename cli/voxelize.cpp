@@ -48,8 +48,7 @@ Surface surface_of(const VoxelizeCommand& command) {
     const bool all_cubes = std::ranges::all_of(command.outputs, [](const std::string& output) {
         return std::ranges::count(kCubeEndings, ending_of(output)) > 0;
     });
-    const bool are_asked_for = !command.set.empty() || command.normals == "surface";
-    return all_cubes || are_asked_for ? Surface::cubes : Surface::smooth;
+    return all_cubes ? Surface::cubes : Surface::smooth;
 }
 
 VoxelizeOptions options_of(const VoxelizeCommand& command) {

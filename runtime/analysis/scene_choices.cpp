@@ -35,6 +35,7 @@ SurfaceChoice chosen_surface(const Scene& scene, size_t number, AssetStore& mesh
     const Model& model = scene.models[number];
     if (!model.voxels.empty()) return meshes.surface_of_voxels(model);
     if (!model.cuts.empty()) return {Surface::smooth, "it is cut"};
+    if (model.shading != Shading()) return {Surface::exact, "the scene says its shading"};
     Model file = model;
     file.morph.reset();
     return surface_for(*meshes.summary_of(file), meshes.shape_of(file),
@@ -61,6 +62,19 @@ bool has_clear_cubes(const Model& model, AssetStore& meshes) {
     return !model.voxels.empty() && shows_voxels(model.surface) && meshes.voxels(model).transparent;
 }
 
+/// True for cubes with a surface's normals that are coarser than the world's. In the world each
+/// would be several, above whose steps rays to lights couldn't begin.
+bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore& meshes) {
+    const Model& model = scene.models[size_t(object.model)];
+    if (!shows_voxels(model.surface) || model.normals != CubeNormals::surface ||
+        !model.voxels.empty())
+        return false;
+    const double own = longest(model_frame(model, meshes.summary_of(model)).voxel_edge) *
+                       stretch_of(glm::dmat3(object.world_from_object)).max;
+    constexpr double kCoarser = 1.01;
+    return own > kCoarser * longest(scene.world.voxel_size);
+}
+
 void choose_placements(Scene& scene, AssetStore& meshes) {
     const bool may_appear = moves(scene);
     bool has_changed = false;
@@ -73,7 +87,9 @@ void choose_placements(Scene& scene, AssetStore& meshes) {
         }
         const bool is_open = object.placement == Placement::automatic &&
                              !is_instanced(scene, object) && (object.visible || may_appear);
-        if (!is_open || !can_be_instance(scene, object) || !is_finer_field(scene, object, meshes))
+        if (!is_open || !can_be_instance(scene, object) ||
+            (!is_finer_field(scene, object, meshes) &&
+             !is_coarser_soft_cubes(scene, object, meshes)))
             continue;
         object.placement = Placement::instance;
         has_changed = true;

@@ -11,7 +11,8 @@ namespace voxelume {
 ///   surface    that of a model whose surface is `auto`, by surface_for() its mesh as it is before
 ///              any morph, or by what its file of voxels holds. A mesh that is cut is smooth.
 ///   placement  an object whose file has a field finer than the world becomes an instance where
-///              `auto` lets it, since there is nothing to make a coarser field from.
+///              `auto` lets it, since there is nothing to make a coarser field from. So do cubes
+///              with a surface's normals that are coarser than the world's.
 /// Reads the files of objects that may be shown. Throws as AssetStore does.
 void make_choices(Scene& scene, AssetStore& meshes);
 

@@ -20,6 +20,8 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
         return {Surface::exact, fmt::format("it has {:.3g} m of edges that turn by {} degrees or "
                                             "more",
                                             shape.sharp_length, kSharpAngle)};
+    // A distance field has the facets of the triangles, which such normals are made to hide.
+    if (mesh.has_normals) return {Surface::exact, "its file has normals"};
     const double thickness = shape.thickness / voxel_edge;
     if (thickness < kThinVoxels)
         return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick", thickness)};

@@ -20,9 +20,9 @@ struct VoxelModel {
     std::vector<int16_t> distance;
     std::vector<uint32_t> attributes, colors, normals;
     std::vector<uint32_t> full_colors;  ///< by brick: those of bricks that are full; empty: white
-    bool transparent = false;         ///< true if some voxel isn't opaque
-    std::vector<std::string> groups;  ///< names of the attributes' materials
-    Mesh mesh;                        ///< triangles of an exact surface, and nothing else
+    bool transparent = false;           ///< true if some voxel isn't opaque
+    std::vector<std::string> groups;    ///< names of the attributes' materials
+    Mesh mesh;                          ///< triangles of an exact surface, and nothing else
 
     size_t voxels() const;  ///< number of voxels that are occupied, or near a smooth surface
     BrickGrid upload(const Device& device) const;

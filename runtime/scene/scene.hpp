@@ -100,8 +100,8 @@ struct RenderSettings {
     int bounces = 8;  ///< global light: times that a path is scattered, 0..64
     LampSearch lamps = LampSearch::both;
     bool transparent = false;  ///< observers see nothing where no object is; other rays do
-    NoiseTarget noise;       ///< not in scene files
-    ImageChannels channels;  ///< not in scene files: what the outputs have
+    NoiseTarget noise;         ///< not in scene files
+    ImageChannels channels;    ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

@@ -50,7 +50,7 @@ struct VoxelizeSceneOptions {
     double voxel_size = 0;  ///< metres; 0: `resolution` decides
     int resolution = 0;     ///< along the longest side of all that is shown; 0: the scene's voxels
     int frame = 1;          ///< of a scene that moves
-    CacheOptions cache{};
+    CacheOptions cache{};   ///< of models on disk
 };
 
 /// Writes the voxels of a scene's world to files, likewise. All objects are cubes in it, in the

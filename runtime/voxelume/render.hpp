@@ -64,8 +64,9 @@ Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int
 
 /// Views of a light-field display: from places in a row, through one window.
 struct Quilt {
-    int columns = 8, rows = 6;  ///< of views in the image; at most 1,000 views in all
-    double cone = 40;           ///< degrees between the outermost places, as seen from the window
+    int columns = 8;   ///< of views in the image
+    int rows = 6;      ///< of views; at most 1,000 views in all
+    double cone = 40;  ///< degrees between the outermost places, as seen from the window
     double focus = 0;  ///< metres before the observer to the window, where what is seen lies in the
                        ///< screen; 0: to what the observer looks at
 };

@@ -79,6 +79,7 @@ SourceMeshes SourceMeshCache::meshes_of(const Scene& scene, AssetStore& meshes,
         return {};
     }
     std::vector<Model> models;
+    models.reserve(sources.models.size());
     for (const int model : sources.models) {
         models.push_back(scene.models[size_t(model)]);
         models.back().extent = {};  // which changes with the places of objects
@@ -86,6 +87,7 @@ SourceMeshes SourceMeshCache::meshes_of(const Scene& scene, AssetStore& meshes,
     if (models != models_) {
         forget();
         std::vector<const Mesh*> read;
+        read.reserve(models.size());
         for (const Model& model : models) read.push_back(meshes.mesh_of(model));
         joined_ = join_source_meshes(device_, read);
         models_ = std::move(models);

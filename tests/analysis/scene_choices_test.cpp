@@ -73,6 +73,36 @@ TEST_F(SceneChoices, GiveMeshesTheSurfaceThatSuitsThem) {
     EXPECT_THAT(box.surface_reason, testing::HasSubstr("edges"));
 }
 
+TEST_F(SceneChoices, KeepTheNormalsOfAFile) {
+    const Mesh mesh = wavy_ring(40, 20);
+    std::string text;
+    for (const glm::vec3& v : mesh.positions)
+        text += fmt::format("v {0} {1} {2}\nvn {0} {1} {2}\n", v.x, v.y, v.z);
+    for (const auto& t : mesh.triangles)
+        text += fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    put_bytes(folder / "normals.obj", text);
+    const Model model = chosen(R"("mesh": "normals.obj")");
+    EXPECT_EQ(model.surface, Surface::exact);
+    EXPECT_THAT(model.surface_reason, testing::HasSubstr("normals"));
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj", "shading": "smooth")").surface, Surface::exact);
+}
+
+TEST_F(SceneChoices, KeepSoftCubesCoarserThanTheWorldWhole) {
+    const auto placed = [&](const char* size, const char* keys) {
+        Scene scene = scene_of(fmt::format(R"("mesh": "ring.obj", "surface": "cubes",
+                                               "normals": "surface", "voxel_size": {})",
+                                           size),
+                               keys);
+        AssetStore meshes;
+        make_choices(scene, meshes);
+        return scene.objects[0].placement;
+    };
+    EXPECT_EQ(placed("0.05", ""), Placement::instance);
+    EXPECT_EQ(placed("0.015", R"(, "scale": 3)"), Placement::instance);
+    EXPECT_EQ(placed("0.02", ""), Placement::automatic);
+    EXPECT_EQ(placed("0.05", R"(, "placement": "world")"), Placement::world);
+}
+
 TEST_F(SceneChoices, GiveSolidsTheirExactSurface) {
     const Scene scene = scene_of(R"("shape": "sphere", "radius": 0.3, "surface": "auto")");
     EXPECT_EQ(scene.models[0].surface, Surface::exact) << "without reading files";
