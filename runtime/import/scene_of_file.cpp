@@ -153,22 +153,22 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
 }
 
 std::string scene_of(const Contents& contents, const ImportOptions& options) {
-    const Studio studio =
-        make_studio(contents.box, contents.voxel_size, options, contents.file_light);
     const bool is_own = options.has_own_camera && !options.is_lattice;
     const bool has_camera = is_own && !contents.observer.empty();
-    // A file's own camera may be in a closed room, where neither sun nor sky comes.
-    const glm::dvec3 ambient(
-        has_camera && !contents.file_light && contents.lights.empty() ? kAmbientInside : 0.0);
+    const bool has_lights = !contents.lights.empty();
+    // A file's own camera may be in a closed room, and its lights may leave much in the dark.
+    Studio studio = make_studio(contents.box, contents.voxel_size, options, contents.file_light,
+                                has_camera || has_lights ? kAmbientInside : 0);
+    if (has_lights) studio.sky.clear();
     std::string text = "{\n  \"voxelume\": 1,\n";
     text += fmt::format(
         "  \"world\": {{\"voxel_size\": {}, \"background\": {}, \"ambient\": {}{}{}{}}},\n",
-        json_size(contents.voxel_size), json_list(studio.background), json_list(ambient),
+        json_size(contents.voxel_size), json_list(studio.background), json_list(studio.ambient),
         bounds_member(contents, studio.box), studio.sky, studio.medium);
     text += part("materials", '{', joined(contents.materials, studio.materials), '}');
     text += part("models", '{', joined(contents.models, studio.models), '}');
     text += part("objects", '[', joined(contents.objects, studio.objects), ']');
-    const auto& lights = contents.lights.empty() ? studio.lights : contents.lights;
+    const auto& lights = has_lights ? contents.lights : studio.lights;
     // Scenes without a list of lights get one.
     text += lights.empty() ? "  \"lights\": [],\n" : part("lights", '[', lights, ']');
     if (!contents.tracks.empty())

@@ -115,18 +115,19 @@ void add_ground(const Bounds& box, double radius, const glm::dvec3& color, Studi
     studio.box = {glm::min(box.min, position - reach), glm::max(box.max, position + reach)};
 }
 
-/// A sky of one colour that observers don't see; `more` are further members.
-std::string hidden_sky(const glm::dvec3& color, const char* more = "") {
+/// A sky of one colour that observers don't see.
+std::string hidden_sky(const glm::dvec3& color) {
     return fmt::format(
-        ",\n            \"sky\": {{\"kind\": \"constant\", \"color\": {}, \"visible\": false{}}}",
-        json_list(rounded(color, 4)), more);
+        ",\n            \"sky\": {{\"kind\": \"constant\", \"color\": {}, \"visible\": false}}",
+        json_list(rounded(color, 4)));
 }
 
 /// Light of the studio's own. Returns what reaches the ground of it, per colour.
-glm::dvec3 add_own_light(const Bounds& box, double longitude, Studio& studio) {
+glm::dvec3 add_own_light(const Bounds& box, double longitude, double ambient, Studio& studio) {
     const glm::dvec3 sky = kSky * kSkyColor;
-    studio.sky = hidden_sky(sky, ", \"samples\": 8");
-    glm::dvec3 on_ground = sky;
+    studio.sky = hidden_sky(sky);
+    studio.ambient = glm::dvec3(ambient);
+    glm::dvec3 on_ground = sky + ambient;
     add_light({"sun", direction_of(longitude - kSunAside, kSunHeight), kSunColor, kSun, kSunSpread,
                kSunSpots},
               box, studio, on_ground);
@@ -162,14 +163,14 @@ glm::dvec3 ground_color(const std::optional<glm::dvec3>& own, const glm::dvec3& 
 }  // namespace
 
 Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options,
-                   const std::optional<FileLight>& file_light) {
+                   const std::optional<FileLight>& file_light, double ambient) {
     constexpr double kFarGround = 30;  // longest sides to the end of a ground that has an end
     Studio studio;
     studio.box = box;
     const FileLight around = file_light.value_or(FileLight());
     const double longitude = options.from.longitude;
     const glm::dvec3 on_ground = file_light ? add_light_of(around, box, longitude, studio)
-                                            : add_own_light(box, longitude, studio);
+                                            : add_own_light(box, longitude, ambient, studio);
     studio.background = kBackground;
     if (around.background) studio.background = *around.background;
     if (options.background) studio.background = *options.background;

@@ -13,6 +13,7 @@ namespace voxelume {
 struct Studio {
     std::vector<std::string> materials, models, objects, lights;  ///< members and items of a scene
     glm::dvec3 background{0};
+    glm::dvec3 ambient{0};
     std::string sky, medium;  ///< `, "sky": {...}`, or empty
     Bounds box;               ///< around what is shown and the ground
 };
@@ -21,8 +22,8 @@ struct Studio {
 /// large for the world. The sun comes from over the observer's left shoulder. Where light
 /// falls on the ground without hindrance, the ground has the radiance of the background, so that
 /// only shadows tell them apart. A file's light comes before all of that, and what the
-/// options say of ground and background before them.
+/// options say of ground and background before them. `ambient` is added to the room's own light.
 Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options,
-                   const std::optional<FileLight>& file_light);
+                   const std::optional<FileLight>& file_light, double ambient);
 
 }  // namespace voxelume
