@@ -161,7 +161,8 @@ farm() {
 # readers [--blender]
 readers() {
     build_targets voxelume
-    pip_environment readers numpy OpenEXR trimesh pygltflib nibabel pynrrd ${1:+bpy}
+    pip_environment readers numpy OpenEXR trimesh pygltflib nibabel pynrrd midvoxio pillow matplotlib \
+        ${1:+bpy}
     run_each_test readers -V -R '\.readers$'
 }
 

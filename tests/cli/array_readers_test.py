@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the voxels of NIfTI, NRRD and numpy files against what other readers make of them.
+"""Holds the voxels of NIfTI, NRRD, numpy and .vox files against what other readers make of them.
 
 Arrays with all 48 orders and directions of axes are written by nibabel and pynrrd. The program
 converts them to NRRD, which pynrrd reads: each voxel lies where nibabel's or pynrrd's own map has
@@ -18,6 +18,7 @@ try:
     import nibabel
     import nrrd
     import numpy
+    from midvoxio.voxio import vox_to_arr
 except ImportError:
     sys.exit(77)
 
@@ -89,6 +90,13 @@ def main():
             assert read.shape == (6, 5, 4, 4), read.shape
             assert (read[..., :3] == colors).all(), order
             assert ((read[..., 3] == 255) == colors.any(-1)).all(), order
+
+        # MagicaVoxel's Z is up, and its Y goes away from the front.
+        vox = vox_to_arr(str(convert(folder / "d.npy", folder / "f.vox")))
+        assert vox.shape == (6, 4, 5, 4), vox.shape
+        expected = colors.transpose(0, 2, 1, 3)[:, ::-1]
+        assert (numpy.rint(255 * vox[..., :3]).astype(int) == expected).all()
+        assert ((vox[..., 3] > 0) == expected.any(-1)).all()
 
 
 main()
