@@ -70,7 +70,7 @@ std::string suggest(std::string_view text, std::span<const std::string_view> nam
         }
     }
     if (!best.empty()) return "; did you mean " + quote(best) + "?";
-    if (names.empty() || names.size() > 16) return "";
+    if (names.empty() || names.size() > 13) return "";
     std::string list;
     for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + quote(name);
     return "; known are " + list;
