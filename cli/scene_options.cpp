@@ -116,14 +116,15 @@ CacheOptions cache_options(const SceneOptions& options) {
 
 namespace {
 
-v1::SceneOptions files_of(const SceneOptions& options, Size size, const char* command) {
+v1::SceneOptions files_of(const SceneOptions& options, bool is_model, Size size,
+                          const char* command) {
     v1::SceneOptions files{options.assets, cache_options(options), {}, 0};
-    if (!is_model_file(options.scene)) files.orbit = options.orbit;
+    if (!is_model) files.orbit = options.orbit;
     for (const std::string& text : options.settings)
         files.changes.push_back(setting_of(text, "--set", command));
     for (const std::string& text : options.swept)
         files.changes.push_back(setting_of(text, "--sweep", command));
-    if (options.import.transparent && !is_model_file(first_slice(options.scene)))
+    if (options.import.transparent && !is_model)
         files.changes.push_back({"render.transparent", "true", "--transparent"});
     // Views from around are framed for the size that they will have.
     if (options.has_views && size[0] != 0)
@@ -172,7 +173,7 @@ Scene read_with(const SceneOptions& options, const char* command) {
     const std::string input = first_slice(options.scene);
     const bool is_model = is_model_file(input);
     if (!is_model) refuse_choices(options.import, command);
-    const v1::SceneOptions files = files_of(options, size, command);
+    const v1::SceneOptions files = files_of(options, is_model, size, command);
     Scene scene = is_model ? scene_of_file(input, import_of(options, size, command), files)
                            : load_scene(input, files);
     if (size[0] != 0) scene = scene.with_size(size);

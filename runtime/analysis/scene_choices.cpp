@@ -71,7 +71,7 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
         return false;
     const double own = longest(model_frame(model, meshes.summary_of(model)).voxel_edge) *
                        stretch_of(glm::dmat3(object.world_from_object)).max;
-    constexpr double kCoarser = 1.01;
+    constexpr double kCoarser = 1.01;  // sizes that scenes fit have four digits
     return own > kCoarser * longest(scene.world.voxel_size);
 }
 

@@ -7,25 +7,16 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
-#include <numeric>
 
 #include "runtime/io/image/png.hpp"
-#include "tests/pictures/texture_image.hpp"
+#include "tests/pictures/map_pictures.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/gltf_writer.hpp"
-#include "tests/support/instance_scenes.hpp"
 
 namespace voxelume {
 namespace {
 
 using Json = nlohmann::json;
-
-/// A row of texels, of which the right half is of the second colour.
-oracle::Picture two_halves(std::array<uint8_t, 3> left, std::array<uint8_t, 3> right) {
-    oracle::Picture picture{64, 1, {}, oracle::Beyond::clamp, oracle::Beyond::clamp};
-    for (int x = 0; x < 64; ++x) picture.texels.push_back(x < 32 ? left : right);
-    return picture;
-}
 
 oracle::Picture waves() {
     oracle::Picture picture{24, 16, {}};
@@ -122,32 +113,17 @@ TEST_F(SmoothMaps, OfEmissionAreTheMeanOverAPixel) {
                          {{"objects",
                            {{{"model", "slab"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
             const Image image = image_of_scene(scene);
-            double squares = 0;
-            size_t pixels = 0;
-            for (int row = 0; row < image.height; ++row)
-                for (int column = 0; column < image.width; ++column) {
-                    glm::dvec3 sum(0);
-                    bool is_inside = true;
-                    for (int i = 0; i < 256 && is_inside; ++i) {
-                        const glm::dvec2 at = place_on_front(scene, column + (i % 16 + 0.5) / 16,
-                                                             row + (i / 16 + 0.5) / 16);
-                        is_inside = is_flat(at);
-                        sum += factor / 256.0 * oracle::bilinear(picture, at);
-                    }
-                    if (!is_inside) continue;
-                    const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
-                    const glm::dvec3 seen(image.planes.at("R")[pixel], image.planes.at("G")[pixel],
-                                          image.planes.at("B")[pixel]);
-                    squares += glm::dot(seen - sum, seen - sum);
-                    ++pixels;
-                }
-            EXPECT_GT(pixels, 400u) << light << placement;
-            EXPECT_LT(255 * std::sqrt(squares / double(3 * pixels)), 1) << light << placement;
+            const auto value = [&](double column, double row) -> std::optional<glm::dvec3> {
+                const glm::dvec2 at = place_on_front(scene, column, row);
+                if (!is_flat(at)) return std::nullopt;
+                return factor * oracle::bilinear(picture, at);
+            };
+            EXPECT_LT(rms_of_means(image, 400u, value), 1) << light << placement;
         }
 }
 
 TEST_F(SmoothMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
-    write("gloss.gltf", {two_halves({0, 60, 40}, {90, 200, 230})},
+    write("gloss.gltf", {halves({0, 60, 40}, {90, 200, 230})},
           {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}});
     write("plain.gltf", {}, Json::object());
     const Json lit = {
@@ -162,40 +138,20 @@ TEST_F(SmoothMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
             material["metallic"] = 0.9 * (is_right ? 230 : 40) / 255;
             material["roughness"] = 0.8 * (is_right ? 200 : 60) / 255;
             const Image expected = image_of_scene(scene_of("plain.gltf", material, light, lit));
-            double squares = 0, sum = 0;
-            size_t pixels = 0;
-            for (int row = 0; row < image.height; ++row)
-                for (int column = 0; column < image.width; ++column) {
-                    const glm::dvec2 at = place_on_front(scene, column + 0.5, row + 0.5);
-                    if (!is_flat(at) || (is_right ? at.x < 0.6 : at.x > 0.4)) continue;
-                    const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
-                    for (const char* c : {"R", "G", "B"}) {
-                        const double is = image.planes.at(c)[pixel],
-                                     should = expected.planes.at(c)[pixel];
-                        squares += (is - should) * (is - should);
-                        sum += should;
-                        ++pixels;
-                    }
-                }
-            ASSERT_GT(pixels, 300u);
-            const double mean = sum / double(pixels);
-            EXPECT_LT(std::sqrt(squares / double(pixels)) / mean,
+            const auto counts = [&](double column, double row) {
+                const glm::dvec2 at = place_on_front(scene, column, row);
+                return is_flat(at) && (is_right ? at.x >= 0.6 : at.x <= 0.4);
+            };
+            EXPECT_LT(relative_rms(image, expected, 300u, counts),
                       light == std::string("local") ? 1e-4 : 0.01)
                 << light << is_right;
         }
     }
 }
 
-/// The mean light of a floor under a panel that looks down.
-double light_on_floor(const Scene& scene) {
-    const Image image = image_of_scene(scene);
-    const Plane<float>& plane = image.planes.at("G");
-    return std::accumulate(plane.begin(), plane.end(), 0.0) / double(plane.size());
-}
-
 TEST_F(SmoothMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
     const Json glows = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
-    write("part.gltf", {two_halves({255, 255, 255}, {0, 0, 0})}, glows);
+    write("part.gltf", {halves({255, 255, 255}, {0, 0, 0})}, glows);
     write("half.gltf", {}, Json::object(), 0);
     const Json material = {{"color", {0, 0, 0}}, {"emission", {2, 2, 2}}};
     for (const char* placement : {"world", "instance"})
@@ -218,8 +174,10 @@ TEST_F(SmoothMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
                  {{"size", {24, 24}},
                   {"samples", light == std::string("local") ? 1 : 64},
                   {"bounces", 1}}}};
-            const double half = light_on_floor(scene_of("half.gltf", material, light, room));
-            const double part = light_on_floor(scene_of("part.gltf", material, light, room));
+            const double half =
+                light_on_floor(image_of_scene(scene_of("half.gltf", material, light, room)));
+            const double part =
+                light_on_floor(image_of_scene(scene_of("part.gltf", material, light, room)));
             EXPECT_GT(half, 0.02) << light << placement;
             EXPECT_NEAR(part / half, 1, 0.03) << light << placement << half;
         }

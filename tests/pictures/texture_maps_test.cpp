@@ -5,13 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "runtime/io/image/png.hpp"
-#include "tests/pictures/texture_image.hpp"
+#include "tests/pictures/map_pictures.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/gltf_writer.hpp"
-#include "tests/support/instance_scenes.hpp"
 
 namespace voxelume {
 namespace {
@@ -25,13 +23,6 @@ oracle::Picture stripes() {
             picture.texels.push_back({uint8_t((x / 6 + y / 4) % 2 ? 230 : 20),
                                       uint8_t(128 + 100 * std::sin(0.4 * x)),
                                       uint8_t((7 * x + 5 * y) % 200)});
-    return picture;
-}
-
-/// A row of texels, of which the right half is of the second colour.
-oracle::Picture halves(std::array<uint8_t, 3> left, std::array<uint8_t, 3> right) {
-    oracle::Picture picture{64, 1, {}, oracle::Beyond::clamp, oracle::Beyond::clamp};
-    for (int x = 0; x < 64; ++x) picture.texels.push_back(x < 32 ? left : right);
     return picture;
 }
 
@@ -127,31 +118,15 @@ TEST_F(TextureMaps, OfEmissionAreTheMeanOverAPixelAtPlacesOfTheirOwn) {
                 {{"objects",
                   {{{"model", "sheet"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
             const Image image = image_of_scene(scene);
-            double squares = 0;
-            size_t pixels = 0;
-            for (int row = 0; row < image.height; ++row)
-                for (int column = 0; column < image.width; ++column) {
-                    glm::dvec3 sum(0);
-                    bool is_inside = true;
-                    for (int i = 0; i < 256 && is_inside; ++i) {
-                        const glm::dvec2 at = place_seen(scene, column + (i % 16 + 0.5) / 16,
-                                                         row + (i / 16 + 0.5) / 16);
-                        is_inside = is_on(at);
-                        const double c = std::cos(0.4), s = std::sin(0.4);
-                        const glm::dvec2 q = at * glm::dvec2(1.2, 0.8);
-                        sum += factor / 256.0 *
-                               oracle::bilinear(picture,
-                                                {0.1 + c * q.x + s * q.y, 0.2 + c * q.y - s * q.x});
-                    }
-                    if (!is_inside) continue;
-                    const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
-                    const glm::dvec3 seen(image.planes.at("R")[pixel], image.planes.at("G")[pixel],
-                                          image.planes.at("B")[pixel]);
-                    squares += glm::dot(seen - sum, seen - sum);
-                    ++pixels;
-                }
-            EXPECT_GT(pixels, 500u) << light << placement;
-            EXPECT_LT(255 * std::sqrt(squares / double(3 * pixels)), 1) << light << placement;
+            const auto value = [&](double column, double row) -> std::optional<glm::dvec3> {
+                const glm::dvec2 at = place_seen(scene, column, row);
+                if (!is_on(at)) return std::nullopt;
+                const double c = std::cos(0.4), s = std::sin(0.4);
+                const glm::dvec2 q = at * glm::dvec2(1.2, 0.8);
+                return factor * oracle::bilinear(
+                                    picture, {0.1 + c * q.x + s * q.y, 0.2 + c * q.y - s * q.x});
+            };
+            EXPECT_LT(rms_of_means(image, 500u, value), 1) << light << placement;
         }
 }
 
@@ -171,35 +146,15 @@ TEST_F(TextureMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
             material["metallic"] = 0.9 * (is_right ? 230 : 40) / 255;
             material["roughness"] = 0.8 * (is_right ? 200 : 60) / 255;
             const Image expected = image_of_scene(scene_of("plain.gltf", material, light, lit));
-            double squares = 0, sum = 0;
-            size_t pixels = 0;
-            for (int row = 0; row < image.height; ++row)
-                for (int column = 0; column < image.width; ++column) {
-                    const glm::dvec2 at = place_seen(scene, column + 0.5, row + 0.5);
-                    if (!is_on(at) || (is_right ? at.x < 0.6 : at.x > 0.4)) continue;
-                    const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
-                    for (const char* c : {"R", "G", "B"}) {
-                        const double is = image.planes.at(c)[pixel],
-                                     should = expected.planes.at(c)[pixel];
-                        squares += (is - should) * (is - should);
-                        sum += should;
-                        ++pixels;
-                    }
-                }
-            ASSERT_GT(pixels, 600u);
-            const double mean = sum / double(pixels);
-            EXPECT_LT(std::sqrt(squares / double(pixels)) / mean,
+            const auto counts = [&](double column, double row) {
+                const glm::dvec2 at = place_seen(scene, column, row);
+                return is_on(at) && (is_right ? at.x >= 0.6 : at.x <= 0.4);
+            };
+            EXPECT_LT(relative_rms(image, expected, 600u, counts),
                       light == std::string("local") ? 1e-4 : 0.01)
                 << light << is_right;
         }
     }
-}
-
-/// The mean light of a floor under a panel that looks down.
-double floor_light(const Scene& scene) {
-    const Image image = image_of_scene(scene);
-    const Plane<float>& plane = image.planes.at("G");
-    return std::accumulate(plane.begin(), plane.end(), 0.0) / double(plane.size());
 }
 
 TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
@@ -223,8 +178,10 @@ TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
                 changes["render"]["lamps"] = lamps;
             else
                 changes["render"]["samples"] = 1;
-            const double half = floor_light(scene_of("half.gltf", material, light, changes));
-            const double part = floor_light(scene_of("part.gltf", material, light, changes));
+            const double half =
+                light_on_floor(image_of_scene(scene_of("half.gltf", material, light, changes)));
+            const double part =
+                light_on_floor(image_of_scene(scene_of("part.gltf", material, light, changes)));
             EXPECT_GT(half, 0.02) << light;
             EXPECT_NEAR(part / half, 1, lamps == std::string("both") ? 0.02 : 0.06)
                 << light << lamps << half;

@@ -19,7 +19,8 @@ typedef struct {
     global const uint* words;
 } SourceMeshes;
 
-// Of equal squares of distances, computed ones differ by less than this factor.
+// Where squares of distances are equal, computed ones differ by less than this factor, which is 256
+// roundings.
 #define VXL_SQUARE_ROUNDING 0x1.0001p0f
 
 /// The square of the distance from a point to the closest one of a triangle, and the shares of the
@@ -62,8 +63,8 @@ static inline lane_float closest_on_triangle(const Vector* from, lane_float* sha
     return squared;
 }
 
-/// Of the points that are searched for in a tree: the square of the smallest distance so far, and
-/// its triangle, VXL_NO_PRIMITIVE for none.
+/// What a search has found for its points so far: the square of the smallest distance, and the
+/// triangle that it leads to, VXL_NO_PRIMITIVE for none.
 typedef struct {
     lane_float squared;
     lane_uint triangle;
