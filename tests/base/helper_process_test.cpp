@@ -76,10 +76,13 @@ TEST_F(HelperProcessTest, ThatExitsWithoutAnAnswerIsNoHelper) {
 
 TEST_F(HelperProcessTest, ThatHangsIsEndedInTime) {
     const auto start = std::chrono::steady_clock::now();
-    const HelperFailure failure = failure_of("echo $$ >pid; sleep 100", 0.2);
+    const std::filesystem::path file = folder / "pid";
+    const HelperFailure failure = failure_of("echo $$ >" + file.string() + "; sleep 100", 0.2);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
     EXPECT_EQ(failure.cause(), Cause::too_long);
     EXPECT_THAT(failure.what(), HasSubstr("more than 0.2 s"));
+    const pid_t helper = std::stoi(bytes_of(file));
+    EXPECT_EQ(kill(helper, 0), -1) << "the helper is gone";
 }
 
 TEST_F(HelperProcessTest, ThatStopsMidwayIsEndedInTime) {
