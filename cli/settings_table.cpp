@@ -63,6 +63,8 @@ constexpr std::array kSettings = {
     Setting{"units", "VOXELUME_UNITS", "take so many compute units only", "all", fault_of_count},
     Setting{"work_group", "VOXELUME_WORK_GROUP", "work-items of every work-group",
             "what suits the kernel", fault_of_count},
+    Setting{"batch", "VOXELUME_BATCH", "rays that pass through the stages together",
+            "what suits the device", fault_of_count},
     Setting{"build_options", "VOXELUME_BUILD_OPTIONS", "more options of the kernels' compiler",
             "none"},
 };

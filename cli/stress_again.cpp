@@ -10,10 +10,10 @@ namespace voxelume::cli {
 namespace {
 
 /// Variables of the environment that change what a device does.
-constexpr std::array kSettingsOfTests = {"VOXELUME_DEVICE",     "VOXELUME_LANES",
-                                         "VOXELUME_WORK_GROUP", "VOXELUME_UNITS",
-                                         "VOXELUME_BUFFER_MB",  "VOXELUME_BUILD_OPTIONS",
-                                         "VOXELUME_SELF_TEST",  "POCL_MAX_PTHREAD_COUNT"};
+constexpr std::array kSettingsOfTests = {
+    "VOXELUME_DEVICE",    "VOXELUME_LANES",     "VOXELUME_WORK_GROUP",
+    "VOXELUME_UNITS",     "VOXELUME_BUFFER_MB", "VOXELUME_BUILD_OPTIONS",
+    "VOXELUME_SELF_TEST", "VOXELUME_BATCH",     "POCL_MAX_PTHREAD_COUNT"};
 
 /// A word of a shell's line.
 std::string shell_word(const std::string& text) {

@@ -259,19 +259,20 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     add_points(scene, world, features);
 }
 
-RayCounts ray_counts(const Scene& scene, const Features& features) {
+RayCounts ray_counts(const Device& device, const Scene& scene, const Features& features) {
     if (is_adaptive(scene.render)) {
         Scene more = scene;
         more.render.adaptive = 0;
         more.render.samples -= kComparedSamples;
-        RayCounts counts = ray_counts(more, features);
-        counts.rays = std::max(counts.rays, ray_counts(first_samples_of(scene), features).rays);
+        RayCounts counts = ray_counts(device, more, features);
+        counts.rays =
+            std::max(counts.rays, ray_counts(device, first_samples_of(scene), features).rays);
         return counts;
     }
     const Pyramid any;  // an empty pyramid may show all objects
     const RenderSettings& render = scene.render;
     const uint32_t tiles =
-        batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
+        batch_tiles(device, features, render.samples, tile_count(render.size.x, render.size.y));
     return {tiles * 16 * uint32_t(render.samples), has_light(features, scene, any),
             reserved_depth(features, scene, any)};
 }

@@ -49,6 +49,6 @@ bool has_light(const Features& features, const Scene& scene, const Pyramid& worl
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world);
 
 /// The rays of the scene's flat image that go together.
-RayCounts ray_counts(const Scene& scene, const Features& features);
+RayCounts ray_counts(const Device& device, const Scene& scene, const Features& features);
 
 }  // namespace voxelume

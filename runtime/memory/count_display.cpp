@@ -80,7 +80,7 @@ class DisplayCounter {
     /// Follows VolumeRenderer in the layout `rays`.
     void rays() {
         const uint32_t tiles = tile_count(frame_.size.x, frame_.size.y), all = tiles * 16;
-        const uint32_t in_batch = batch_tiles(features_, 1, tiles) * 16;
+        const uint32_t in_batch = batch_tiles(device_, features_, 1, tiles) * 16;
         const DisplayLight light =
             count_light(device_, scene_, features_, counts_of(in_batch), medium_);
         const auto of = dilation_that_pays(features_, world_, all, pixel_width());
@@ -99,7 +99,7 @@ class DisplayCounter {
     /// aren't shown.
     void lattice() {
         const Features features = begun_anywhere(features_, scene_);
-        const uint32_t batch = batch_rays(features);
+        const uint32_t batch = batch_rays(device_, features);
         const DisplayLight light =
             count_light(device_, scene_, features, counts_of(batch), medium_);
         const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
@@ -124,7 +124,7 @@ class DisplayCounter {
     }
 
     RayCounts counts_of(uint32_t rays) const {
-        RayCounts counts = ray_counts(scene_, features_);
+        RayCounts counts = ray_counts(device_, scene_, features_);
         counts.rays = rays;
         if (is_least_) counts.depth = std::min<size_t>(counts.depth, 1);
         return counts;

@@ -113,7 +113,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     const uint64_t rays =
         16ull * tile_count(camera.width, camera.height) * uint64_t(camera.samples);
     const double pixel = voxels_a_pixel(scene, camera, world.frame);
-    RayCounts counts = ray_counts(scene, features);
+    RayCounts counts = ray_counts(device, scene, features);
     counts.depth = std::min(counts.depth, depth);
     ImageMemory memory;
     memory.rays = allocate_rays(device, features, counts);

@@ -8,6 +8,7 @@
 #include "runtime/memory/count_image.hpp"
 #include "runtime/memory/count_sources.hpp"
 #include "runtime/memory/counted_grids.hpp"
+#include "runtime/memory/frame_memory.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -45,8 +46,9 @@ Changes changes_of(const Scene& scene) {
 class FollowingWalk {
   public:
     FollowingWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
-                  const DensityPlan& medium)
-        : scene_(scene),
+                  const DensityPlan& medium, const DeviceInfo& device)
+        : device_(counting_like(device)),
+          scene_(scene),
           meshes_(meshes),
           objects_(objects),
           medium_(medium),
@@ -101,20 +103,20 @@ class FollowingWalk {
         return size_t(rays * sight_bytes(features));
     }
 
+    const Device device_;
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Changes changes_;
-    const Device device_ = Device::counting({});
     CountedGrids grids_;
 };
 
 }  // namespace
 
 double walk_following(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
-                      const DensityPlan& medium) {
-    return moves(scene) ? FollowingWalk(scene, meshes, objects, medium).run() : 0;
+                      const DensityPlan& medium, const DeviceInfo& device) {
+    return moves(scene) ? FollowingWalk(scene, meshes, objects, medium, device).run() : 0;
 }
 
 }  // namespace voxelume

@@ -11,6 +11,6 @@ namespace voxelume {
 /// The maximum bytes of the device in a run of frames that keeps what they share and builds each
 /// frame's world while the one before is rendered. 0 for a scene that stands still.
 double walk_following(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
-                      const DensityPlan& medium);
+                      const DensityPlan& medium, const DeviceInfo& device);
 
 }  // namespace voxelume

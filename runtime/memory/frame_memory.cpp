@@ -20,8 +20,9 @@ namespace {
 class FrameWalk {
   public:
     FrameWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
-              const DensityPlan& medium, Estimate estimate)
-        : scene_(scene),
+              const DensityPlan& medium, Estimate estimate, const DeviceInfo& device)
+        : device_(counting_like(device)),
+          scene_(scene),
           meshes_(meshes),
           objects_(objects),
           medium_(medium),
@@ -84,7 +85,7 @@ class FrameWalk {
         memory_.light_host_bytes = image.emitter_host_bytes + image.sky_host_bytes;
         memory_.dilated_occupancy = double(
             (image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size()) * 4);
-        memory_.rays = ray_bytes(features, ray_counts(scene_, features));
+        memory_.rays = ray_bytes(features, ray_counts(device_, scene_, features));
     }
 
     /// The bytes of hits that passes of the light are rendered from.
@@ -106,25 +107,31 @@ class FrameWalk {
         return bytes;
     }
 
+    const Device device_;
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Estimate estimate_;
-    const Device device_ = Device::counting({});
     CountedGrids grids_;
     FrameMemory memory_;
 };
 
 }  // namespace
 
+Device counting_like(const DeviceInfo& device) {
+    DeviceInfo counted;
+    counted.batch_rays = device.batch_rays;
+    return Device::counting(counted);
+}
+
 double FrameMemory::built() const {
     return std::max({voxelize, place, index});
 }
 
 FrameMemory walk_frame(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
-                       const DensityPlan& medium, Estimate estimate) {
-    return FrameWalk(scene, meshes, objects, medium, estimate).run();
+                       const DensityPlan& medium, Estimate estimate, const DeviceInfo& device) {
+    return FrameWalk(scene, meshes, objects, medium, estimate, device).run();
 }
 
 }  // namespace voxelume

@@ -28,12 +28,15 @@ struct FrameMemory {
     double built() const;  ///< the maximum while the world is built
 };
 
-/// Follows WorldBuilder and Renderer through a single frame. With the least estimate only the first
-/// reflections and refractions are counted, whose arrays are made whatever is met.
+/// A device that counts, with the batches of another.
+Device counting_like(const DeviceInfo& device);
+
+/// Follows WorldBuilder and Renderer through a single frame on a device. With the least estimate
+/// only the first reflections and refractions are counted, whose arrays are made whatever is met.
 ///
 /// Throws as list_instances and placed_objects do, and Error::limit for an exact mesh in a world
 /// that is too large for it.
 FrameMemory walk_frame(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
-                       const DensityPlan& medium, Estimate estimate);
+                       const DensityPlan& medium, Estimate estimate, const DeviceInfo& device);
 
 }  // namespace voxelume

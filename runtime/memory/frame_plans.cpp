@@ -38,11 +38,11 @@ void forget_largest(const Scene& scene, const DeviceInfo& device, AssetStore& me
     meshes.forget_unused();
 }
 
-FramePlan plan_frame(const Scene& scene, int frame, AssetStore& meshes) {
+FramePlan plan_frame(const Scene& scene, int frame, AssetStore& meshes, const DeviceInfo& device) {
     return in_frame(scene, frame, [&] {
         FramePlan planned{frame, scene_at(scene, frame), {}};
         check_placements(planned.scene);
-        planned.plan = plan_scene(planned.scene, meshes);
+        planned.plan = plan_scene(planned.scene, meshes, device);
         return planned;
     });
 }
@@ -68,7 +68,7 @@ FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStor
             Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
             if (is_planned_like(*before, now)) continue;
         }
-        FramePlan planned = plan_frame(scene, frame, meshes);
+        FramePlan planned = plan_frame(scene, frame, meshes, device);
         planned.plans = ++plans;
         meshes.forget_unused();
         before = planned.scene;
@@ -90,7 +90,7 @@ void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& m
             check_placements(now);
             if (!first) first = now;
             if (has_files_of(now, *first)) {
-                check_memory(now, plan_scene(now, meshes), device);
+                check_memory(now, plan_scene(now, meshes, device), device);
                 forget_largest(now, device, meshes);
             }
             before = std::move(now);

@@ -85,15 +85,16 @@ GridPlan plan_model(const Model& model, const Mesh& mesh) {
     return grid_plan(counted(summary.area), counted(summary.min_area));
 }
 
-ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& device) {
     check_groups(scene, meshes);
     ScenePlan plan;
     plan.world = world_frame(scene.world);
     plan.medium = plan_density(scene.world);
     ObjectCounts objects(scene, meshes);
     const FrameMemory expected =
-        walk_frame(scene, meshes, objects, plan.medium, Estimate::expected);
-    const FrameMemory minimum = walk_frame(scene, meshes, objects, plan.medium, Estimate::minimum);
+        walk_frame(scene, meshes, objects, plan.medium, Estimate::expected, device);
+    const FrameMemory minimum =
+        walk_frame(scene, meshes, objects, plan.medium, Estimate::minimum, device);
     for (size_t i = 0; i < expected.grids.size(); ++i)
         plan.grids.push_back(grid_plan(expected.grids[i], minimum.grids[i]));
     plan.voxels = double(expected.world.voxels);
@@ -109,7 +110,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     plan.min_image_bytes = minimum.image;
     plan.min_bytes = std::min(std::max(minimum.built(), minimum.image), plan.peak_bytes());
     plan.min_with_next = minimum.place + minimum.index + minimum.image;
-    plan.following_bytes = kUncounted * walk_following(scene, meshes, objects, plan.medium);
+    plan.following_bytes = kUncounted * walk_following(scene, meshes, objects, plan.medium, device);
     plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
     plan.host_bytes = host_bytes(scene, plan) + expected.light_host_bytes;
     return plan;

@@ -62,11 +62,12 @@ GridPlan plan_model(const Model& model, const Mesh& mesh);
 /// Throws Error::limit, opened by the model's place, when a plan for it doesn't fit.
 void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& device);
 
-/// Plans a scene; reads the meshes that the world shows, unless the store knows enough of them.
+/// Plans a scene on a device; reads the meshes that the world shows, unless the store knows enough
+/// of them.
 ///
 /// Throws as AssetStore, model_frame and materials_of_groups do, and Error::limit for a lattice
 /// with more bricks than can be numbered.
-ScenePlan plan_scene(const Scene& scene, AssetStore& meshes);
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& device = {});
 
 /// Refuses lattices whose tables can't be numbered, or are larger than the device's memory, before
 /// any mesh is read. Throws Error::limit.

@@ -11,7 +11,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/device_settings.hpp"
-#include "runtime/opencl/program_cache.hpp"
+#include "runtime/opencl/kernel_builds.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
@@ -36,6 +36,7 @@ cl::Device part_of(const cl::Device& device) {
 struct ContextPrograms {
     std::mutex mutex;
     std::map<std::string, cl::Program> ready;
+    KernelBuilds builds;
 };
 
 /// The state that all queues of an open device share.
@@ -196,6 +197,18 @@ void Device::note_fresh(const cl::Program& program) const {
 void Device::note_kernel(const cl::Program& program, const std::string& kernel) const {
     const auto locked = lock();
     if (queue_->opened->fresh.contains(program())) queue_->opened->compiling.emplace(kernel, false);
+}
+
+void Device::note_wait(const std::string& kernel) const {
+    {
+        const auto locked = lock();
+        queue_->opened->compiling.emplace(kernel, false);
+    }
+    tell_compiling(kernel);
+}
+
+KernelBuilds& Device::kernel_builds() const {
+    return queue_->opened->of_context->builds;
 }
 
 void Device::tell_compiling(const std::string& kernel) const {

@@ -22,6 +22,10 @@ enum class DeviceKind { cpu, gpu, other };
 enum class SelfTest { unknown, passed, failed };
 
 struct Candidate;
+class KernelBuilds;
+
+/// A batch of rays that is small enough for a CPU's memory and caches.
+inline constexpr uint32_t kCpuBatchRays = 1u << 17;
 
 /// A device as its OpenCL platform describes it, and whether Voxelume can render on it.
 struct DeviceInfo {
@@ -40,7 +44,9 @@ struct DeviceInfo {
     int lanes = 1;       ///< number of rays that one work-item of a packet kernel handles
     int work_group = 0;  ///< number of work-items in every group; 0: chosen by kernel and kind of
                          ///< device
-    std::string build_options;  ///< added to the options of every program
+    uint32_t batch_rays = kCpuBatchRays;  ///< the maximum number of rays that pass through the
+                                          ///< stages together
+    std::string build_options;            ///< added to the options of every program
     SelfTest self_test = SelfTest::unknown;
     std::string unusable;  ///< the reason why it can't render; empty if it can
     std::string note;      ///< a note for its user; mostly empty
@@ -48,6 +54,9 @@ struct DeviceInfo {
 
 /// The name of PoCL's platform for CPUs.
 inline constexpr std::string_view kPoclPlatform = "Portable Computing Language";
+
+/// The name of Oclgrind's platform, which interprets kernels.
+inline constexpr std::string_view kOclgrindPlatform = "Oclgrind";
 
 /// Every device of every platform; a platform that fails is skipped. Their memory is what
 /// Device::open lets programs use.
@@ -84,7 +93,8 @@ class Device {
     /// own. Uses at most VOXELUME_MEMORY_MB megabytes of the device's memory, and at most
     /// VOXELUME_BUFFER_MB in one buffer. For the search of drivers' faults, VOXELUME_WORK_GROUP
     /// sets the size of every work-group, VOXELUME_UNITS limits the compute units (a sub-device),
-    /// and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
+    /// VOXELUME_BATCH sets how many rays pass through the stages together, and
+    /// VOXELUME_BUILD_OPTIONS is added to the compiler's options.
     ///
     /// A device whose driver is new is asked first what is known, see self_test.hpp. If it answers
     /// wrong, it is refused as one that can't render: another that matches is opened in its place.
@@ -147,6 +157,11 @@ class Device {
     void note_fresh(const cl::Program& program) const;
     /// Notes a kernel of a program, which may be such a program.
     void note_kernel(const cl::Program& program, const std::string& kernel) const;
+    /// Notes and tells that this kernel's first launch waits for its compiler.
+    void note_wait(const std::string& kernel) const;
+
+    /// The kernels of its context that are compiled alone.
+    KernelBuilds& kernel_builds() const;
 
     /// Enqueues a launch of `kernel`, which is named `name` in the counters.
     void enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,

@@ -17,8 +17,8 @@ std::string selector_or_default(std::string_view selector);
 void limit_memory(DeviceInfo& info);
 
 /// A device as it is opened: with `lanes`, or VOXELUME_LANES if these are 0, or else its own; with
-/// limits of its memory, VOXELUME_WORK_GROUP and VOXELUME_BUILD_OPTIONS. Throws Error::usage for
-/// values that can't be.
+/// limits of its memory, VOXELUME_WORK_GROUP, VOXELUME_BATCH and VOXELUME_BUILD_OPTIONS. Throws
+/// Error::usage for values that can't be.
 DeviceInfo settled(DeviceInfo info, int lanes);
 
 /// VOXELUME_UNITS; 0 if it isn't set.

@@ -5,15 +5,21 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <future>
+#include <mutex>
 #include <utility>
 
 #include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/program_cache.hpp"
+#include "runtime/opencl/kernel_builds.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
 namespace {
+
+/// A wait for a compiler that nobody needs to be told of.
+constexpr std::chrono::milliseconds kUntoldWait(100);
 
 /// The compiler's options, with only those constants that the source mentions. So scenes that
 /// differ in other constants share compiled programs.
@@ -27,7 +33,7 @@ std::string build_options(const Device& device, const KernelSource& source, Defi
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
     // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM adds as it inlines.
-    if (device.info().platform == "Oclgrind") options += " -cl-opt-disable -DOCLGRIND";
+    if (device.info().platform == kOclgrindPlatform) options += " -cl-opt-disable -DOCLGRIND";
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
 }
@@ -68,15 +74,75 @@ bool is_number(std::string_view element) {
 
 }  // namespace
 
-Kernel::Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name)
-    : device_(std::move(device)),
-      kernel_(std::move(kernel)),
-      name_(std::move(name)),
-      parameters_(std::make_shared<std::vector<std::string>>(parameter_types(*kernel_))) {}
+/// An OpenCL kernel, which may still be compiled.
+struct Kernel::Made {
+    std::string label;  ///< its program's
+    std::once_flag once;
+    std::string key;                         ///< of `build`
+    std::shared_future<BuiltProgram> build;  ///< where it isn't ready
+    cl::Program program;
+    cl::Kernel kernel;
+    std::vector<std::string> parameters;  ///< their types; empty where the driver doesn't tell
+
+    /// Waits for its compiler, and keeps the program for others.
+    void wait(const Device& device, const std::string& name);
+    void make(const Device& device, const std::string& name);
+};
+
+/// The parts of a program whose kernels are compiled alone.
+struct Program::Parts {
+    ProgramText text;
+    std::shared_ptr<const KernelParts> kernels;
+};
+
+void Kernel::Made::wait(const Device& device, const std::string& name) {
+    const auto start = std::chrono::steady_clock::now();
+    if (build.wait_for(kUntoldWait) != std::future_status::ready) device.note_wait(name);
+    try {
+        const BuiltProgram& built = build.get();
+        program = built.program;
+        const auto locked = device.lock();
+        if (device.find_program(key)()) return;  // others waited, too
+        device.keep_program(key, program);
+        ++device.counters().programs_built;
+        device.counters().programs_from_cache += uint64_t(built.is_from_cache);
+        device.counters().build_ms +=
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                .count();
+    } catch (const Error& error) {
+        throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
+                    device.info().name, error.what());
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device.info(), "compiling " + label);
+    }
+}
+
+void Kernel::Made::make(const Device& device, const std::string& name) {
+    if (!program()) wait(device, name);
+    try {
+        kernel = cl::Kernel(program, name.c_str());
+        parameters = parameter_types(kernel);
+        device.note_kernel(program, name);
+    } catch (const cl::Error& error) {
+        if (error.err() == CL_INVALID_KERNEL_NAME)
+            throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label, name,
+                        device.info().name, status_name(error.err()));
+        throw_device_error(error, device.info(), fmt::format("making {} of {}", name, label));
+    }
+}
+
+Kernel::Kernel(Device device, std::string name, std::shared_ptr<Made> made)
+    : device_(std::move(device)), name_(std::move(name)), made_(std::move(made)) {}
+
+const Kernel::Made& Kernel::made() const {
+    std::call_once(made_->once, [&] { made_->make(device_, name_); });
+    return *made_;
+}
 
 void Kernel::check_type(uint32_t index, bool is_buffer, std::string_view type) const {
-    if (index >= parameters_->size()) check_count(index + 1);
-    const std::string_view parameter = (*parameters_)[index];
+    const std::vector<std::string>& parameters = made().parameters;
+    if (index >= parameters.size()) check_count(index + 1);
+    const std::string_view parameter = parameters[index];
     if (parameter.empty()) return;
     const std::string_view element = element_of(parameter);
     const bool fits = type.empty() || !is_number(element) || element == type;
@@ -87,9 +153,10 @@ void Kernel::check_type(uint32_t index, bool is_buffer, std::string_view type) c
 }
 
 void Kernel::check_count(uint32_t count) const {
-    if (count == parameters_->size()) return;
+    const size_t parameters = made().parameters.size();
+    if (count == parameters) return;
     throw Error(ErrorKind::render, "kernel {} has {} parameters, but gets {}{} arguments", name_,
-                parameters_->size(), count > parameters_->size() ? "at least " : "", count);
+                parameters, count > parameters ? "at least " : "", count);
 }
 
 void Kernel::set_buffer(uint32_t index, const BufferStorage* buffer) {
@@ -98,7 +165,7 @@ void Kernel::set_buffer(uint32_t index, const BufferStorage* buffer) {
 }
 
 void Kernel::set_bytes(uint32_t index, size_t bytes, const void* value) {
-    const cl_int status = clSetKernelArg((*kernel_)(), index, bytes, value);
+    const cl_int status = clSetKernelArg(made().kernel(), index, bytes, value);
     if (status != CL_SUCCESS)
         throw_device_error(
             cl::Error(status, "clSetKernelArg"), device_.info(),
@@ -114,7 +181,7 @@ void Kernel::enqueue(WorkItem work, size_t count) {
     const size_t groups = (count + local - 1) / local;
     const size_t columns = std::min(groups * local, row_items);
     const size_t rows = (groups * local + columns - 1) / columns;
-    device_.enqueue(*kernel_, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
+    device_.enqueue(made().kernel, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
 }
 
 Program::Program(const Device& device, const std::string& file, const Defines& defines)
@@ -122,6 +189,7 @@ Program::Program(const Device& device, const std::string& file, const Defines& d
 
 void Program::build_together(const Device& device, std::span<const char* const> files,
                              const Defines& defines) {
+    if (compiles_kernels_alone(device.info())) return;
     std::vector<std::string> keys;
     std::vector<const char*> missing;
     const auto locked = device.lock();
@@ -142,7 +210,7 @@ void Program::build_together(const Device& device, std::span<const char* const> 
 }
 
 void Program::build_together(const Device& device, std::span<const ProgramFile> files) {
-    if (device.is_counting()) return;
+    if (device.is_counting() || compiles_kernels_alone(device.info())) return;
     std::vector<const char*> names;
     Defines all;
     for (const auto& [file, defines] : files) {
@@ -168,6 +236,12 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
     : device_(device), label_(label) {
     const std::string options = build_options(device, source, defines);
     const std::string key = program_key(source, options);
+    if (compiles_kernels_alone(device.info())) {
+        ProgramText text{source.text(), options};
+        auto kernels = device.kernel_builds().parts_of(key, text);
+        parts_ = std::make_shared<const Parts>(std::move(text), std::move(kernels));
+        return;
+    }
     const auto locked = device.lock();
     cl::Program program = device.find_program(key);
     if (!program()) {
@@ -178,16 +252,31 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
 }
 
 Kernel Program::kernel(const std::string& name) const {
-    try {
-        Kernel kernel(device_, std::make_shared<cl::Kernel>(*program_, name.c_str()), name);
-        device_.note_kernel(*program_, name);
-        return kernel;
-    } catch (const cl::Error& error) {
-        if (error.err() == CL_INVALID_KERNEL_NAME)
-            throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
-                        device_.info().name, status_name(error.err()));
-        throw_device_error(error, device_.info(), fmt::format("making {} of {}", name, label_));
+    if (parts_) return kernel_of_parts(name);
+    auto made = std::make_shared<Kernel::Made>();
+    made->label = label_;
+    made->program = *program_;
+    Kernel kernel(device_, name, std::move(made));
+    kernel.made();
+    return kernel;
+}
+
+Kernel Program::kernel_of_parts(const std::string& name) const {
+    const auto found = parts_->kernels->find(name);
+    if (found == parts_->kernels->end())
+        throw Error(ErrorKind::build, "{} has no kernel {}", label_, name);
+    const KernelPart& part = found->second;
+    auto made = std::make_shared<Kernel::Made>();
+    made->label = label_;
+    made->key = part.key;
+    {
+        const auto locked = device_.lock();
+        made->program = device_.find_program(part.key);
     }
+    if (!made->program())
+        made->build =
+            device_.kernel_builds().start(compiler_target(device_), label_, part, parts_->text);
+    return {device_, name, std::move(made)};
 }
 
 }  // namespace voxelume

@@ -53,11 +53,9 @@ struct Words {
 
 class KernelArguments;
 
-/// One kernel of a program. `launch` only enqueues; it does not wait.
+/// One kernel of a program. `launch` only enqueues; it waits for nothing but the compiler.
 class Kernel {
   public:
-    Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name);
-
     /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, with these
     /// arguments.
     ///
@@ -78,7 +76,12 @@ class Kernel {
 
   private:
     friend class KernelArguments;
+    friend class Program;
+    struct Made;
 
+    Kernel(Device device, std::string name, std::shared_ptr<Made> made);
+    /// Makes it, once compiled. Throws as Program::kernel does.
+    const Made& made() const;
     void check_type(uint32_t index, bool is_buffer, std::string_view type) const;
     void check_count(uint32_t count) const;
     void set_buffer(uint32_t index, const BufferStorage* buffer);
@@ -86,10 +89,8 @@ class Kernel {
     void enqueue(WorkItem work, size_t count);
 
     Device device_;
-    std::shared_ptr<cl::Kernel> kernel_;
     std::string name_;
-    /// The types of the parameters; empty names where the driver doesn't tell.
-    std::shared_ptr<const std::vector<std::string>> parameters_;
+    std::shared_ptr<Made> made_;
 };
 
 /// The arguments of one launch, set in the order of the kernel's parameters.
@@ -168,15 +169,20 @@ class Program {
     static Program from_text(const Device& device, const std::string& source,
                              const Defines& defines = {});
 
+    /// Throws Error::build if there is none of this name. Where kernels are compiled alone, its
+    /// compiler's errors come when it is launched.
     Kernel kernel(const std::string& name) const;
 
   private:
+    struct Parts;
     Program(const Device& device, const std::string& label, const KernelSource& source,
             const Defines& defines);
+    Kernel kernel_of_parts(const std::string& name) const;
 
     Device device_;
     std::string label_;
     std::shared_ptr<cl::Program> program_;
+    std::shared_ptr<const Parts> parts_;  ///< instead, where kernels are compiled alone
 };
 
 }  // namespace voxelume

@@ -14,6 +14,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/compile_turn.hpp"
 #include "runtime/opencl/device_call.hpp"
+#include "runtime/opencl/kernel_builds.hpp"
 #include "runtime/opencl/kernel_slice.hpp"
 #include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
@@ -45,14 +46,6 @@ std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramT
     return cache_key(parts);
 }
 
-/// The options of a compiler without its -D constants.
-std::string without_constants(std::string_view options) {
-    std::string others;
-    for (const std::string_view option : separate_options(options))
-        if (!option.starts_with("-D")) others.append(option).append(" ");
-    return others;
-}
-
 /// A program's kernels, each by the key of what it consists of.
 std::vector<ProgramPart> parts_of(const DeviceInfo& info, const ProgramText& text) {
     const std::string options = without_constants(text.options);
@@ -72,18 +65,19 @@ std::string log_of(const cl::Program& program, const cl::Device& device) {
     }
 }
 
-cl::Program compile(const Device& device, const std::string& label, const ProgramText& text) {
-    const DeviceCall call(device.info(), "compiling ", label);
+cl::Program compile(const CompilerTarget& target, const std::string& label,
+                    const ProgramText& text) {
+    const DeviceCall call(target.info, "compiling ", label);
     const auto& [source, options] = text;
-    cl::Program program(device.context(), source);
-    const cl_device_id id = device.handle()();
+    cl::Program program(target.context, source);
+    const cl_device_id id = target.device();
     cl_int status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
     // If the compiler has no message about the source, it failed for another reason, which may be
     // over: a full disk, or other processes in the cache folder that the user gave to PoCL.
-    if (status != CL_SUCCESS && log_of(program, device.handle()).find("error") == std::string::npos)
+    if (status != CL_SUCCESS && log_of(program, target.device).find("error") == std::string::npos)
         status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
     if (status == CL_SUCCESS) return program;
-    const std::string log = log_of(program, device.handle());
+    const std::string log = log_of(program, target.device);
     if (log.empty() && status != CL_BUILD_PROGRAM_FAILURE)
         throw cl::Error(status, "clBuildProgram");
     throw Error(ErrorKind::build, "{}:\n{}", status_name(status), log);
@@ -92,51 +86,29 @@ cl::Program compile(const Device& device, const std::string& label, const Progra
 /// Compiles with PoCL. It would read 17,000 declarations for each program, which takes 80 ms. So it
 /// is told that it has read them (_OPENCL_H_), and given those that kernels use. Where that doesn't
 /// compile, because of the source or the version of PoCL, it reads its own after all.
-cl::Program compile_with_pocl(const Device& device, const std::string& label,
+cl::Program compile_with_pocl(const CompilerTarget& target, const std::string& label,
                               const ProgramText& text) {
     try {
-        return compile(device, label,
+        return compile(target, label,
                        {declarations() + text.source, text.options + " -D_OPENCL_H_"});
     } catch (const Error&) {
-        return compile(device, label, text);
+        return compile(target, label, text);
     }
 }
 
 /// The program from the bytes that its driver gave us in an earlier run; empty if the driver now
 /// rejects them.
-std::optional<cl::Program> from_binary(const Device& device, const std::string& label,
+std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::string& label,
                                        const std::string& bytes, const std::string& options) {
     try {
-        const DeviceCall call(device.info(), "compiling ", label);
+        const DeviceCall call(target.info, "compiling ", label);
         const cl::Program::Binaries binaries = {{bytes.begin(), bytes.end()}};
-        cl::Program program(device.context(), {device.handle()}, binaries);
-        program.build(device.handle(), options.c_str());
+        cl::Program program(target.context, {target.device}, binaries);
+        program.build(target.device, options.c_str());
         return program;
     } catch (const cl::Error&) {
         return std::nullopt;
     }
-}
-
-/// Builds with an ordinary driver: its binary is read right after the build.
-cl::Program build_with_binary(const Device& device, const std::string& label,
-                              const ProgramText& text) {
-    const DiskCache store = program_store();
-    const std::string key = key_of(device.info(), "program", text);
-    CompileTurn turn;
-    if (const auto bytes = turn.read(store, key))
-        if (auto program = from_binary(device, label, *bytes, text.options)) {
-            ++device.counters().programs_from_cache;
-            return std::move(*program);
-        }
-    cl::Program program = compile(device, label, text);
-    try {
-        const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
-        if (binaries.size() == 1 && !binaries[0].empty())
-            store.write(key, std::string(binaries[0].begin(), binaries[0].end()));
-    } catch (const cl::Error&) {
-        return program;  // a driver that doesn't give its binaries
-    }
-    return program;
 }
 
 /// Builds with PoCL, which compiles twice if asked for a binary, and keeps its own files: see
@@ -147,12 +119,54 @@ cl::Program build_with_pocl(const Device& device, const std::string& label,
     const bool ready = PoclFolder::instance().build_with_files(
         program_store(), key_of(device.info(), "program", text),
         [&] { return parts_of(device.info(), text); },
-        [&] { program = compile_with_pocl(device, label, text); });
+        [&] { program = compile_with_pocl(compiler_target(device), label, text); });
     if (ready) ++device.counters().programs_from_cache;
     return program;
 }
 
+/// Builds with an ordinary driver, and notes in the counters where the program is from.
+cl::Program build_noted(const Device& device, const std::string& label, const ProgramText& text) {
+    BuiltProgram built = build_with_binary(compiler_target(device), label, text);
+    device.counters().programs_from_cache += uint64_t(built.is_from_cache);
+    return std::move(built.program);
+}
+
 }  // namespace
+
+bool compiles_kernels_alone(const DeviceInfo& info) {
+    return info.kind == DeviceKind::gpu && info.platform != kPoclPlatform;
+}
+
+std::string without_constants(std::string_view options) {
+    std::string others;
+    for (const std::string_view option : separate_options(options))
+        if (!option.starts_with("-D")) others.append(option).append(" ");
+    return others;
+}
+
+CompilerTarget compiler_target(const Device& device) {
+    return {device.info(), device.context(), device.handle()};
+}
+
+BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& label,
+                               const ProgramText& text) {
+    const DiskCache store = program_store();
+    const std::string key = key_of(target.info, "program", text);
+    CompileTurn turn;
+    if (const auto bytes = turn.read(store, key))
+        if (auto program = from_binary(target, label, *bytes, text.options))
+            return {std::move(*program), true};
+    BuiltProgram built{compile(target, label, text)};
+    try {
+        // Its binary is read right after the build.
+        const auto binaries = built.program.getInfo<CL_PROGRAM_BINARIES>();
+        if (binaries.size() == 1 && !binaries[0].empty())
+            store.write(key, std::string(binaries[0].begin(), binaries[0].end()));
+    } catch (const cl::Error&) {
+        return built;  // a driver that doesn't give its binaries
+    }
+    return built;
+}
 
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text) {
     const auto start = std::chrono::steady_clock::now();
@@ -161,11 +175,11 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     try {
         if (device.info().platform == kPoclPlatform)
             program = build_with_pocl(device, label, text);
-        else if (device.info().platform == "Oclgrind")  // it interprets code; a binary would lose
-                                                        // the line numbers
-            program = compile(device, label, text);
+        else if (device.info().platform == kOclgrindPlatform)
+            // It interprets code; a binary would lose the line numbers.
+            program = compile(compiler_target(device), label, text);
         else
-            program = build_with_binary(device, label, text);
+            program = build_noted(device, label, text);
     } catch (const Error& error) {
         throw Error(ErrorKind::build, "{} does not compile on \"{}\" with {}: {}", label,
                     device.info().name, text.options, error.what());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/opencl/device.hpp"
@@ -23,6 +24,14 @@ struct ProgramText {
 /// else it holds. Throws Error::build with the compiler's log, in which `label`
 /// names the program.
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text);
+
+/// True for GPUs, whose drivers compile kernels when their program is built: then each is compiled
+/// alone, see kernel_builds.hpp. Intel's driver for CPUs compiles one program at a time, and takes
+/// 23 instead of 14 s for the kernels of scenes/whitted.json one by one.
+bool compiles_kernels_alone(const DeviceInfo& info);
+
+/// The options of a compiler without its -D constants.
+std::string without_constants(std::string_view options);
 
 /// The sources of the programs that the device has ready, each once.
 std::vector<std::string> program_sources(const Device& device);

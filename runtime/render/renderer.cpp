@@ -92,8 +92,8 @@ bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t r
     const double bytes = double(rays) * sight_bytes(features),
                  memory = double(device_.info().memory);
     if (!follows_ && bytes > kMaxPassHitBytes) return false;
-    const double needed =
-        ray_bytes(features, ray_counts(scene, features)).maximum() + image_bytes(scene.render);
+    const double needed = ray_bytes(features, ray_counts(device_, scene, features)).maximum() +
+                          image_bytes(scene.render);
     const auto locked = device_.lock();
     return bytes <= memory / 16 &&
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;
@@ -189,7 +189,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
 
     const uint32_t all_tiles = tiles.share.tiles();
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.maximum());
+    uint32_t in_batch = batch_tiles(device_, features, observer.samples, tiles.share.maximum());
     View view = view_of(scene, built, features);
     const bool is_lent = lender_ && lender_->lends_hits(view, in_batch);
     if (is_lent) in_batch = lender_->tiles_in_batch_;

@@ -95,7 +95,7 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
 void render_rays(Work& work, Volume& volume) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.camera.width, work.camera.height);
-    const uint32_t in_batch = batch_tiles(work.features, 1, tiles);
+    const uint32_t in_batch = batch_tiles(work.device, work.features, 1, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
     const double pixel = voxels_a_pixel(work.scene, work.camera, work.world.frame);
     const auto dilated_occupancy_of =
@@ -148,7 +148,8 @@ void render_rays(Work& work, Volume& volume) {
 
 void render_lattice(Work& work, Volume& volume) {
     work.features = begun_anywhere(work.features, work.scene);
-    RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
+    RayBatch batch =
+        allocate_batch(work.device, work.features, batch_rays(work.device, work.features));
     // Finding surfaces needs only their geometry.
     const Features geometry = features_of(work.world);
     DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);

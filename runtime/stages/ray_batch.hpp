@@ -9,10 +9,6 @@
 
 namespace voxelume {
 
-/// The maximum number of rays that pass through the stages together. It is small enough for a CPU's
-/// memory and caches, and half the number of work-items that the largest GPUs hold at once.
-inline constexpr uint32_t kBatchRays = 1u << 17;
-
 /// Rays before they are traced. shared/trace.h has the components, which are `stride` values apart.
 struct RayQueue {
     Buffer<float> rays;  ///< VXL_RAY_COMPONENTS

@@ -141,7 +141,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
     check_tables(scene, device_.info());
-    const ScenePlan plan = plan_scene(scene, meshes_);
+    const ScenePlan plan = plan_scene(scene, meshes_, device_.info());
     check_memory(scene, plan, device_.info());
     report.load_seconds = meshes_.load_seconds() - load_seconds_;
     report.meshes_read = meshes_.meshes_read() - meshes_read_;

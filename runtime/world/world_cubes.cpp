@@ -55,7 +55,7 @@ void resize_voxels(double edge, Scene& scene) {
 
 VoxelModel cubes_of(const Device& device, const Scene& scene, AssetStore& meshes) {
     check_tables(scene, device.info());
-    check_memory(scene, plan_scene(scene, meshes), device.info());
+    check_memory(scene, plan_scene(scene, meshes, device.info()), device.info());
     GridCache grids(device, meshes);
     std::vector<SharedGrid> shown;
     const PlacedGridSource grid_of = [&](const Object& object, const Model& model,

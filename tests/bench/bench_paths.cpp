@@ -33,8 +33,8 @@ class Frame {
           features_(features_of(scene, world)),
           observer_(camera_of(scene, world.frame)),
           tiles_(tile_count(observer_.width, observer_.height)),
-          batch_tiles_(
-              std::clamp(batch_rays(features_) / (16 * uint32_t(observer_.samples)), 1u, tiles_)),
+          batch_tiles_(std::clamp(
+              batch_rays(device, features_) / (16 * uint32_t(observer_.samples)), 1u, tiles_)),
           batch_(
               allocate_batch(device, features_, batch_tiles_ * 16 * uint32_t(observer_.samples))),
           sight_(device, features_, observer_),

@@ -3,7 +3,7 @@
 // all sight rays of the picture, for each surface and number of lanes.
 //
 //   bench_trace [MESH] [voxels along the longest side, 512] [lanes ... | surfaces ... | peers |
-//   halved]
+//   halved | gpu]
 //
 // Without a mesh it takes Debian's bunny (glmark2-data). `halved`, as often as it is there, cuts
 // each triangle into four at the middles of its edges. `peers` has Embree, OpenVDB and NanoVDB
@@ -14,6 +14,7 @@
 // goes through the kernel that a frame sends such rays through; of shadow rays these and Embree's
 // quicker query only find out whether something is in the way. Times are the process's CPU time
 // over all threads, so a figure is per core; set POCL_MAX_PTHREAD_COUNT=1 to compare packets alone.
+// With `gpu` the device is a GPU, times are the wall's, and a figure is of the whole device.
 // The last column is a hash of all closest hits: programs that differ in speed alone print the
 // same.
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ void print(const Row& row) {
 }
 
 Row bench(const Mesh& mesh, Surface surface, const std::string& name, int voxels, int lanes) {
-    const Device device = Device::open("cpu", lanes);
+    const Device device = Device::open(measures_accelerator ? "gpu" : "cpu", lanes);
     const GridFrame frame = frame_around(mesh, glm::dvec3(1.0 / voxels));
     Voxelizer voxelizer(device);
     const auto build = [&] {
@@ -56,9 +57,9 @@ Row bench(const Mesh& mesh, Surface surface, const std::string& name, int voxels
         return made;
     };
     const Pyramid pyramid = build();
-    const double start = cpu_seconds();
+    const double start = busy_seconds();
     build();
-    Row row{fmt::format("{}, {}", name, lanes), cpu_seconds() - start, {}, {}};
+    Row row{fmt::format("{}, {}", name, lanes), busy_seconds() - start, {}, {}};
     const std::vector<Ray> rays = picture_rays(frame);
     TraceKernels timed(device, pyramid);
     std::vector<Hit> hits;
@@ -152,6 +153,8 @@ void run(const std::vector<std::string>& words) {
             surfaces.emplace_back(Surface::exact, word);
         else if (word == "peers")
             with_peers = true;
+        else if (word == "gpu")
+            measures_accelerator = true;
         else if (word == "halved")
             ++halvings;
         else if (number > 0 && voxels == 0)
@@ -162,7 +165,7 @@ void run(const std::vector<std::string>& words) {
             path = word;
     }
     if (voxels == 0) voxels = 512;
-    if (lanes.empty()) lanes = {16, 8, 4, 1};
+    if (lanes.empty()) lanes = measures_accelerator ? std::vector{1} : std::vector{16, 8, 4, 1};
     if (surfaces.empty())
         surfaces = {
             {Surface::cubes, "cubes"}, {Surface::smooth, "smooth"}, {Surface::exact, "exact"}};

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// CPU time of this process over all its threads, which a shared machine's clock doesn't tell, and
-// medians.
+// CPU time of this process over all its threads, which a shared machine's clock doesn't tell, the
+// wall's time for accelerators, and medians.
 #pragma once
 
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <vector>
 
 namespace voxelume {
@@ -17,6 +18,16 @@ inline double cpu_seconds() {
         return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
     };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Whether an accelerator is measured, whose work takes none of this process's CPU time.
+inline bool measures_accelerator = false;
+
+/// CPU time, or wall time where an accelerator is measured.
+inline double busy_seconds() {
+    if (!measures_accelerator) return cpu_seconds();
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
 }
 
 inline double median_of(std::vector<double> values) {

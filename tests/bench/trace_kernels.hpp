@@ -18,9 +18,9 @@ double median_seconds(const Pass& pass) {
     constexpr int kRuns = 7;
     std::vector<double> seconds;
     for (int run = 0; run <= kRuns; ++run) {
-        const double start = cpu_seconds();
+        const double start = busy_seconds();
         pass();
-        seconds.push_back(cpu_seconds() - start);
+        seconds.push_back(busy_seconds() - start);
     }
     seconds.erase(seconds.begin());
     return median_of(std::move(seconds));

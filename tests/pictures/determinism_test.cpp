@@ -123,6 +123,10 @@ TEST_F(Determinism, APartOfTheDeviceGivesTheSameBytes) {
     expect_same_image("VOXELUME_UNITS", {"1"});
 }
 
+TEST_F(Determinism, BatchesOfAnySizeGiveTheSameBytes) {
+    expect_same_image("VOXELUME_BATCH", in_turn<const char*>({"512", "10000", "2097152"}, 1));
+}
+
 TEST_F(Determinism, AnOptimizerGivesTheSameBytesAsNone) {
     expect_same_image("VOXELUME_BUILD_OPTIONS", {"", "-cl-opt-disable"});
 }

@@ -8,9 +8,10 @@
 namespace voxelume {
 namespace {
 
-/// The maximum number of surface points of a later depth that send on their rays together. With two
-/// rays each and all features, a depth takes about 300 bytes a ray: 10 MB, a quarter of what a
-/// whole batch would need.
+/// The surface points of a later depth that send on their rays together, as a part of a batch, and
+/// their number in small batches. With two rays each and all features, a depth takes about 300
+/// bytes a ray: 10 MB on a CPU.
+constexpr uint32_t kFollowedPart = 4;
 constexpr uint32_t kFollowedPoints = 1u << 14;
 
 constexpr const char* kFewerRays =
@@ -103,12 +104,14 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
 
 }  // namespace
 
-uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum) {
-    return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, maximum);
+uint32_t batch_tiles(const Device& device, const Features& features, int samples,
+                     uint32_t maximum) {
+    return std::clamp(batch_rays(device, features) / (16 * uint32_t(samples)), 1u, maximum);
 }
 
 uint32_t followed_points(uint32_t max_rays, size_t depth) {
-    return depth == 0 ? max_rays : std::min(max_rays, kFollowedPoints);
+    const uint32_t part = std::max(max_rays / kFollowedPart, kFollowedPoints);
+    return depth == 0 ? max_rays : std::min(max_rays, part);
 }
 
 uint32_t depth_slots(const Features& features, uint32_t max_rays, size_t depth) {

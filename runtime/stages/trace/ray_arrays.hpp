@@ -22,14 +22,14 @@ struct PathDepth {
     NodeLight nodes;
 };
 
-/// The maximum number of rays that pass through the stages together.
-inline uint32_t batch_rays(const Features& features) {
-    return features.paths ? kBatchRays / 2 : kBatchRays;
+/// The maximum number of rays that pass through the stages of a device together.
+inline uint32_t batch_rays(const Device& device, const Features& features) {
+    return features.paths ? device.info().batch_rays / 2 : device.info().batch_rays;
 }
 
 /// The number of tiles of 4 x 4 pixels whose rays make a batch, with `samples` samples a pixel; 1
 /// to `maximum`.
-uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum);
+uint32_t batch_tiles(const Device& device, const Features& features, int samples, uint32_t maximum);
 
 /// The maximum number of rays that a surface point sends on.
 inline uint32_t branches_of(const Features& features) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/opencl/kernel_builds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <semaphore>
+#include <thread>
+#include <utility>
+
+#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/kernel_slice.hpp"
+
+namespace voxelume {
+namespace {
+
+/// As many compilers as the machine has cores for.
+class CompilerPlace {
+  public:
+    CompilerPlace() { places().acquire(); }
+    ~CompilerPlace() { places().release(); }
+    CompilerPlace(const CompilerPlace&) = delete;
+    CompilerPlace& operator=(const CompilerPlace&) = delete;
+
+  private:
+    static std::counting_semaphore<>& places() {
+        static std::counting_semaphore<> left(std::max(1u, std::thread::hardware_concurrency()));
+        return left;
+    }
+};
+
+BuiltProgram build_part(const CompilerTarget& target, const std::string& label,
+                        const KernelPart& part, const ProgramText& whole) {
+    const CompilerPlace place;
+    try {
+        return build_with_binary(target, label, part.text);
+    } catch (const Error&) {
+        return build_with_binary(target, label, whole);
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const KernelParts> KernelBuilds::parts_of(const std::string& key,
+                                                          const ProgramText& text) {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const KernelParts>& known = parts_[key];
+    if (known) return known;
+    const std::string options = without_constants(text.options);
+    KernelParts parts;
+    for (KernelSlice& slice : slice_kernels(text.source, text.options)) {
+        const std::array<std::string_view, 2> contents = {slice.text, options};
+        KernelPart& part = parts[slice.kernel];
+        part.key = cache_key(contents);
+        part.text = {std::move(slice.text), options};
+    }
+    return known = std::make_shared<const KernelParts>(std::move(parts));
+}
+
+std::shared_future<BuiltProgram> KernelBuilds::start(const CompilerTarget& target,
+                                                     const std::string& label,
+                                                     const KernelPart& part,
+                                                     const ProgramText& whole) {
+    const std::lock_guard lock(mutex_);
+    std::shared_future<BuiltProgram>& build = builds_[part.key];
+    if (!build.valid())
+        build = std::async(std::launch::async, build_part, target, label, part, whole).share();
+    return build;
+}
+
+}  // namespace voxelume

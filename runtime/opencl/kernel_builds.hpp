@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels of GPUs, each compiled alone, in a thread of its own.
+//
+// Their drivers compile a whole program at once, one kernel after another: 22 s for the image of
+// scenes/whitted.json on an H100, 13 s with its kernels side by side. Kernels that no scene
+// launches aren't compiled, and those that several scenes share only once. For sources of this
+// folder alone, as it includes CL/opencl.hpp.
+#pragma once
+
+#include <CL/opencl.hpp>
+
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "runtime/opencl/program_cache.hpp"
+
+namespace voxelume {
+
+/// What a compiler needs of a device, which may be closed while it runs.
+struct CompilerTarget {
+    DeviceInfo info;
+    cl::Context context;
+    cl::Device device;
+};
+
+CompilerTarget compiler_target(const Device& device);
+
+/// A program, and whether an earlier run compiled it.
+struct BuiltProgram {
+    cl::Program program;
+    bool is_from_cache = false;
+};
+
+/// A program of a driver other than PoCL from the cache, or compiled and kept there. Throws as
+/// build_program does, or cl::Error.
+BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& label,
+                               const ProgramText& text);
+
+/// A kernel's source of its own, and the key of what it consists of.
+struct KernelPart {
+    std::string key;
+    ProgramText text;
+};
+
+/// The kernels of a program by their names.
+using KernelParts = std::map<std::string, KernelPart>;
+
+/// The kernels of a context that are compiled, or were.
+class KernelBuilds {
+  public:
+    /// The kernels of the program with this key and text.
+    std::shared_ptr<const KernelParts> parts_of(const std::string& key, const ProgramText& text);
+
+    /// Compiles a kernel in another thread, unless that was begun before. Where it doesn't compile
+    /// alone, its whole program is compiled, whose messages say where in the sources they belong.
+    std::shared_future<BuiltProgram> start(const CompilerTarget& target, const std::string& label,
+                                           const KernelPart& part, const ProgramText& whole);
+
+  private:
+    std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<const KernelParts>> parts_;
+    std::map<std::string, std::shared_future<BuiltProgram>> builds_;
+};
+
+}  // namespace voxelume
