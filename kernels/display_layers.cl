@@ -93,7 +93,8 @@ kernel void measure_layer(Camera camera, PyramidShape shape, DisplaySteps steps,
     records[VXL_LAYER_OBJECT * count + n] =
         hit && !idle ? (hit_attributes[n] & VXL_OBJECT_MASK) + 1u : 0u;
     records[VXL_LAYER_IN_MEDIUM * count + n] = !VXL_TRANSMISSION || inside[n] == 0u;
-    const float opacity = l.clear < l.clear_before ? 1.0f - l.clear / l.clear_before : 0.0f;
+    const float opacity =
+        l.clear < l.clear_before ? 1.0f - exact_quotient(l.clear, l.clear_before) : 0.0f;
     records[VXL_LAYER_OPACITY * count + n] = as_uint(l.clear > 0.0f ? opacity : 1.0f);
     for (uint c = 0; c < 3; ++c) {
         records[(VXL_LAYER_LIGHT + c) * count + n] = as_uint(l.light[c]);
@@ -141,7 +142,7 @@ static inline void add_to_steps(DisplaySteps steps, float from, float to, float 
         add_amount(sums, first, amount);
         return;
     }
-    const float share = amount / (to - from);
+    const float share = exact_quotient(amount, to - from);
     for (uint k = first; k <= last; ++k) {
         const float begin = k == first ? from : (float)k * steps.step;
         const float end = k == last ? to : (float)(k + 1u) * steps.step;

@@ -146,8 +146,8 @@ kernel void pack_points(int axis, uint columns, int last_a, int last_b, float pa
     if (n >= count) return;
     const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
     const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
-    const float a = ((float)(last_a - (int)column) + offset) / parts_a;
-    const float b = ((float)(last_b - (int)row) + offset) / parts_b;
+    const float a = exact_quotient((float)(last_a - (int)column) + offset, parts_a);
+    const float b = exact_quotient((float)(last_b - (int)row) + offset, parts_b);
     for (uint i = 0; i < counts[n]; ++i) {
         const uint point = starts[n] + i;
         points[(uint)axis * total + point] = crossings[i * stride + n];

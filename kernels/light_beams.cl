@@ -35,7 +35,7 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the squares are as wide as beams may be
     const lane_float s = run_beams(&dilated_occupancy, (lane_int)grid.axis, (lane_float)grid.sign,
                                    &b, &c, (lane_float)s_near, (lane_float)s_far, (lane_int)-1);
-    const lane_float end = (s - 2.0f * VXL_BEAM_STEP) * (1.0f / grid.scale);
+    const lane_float end = (s - 2.0f * VXL_BEAM_STEP) * inverse_of_power(grid.scale);
     LANES_STORE(LANES_SELECT(LANE_MASK(s >= s_far), (lane_float)INFINITY, end), ends,
                 tile * VXL_BEAM_TILE + first % VXL_BEAM_TILE);
 }

@@ -248,7 +248,8 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     paint_hits(&world, &sources, &h, &footprint, position, p.normal, materials, material, &batch,
                first, glow);
 #endif
-    const Colors own = colors_of_hits(colors, h.voxel, paint, first);
+    // What paint_hits wrote is read by the pointer that wrote it, since both are `restrict`.
+    const Colors own = colors_of_hits(colors, h.voxel, batch.paint, first);
     lane_float opacity = surface_opacity(materials, material, own);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
     if (VXL_TRANSMISSION) {

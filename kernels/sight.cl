@@ -184,7 +184,7 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
         fmin(fmin(narrow_until(&b, g.s_first), narrow_until(&c, g.s_first)), g.s_far);
     const lane_float end =
         run_beams(&dilated_occupancy, g.axis, g.sign, &b, &c, g.s_first, s_last, g.active);
-    const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * (1.0f / scale);
+    const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * inverse_of_power(scale);
     const uint slots = VXL_BEAM_SLOTS(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * slots + first);
     // The dilated occupancy's last leaf covers 4 voxels more, and so the step past its planes. A

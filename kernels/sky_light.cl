@@ -48,7 +48,7 @@ kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, 
     LitPoints p;
     if (!load_lit_points(&world, &batch, first, &p)) return;
     const lane_uint seed = seed_of_place(p.position);
-    lane_float weight = (lane_float)(1.0f / (float)directions);
+    lane_float weight = exact_reciprocal((lane_float)directions);
     Vector way;
     if (VXL_SKY == VXL_SKY_MAP)
         way = direction_to_map(&around.map, p.shading_normal, number, directions, seed, &weight);

@@ -181,6 +181,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     image_.reset();
     const Pyramid& world = built.pyramid;
     Features features = features_of(scene, world);
+    leave_out_solid_kinds(device_, world, features);
     if (is_white_) {
         features.colors = false;
         features.leave_out_textures();

@@ -216,6 +216,7 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
                  world,  features_of(scene, world),
                  frame,  display_sight(scene, frame, world.frame),
                  report, progress};
+    leave_out_solid_kinds(device, world, work.features);
     Volume volume;
     volume.frame = frame;
     if (frame.layout == VolumeLayout::rays)

@@ -14,6 +14,7 @@ struct Features {
     bool corner_normals = false;  ///< some triangle has normals at its corners
     bool voxel_normals = false;   ///< some cube has the normal of the surface it stands for
     bool solids = false;          ///< some voxel lists analytic solids
+    int solid_kinds = 0xFF;       ///< 1 << VXL_SOLID_* of those that there may be beside spheres
     bool field_lists = false;     ///< some voxel lists the distance fields in it
     bool attributes = false;      ///< voxels differ in object, material or kind
     bool colors = false;          ///< voxels have colours of their own
@@ -84,6 +85,7 @@ struct Features {
                 {"VXL_CORNER_NORMALS", corner_normals},
                 {"VXL_VOXEL_NORMALS", voxel_normals},
                 {"VXL_SOLIDS", solids},
+                {"VXL_SOLID_KINDS", solid_kinds},
                 {"VXL_FIELD_LISTS", field_lists},
                 {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},

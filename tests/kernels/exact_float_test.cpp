@@ -75,6 +75,11 @@ struct Way {
 
 class ExactFloat : public testing::TestWithParam<Way> {
   protected:
+    void SetUp() override {
+        if (GetParam().native && !test_device().is_cpu())
+            GTEST_SKIP() << "kernels don't use its own division, which may round otherwise";
+    }
+
     std::vector<float> results(const std::string& expression, const std::vector<float>& x,
                                const std::vector<float>& y) const {
         return evaluate(expression, x, y, GetParam().native, GetParam().lanes);

@@ -15,6 +15,8 @@
 namespace voxelume {
 namespace {
 
+constexpr const char* kAlone = "this device's kernels are compiled alone, when they are launched";
+
 TEST(Program, NumbersEveryWorkItemOnceAcrossRows) {
     const Device device = test_device();
     const Program program = Program::from_text(device, R"(
@@ -36,6 +38,7 @@ kernel void write_number(uint count, global uint* numbers) {
 
 TEST(Program, IsMadeOnceWhileTheDeviceIsOpen) {
     const Device device = test_device();
+    if (compiles_kernels_alone(device.info())) GTEST_SKIP() << kAlone;
     const auto made = [&](const std::string& text, int value) {
         const uint64_t before = device.counters().programs_built;
         Program::from_text(device, text, {{"VALUE", value}});
@@ -58,6 +61,7 @@ TEST(Program, WarningsOfTheCompilerAreNotPrinted) {
 
 TEST(Program, ConstantsThatTheSourceDoesNotMentionMakeNoOther) {
     const Device device = test_device();
+    if (compiles_kernels_alone(device.info())) GTEST_SKIP() << kAlone;
     const auto made = [&](const Defines& defines) {
         const uint64_t before = device.counters().programs_built;
         Program::from_text(device, "kernel void g(global int* x) { *x = VALUE + VALUES_2; }\n",
@@ -71,6 +75,7 @@ TEST(Program, ConstantsThatTheSourceDoesNotMentionMakeNoOther) {
 
 TEST(Program, FilesBuiltTogetherAreOneUntilTheirConstantsDiffer) {
     const Device device = test_device();
+    if (compiles_kernels_alone(device.info())) GTEST_SKIP() << kAlone;
     Features features;
     features.cubes = true;
     const std::array<const char*, 2> files = {"trace.cl", "shade.cl"};
@@ -87,6 +92,7 @@ TEST(Program, FilesBuiltTogetherAreOneUntilTheirConstantsDiffer) {
 
 TEST(Program, FilesBuiltTogetherAreThoseThatWereNotBuiltBefore) {
     const Device device = test_device();
+    if (compiles_kernels_alone(device.info())) GTEST_SKIP() << kAlone;
     Features features;
     features.cubes = true;
     const std::array<const char*, 2> files = {"sight.cl", "light.cl"};
@@ -177,6 +183,7 @@ TEST(Program, AnArgumentOfAnotherTypeThanItsParameterIsRefusedWithBoth) {
 
 TEST(Program, NamesTheKernelFileAndLineOfAnError) {
     const Device device = test_device();
+    if (compiles_kernels_alone(device.info())) GTEST_SKIP() << kAlone;
     if (device.info().platform == "Oclgrind") GTEST_SKIP() << "its compiler ignores #line";
     try {
         Program::from_text(device,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Division and square root that round correctly on every device, so that all give the same bits.
 //
-// OpenCL lets a device miss x/y by 2.5 units in the last place. Markstein's correction by fma makes
-// the result correctly rounded from any such start, for results and residuals in the normal range;
+// OpenCL lets a device miss x/y by 2.5 units in the last place, and NVIDIA's do. So kernels divide
+// by these functions alone, but for constants, and bounds of voxelization that only say which
+// voxels are looked at exactly; .ci/lint holds that. Markstein's correction by fma makes the result
+// correctly rounded from any such start, for results and residuals in the normal range;
 // VXL_NATIVE_DIVIDE = 1 says that the device's own operations already are (every CPU driver's).
 #ifndef VXL_EXACT_FLOAT_H
 #define VXL_EXACT_FLOAT_H
@@ -32,6 +34,18 @@ static inline lane_float exact_divide(lane_float a, lane_float b) {
     lane_float q = fma(fma(-b, first, a), r, first);
     q = fma(fma(-b, q, a), r, q);
     return LANES_SELECT(LANE_MASK(a == 0.0f), first, q);  // the correction would lose the sign of 0
+}
+
+/// a / b of single numbers, rounded as exact_divide does.
+static inline float exact_quotient(float a, float b) {
+    float all[VXL_LANES];
+    LANES_STORE(exact_divide((lane_float)a, (lane_float)b), all, 0);
+    return all[0];
+}
+
+/// 1 / power, for a power of two.
+static inline float inverse_of_power(float power) {
+    return as_float(0x7F000000 - as_int(power));
 }
 
 /// The square root of x >= 0, correctly rounded, for x = 0 or far from underflow.

@@ -27,7 +27,7 @@ static inline lane_float snap_position(lane_float o, lane_float side, float fixe
     const lane_float down = nearest + LANES_FLOAT(LANE_MASK(nearest > scaled));
     const lane_float snapped = LANES_SELECT(LANE_MASK(side > 0.0f), up,
                                             LANES_SELECT(LANE_MASK(side < 0.0f), down, nearest));
-    return snapped * (1.0f / fixed_point);
+    return snapped * inverse_of_power(fixed_point);
 }
 
 /// Limits [t_first, t_last] of a ray to what lies between two planes of one axis.

@@ -24,8 +24,8 @@ static inline lane_float clear_from(const BeamGrid* g, global const float* restr
     const lane_float t = (g->far_side - oa) * ia;
     const lane_float at_b = fma(beside_b(g, w->dx, w->dy), t, beside_b(g, w->ox, w->oy));
     const lane_float at_c = fma(beside_c(g, w->dy, w->dz), t, beside_c(g, w->oy, w->oz));
-    const lane_float column = (at_b - g->low_b) * (1.0f / g->edge);
-    const lane_float row = (at_c - g->low_c) * (1.0f / g->edge);
+    const lane_float per_edge = exact_reciprocal((lane_float)g->edge);
+    const lane_float column = (at_b - g->low_b) * per_edge, row = (at_c - g->low_c) * per_edge;
     const lane_int known = LANE_MASK(column >= 0.0f) & LANE_MASK(column < (float)g->columns) &
                            LANE_MASK(row >= 0.0f) & LANE_MASK(row < (float)g->rows) &
                            LANE_MASK(ia * g->sign < 0.0f);

@@ -9,6 +9,18 @@
 #include "lib/lanes/exact_float.h"
 #include "shared/solid.h"
 
+/// Kinds of shapes, 1 << VXL_SOLID_*: there may be shapes of these alone, and spheres.
+#ifndef VXL_SOLID_KINDS
+#define VXL_SOLID_KINDS 0xFFu
+#endif
+
+/// True for a kind that there may be; others' code is left out.
+#define VXL_IS_SOLID(kind, other) ((VXL_SOLID_KINDS >> (other)&1u) != 0u && (kind) == (other))
+
+static inline uint solid_kind(global const SolidShape* s) {
+    return s->kind & VXL_SOLID_KIND_MASK;
+}
+
 /// A point or a direction in a shape's space.
 typedef struct {
     lane_float x, y, z;
@@ -121,24 +133,16 @@ static inline lane_float ellipsoid_distance(SolidPoint p, global const SolidShap
 
 /// The distance to one shape, in its space.
 static inline lane_float shape_distance(global const SolidShape* s, SolidPoint p) {
-    switch (s->kind & VXL_SOLID_KIND_MASK) {
-        case VXL_SOLID_ELLIPSOID:
-            return ellipsoid_distance(p, s);
-        case VXL_SOLID_BOX:
-            return box_distance(p, s->size[0], s->size[1], s->size[2]);
-        case VXL_SOLID_CYLINDER:
-            return cylinder_distance(p, s->size[0], s->size[1]);
-        case VXL_SOLID_CONE:
-            return cone_distance(p, s);
-        case VXL_SOLID_TORUS:
-            return torus_distance(p, s->size[0], s->size[1]);
-        case VXL_SOLID_CAPSULE:
-            return capsule_distance(p, s->size[0], s->size[1]);
-        case VXL_SOLID_SLAB:
-            return fabs(p.y) - s->size[0];
-        default:
-            return solid_length3(p.x, p.y, p.z) - s->size[0];
-    }
+    const uint kind = solid_kind(s);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_ELLIPSOID)) return ellipsoid_distance(p, s);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_BOX))
+        return box_distance(p, s->size[0], s->size[1], s->size[2]);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_CYLINDER)) return cylinder_distance(p, s->size[0], s->size[1]);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_CONE)) return cone_distance(p, s);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_TORUS)) return torus_distance(p, s->size[0], s->size[1]);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_CAPSULE)) return capsule_distance(p, s->size[0], s->size[1]);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_SLAB)) return fabs(p.y) - s->size[0];
+    return solid_length3(p.x, p.y, p.z) - s->size[0];
 }
 
 #endif

@@ -46,32 +46,23 @@ static inline TorusSpans shape_spans(global const SolidShape* s, const ShapePath
     const ShapeRay r = path->ray;
     TorusSpans spans;
     spans.second = span_where((lane_int)0);
-    switch (s->kind & VXL_SOLID_KIND_MASK) {
-        case VXL_SOLID_ELLIPSOID:
-            spans.first = ellipsoid_span(r, s);
-            break;
-        case VXL_SOLID_BOX:
-            spans.first = box_span(r, s);
-            break;
-        case VXL_SOLID_CYLINDER:
-            spans.first = cylinder_span(r, s->size[0], s->size[1]);
-            break;
-        case VXL_SOLID_CONE:
-            spans.first = cone_span(r, s);
-            break;
-        case VXL_SOLID_TORUS:
-            spans = torus_spans(r, s->size[0], s->size[1]);
-            break;
-        case VXL_SOLID_CAPSULE:
-            spans.first = capsule_span(r, s->size[0], s->size[1]);
-            break;
-        case VXL_SOLID_SLAB:
-            spans.first = slab_span(r.p.y, r.v.y, s->size[0]);
-            break;
-        default:
-            spans.first = ball_span(r, s->size[0]);
-            break;
-    }
+    const uint kind = solid_kind(s);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_ELLIPSOID))
+        spans.first = ellipsoid_span(r, s);
+    else if (VXL_IS_SOLID(kind, VXL_SOLID_BOX))
+        spans.first = box_span(r, s);
+    else if (VXL_IS_SOLID(kind, VXL_SOLID_CYLINDER))
+        spans.first = cylinder_span(r, s->size[0], s->size[1]);
+    else if (VXL_IS_SOLID(kind, VXL_SOLID_CONE))
+        spans.first = cone_span(r, s);
+    else if (VXL_IS_SOLID(kind, VXL_SOLID_TORUS))
+        spans = torus_spans(r, s->size[0], s->size[1]);
+    else if (VXL_IS_SOLID(kind, VXL_SOLID_CAPSULE))
+        spans.first = capsule_span(r, s->size[0], s->size[1]);
+    else if (VXL_IS_SOLID(kind, VXL_SOLID_SLAB))
+        spans.first = slab_span(r.p.y, r.v.y, s->size[0]);
+    else
+        spans.first = ball_span(r, s->size[0]);
     spans.first = later_span(spans.first, path->from);
     spans.second = later_span(spans.second, path->from);
     return spans;

@@ -10,51 +10,38 @@
 static inline SolidPoint shape_gradient(global const SolidShape* s, SolidPoint p) {
     SolidPoint n = p;
     const lane_float none = (lane_float)0.0f, up = copysign((lane_float)1.0f, p.y);
-    switch (s->kind & VXL_SOLID_KIND_MASK) {
-        case VXL_SOLID_ELLIPSOID:
-            n.x = exact_divide(p.x, (lane_float)(s->size[0] * s->size[0]));
-            n.y = exact_divide(p.y, (lane_float)(s->size[1] * s->size[1]));
-            n.z = exact_divide(p.z, (lane_float)(s->size[2] * s->size[2]));
-            break;
-        case VXL_SOLID_BOX: {
-            const lane_float x = fabs(p.x) - s->size[0], y = fabs(p.y) - s->size[1],
-                             z = fabs(p.z) - s->size[2];
-            const lane_int is_x = LANE_MASK(x >= y) & LANE_MASK(x >= z);
-            const lane_int is_y = ~is_x & LANE_MASK(y >= z);
-            n.x = LANES_SELECT(is_x, copysign((lane_float)1.0f, p.x), none);
-            n.y = LANES_SELECT(is_y, up, none);
-            n.z = LANES_SELECT(is_x | is_y, none, copysign((lane_float)1.0f, p.z));
-            break;
-        }
-        case VXL_SOLID_CYLINDER:
-        case VXL_SOLID_CONE: {
-            const int is_cone = (s->kind & VXL_SOLID_KIND_MASK) == VXL_SOLID_CONE;
-            const float slope_x = is_cone ? s->derived[0] : 1.0f;
-            const float slope_y = is_cone ? s->derived[1] : 0.0f;
-            const lane_float across = solid_length2(p.x, p.z);
-            const lane_float side =
-                fma(across - s->size[0], (lane_float)slope_x, (p.y + s->size[1]) * slope_y);
-            const lane_int is_cap = LANE_MASK(fabs(p.y) - s->size[1] > side);
-            n.x = LANES_SELECT(is_cap, none, p.x * slope_x);
-            n.y = LANES_SELECT(is_cap, up, across * slope_y);
-            n.z = LANES_SELECT(is_cap, none, p.z * slope_x);
-            break;
-        }
-        case VXL_SOLID_TORUS: {
-            const lane_float across = fmax(solid_length2(p.x, p.z), FLT_MIN);
-            const lane_float share = exact_divide(across - s->size[0], across);
-            n.x = p.x * share;
-            n.z = p.z * share;
-            break;
-        }
-        case VXL_SOLID_CAPSULE:
-            n.y = p.y - clamp(p.y, -s->size[1], s->size[1]);
-            break;
-        case VXL_SOLID_SLAB:
-            n.x = none, n.y = up, n.z = none;
-            break;
-        default:
-            break;
+    const uint kind = solid_kind(s);
+    if (VXL_IS_SOLID(kind, VXL_SOLID_ELLIPSOID)) {
+        n.x = exact_divide(p.x, (lane_float)(s->size[0] * s->size[0]));
+        n.y = exact_divide(p.y, (lane_float)(s->size[1] * s->size[1]));
+        n.z = exact_divide(p.z, (lane_float)(s->size[2] * s->size[2]));
+    } else if (VXL_IS_SOLID(kind, VXL_SOLID_BOX)) {
+        const lane_float x = fabs(p.x) - s->size[0], y = fabs(p.y) - s->size[1],
+                         z = fabs(p.z) - s->size[2];
+        const lane_int is_x = LANE_MASK(x >= y) & LANE_MASK(x >= z);
+        const lane_int is_y = ~is_x & LANE_MASK(y >= z);
+        n.x = LANES_SELECT(is_x, copysign((lane_float)1.0f, p.x), none);
+        n.y = LANES_SELECT(is_y, up, none);
+        n.z = LANES_SELECT(is_x | is_y, none, copysign((lane_float)1.0f, p.z));
+    } else if (VXL_IS_SOLID(kind, VXL_SOLID_CYLINDER) || VXL_IS_SOLID(kind, VXL_SOLID_CONE)) {
+        const float slope_x = kind == VXL_SOLID_CONE ? s->derived[0] : 1.0f;
+        const float slope_y = kind == VXL_SOLID_CONE ? s->derived[1] : 0.0f;
+        const lane_float across = solid_length2(p.x, p.z);
+        const lane_float side =
+            fma(across - s->size[0], (lane_float)slope_x, (p.y + s->size[1]) * slope_y);
+        const lane_int is_cap = LANE_MASK(fabs(p.y) - s->size[1] > side);
+        n.x = LANES_SELECT(is_cap, none, p.x * slope_x);
+        n.y = LANES_SELECT(is_cap, up, across * slope_y);
+        n.z = LANES_SELECT(is_cap, none, p.z * slope_x);
+    } else if (VXL_IS_SOLID(kind, VXL_SOLID_TORUS)) {
+        const lane_float across = fmax(solid_length2(p.x, p.z), FLT_MIN);
+        const lane_float share = exact_divide(across - s->size[0], across);
+        n.x = p.x * share;
+        n.z = p.z * share;
+    } else if (VXL_IS_SOLID(kind, VXL_SOLID_CAPSULE)) {
+        n.y = p.y - clamp(p.y, -s->size[1], s->size[1]);
+    } else if (VXL_IS_SOLID(kind, VXL_SOLID_SLAB)) {
+        n.x = none, n.y = up, n.z = none;
     }
     return n;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/trace/trace.hpp"
 
+#include <cstddef>
+
+#include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
 
 namespace voxelume {
@@ -25,6 +28,15 @@ Features features_of(const Pyramid& pyramid) {
     features.instances = !pyramid.instances.empty();
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;
     return features;
+}
+
+void leave_out_solid_kinds(const Device& device, const Pyramid& pyramid, Features& features) {
+    if (device.is_cpu() || pyramid.solids.empty()) return;
+    const std::vector<uint32_t> words = pyramid.solids.read();
+    constexpr size_t kKind = offsetof(SolidShape, kind) / 4;
+    features.solid_kinds = 0;
+    for (size_t record = 0; record < words.size(); record += VXL_SOLID_WORDS)
+        features.solid_kinds |= 1 << (words[record + kKind] & VXL_SOLID_KIND_MASK);
 }
 
 void bind(KernelArguments& to, const Surroundings& surroundings) {

@@ -17,6 +17,10 @@ namespace voxelume {
 /// The features that the pyramid decides.
 Features features_of(const Pyramid& pyramid);
 
+/// Leaves the kinds of solids out that the pyramid hasn't, where the device's compiler takes long
+/// for them: NVIDIA's. PoCL's doesn't, and scenes that differ in kinds share kernels there.
+void leave_out_solid_kinds(const Device& device, const Pyramid& pyramid, Features& features);
+
 /// The data on surfaces and the medium that rays need to continue through surfaces.
 struct Surroundings {
     Buffer<MaterialRecord> materials;
