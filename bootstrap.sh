@@ -16,6 +16,7 @@ Usage: ./bootstrap.sh COMMAND
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
+  watch   hold what compilers for GPUs of NVIDIA, AMD and Intel make of kernels against limits
   farm    try the recipes of scenes/farm with the real Slurm, GNU parallel and OpenJD
   readers open what is written with the programs that people open it with, and their files here;
           with --blender in Blender too, which pip brings in 400 MB
@@ -24,7 +25,7 @@ Usage: ./bootstrap.sh COMMAND
   package make build/package/voxelume_*.deb and check it; with --install, also install, use and
           purge it in a bare Debian, and make what the container holds, which takes minutes and root
   docs    write the library's reference to build/docs/html/index.html
-  packages  install what all of these but drivers, farm and readers need
+  packages  install what all of these but drivers, watch, farm and readers need
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
 TEXT
@@ -152,6 +153,16 @@ run_each_test() {
     fi
 }
 
+# Debian's compiler for Intel's GPUs, without making it a driver of this machine.
+unpack_intel_compiler() {
+    local folder=$PWD/build/watch/intel package
+    [ -x "$folder/usr/bin/ocloc" ] && return
+    mkdir -p "$folder/packages"
+    (cd "$folder/packages" && apt-get -q -o APT::Sandbox::User=root download intel-opencl-icd \
+        libigc1 libigdfcl1 libigdgmm12 libllvmspirvlib14 libopencl-clang14)
+    for package in "$folder"/packages/*.deb; do dpkg -x "$package" "$folder"; done
+}
+
 farm() {
     build_targets voxelume
     pip_environment farm openjd-cli
@@ -214,6 +225,7 @@ case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;
+    watch | 'watch --accept') install_packages packages.txt .ci/watch_packages.txt ;;
     farm) install_packages packages.txt .ci/farm_packages.txt ;;
     readers | 'readers --blender') install_packages packages.txt .ci/readers_packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
@@ -243,6 +255,12 @@ case "$1" in
     drivers)
         build_targets voxelume pictures_tests kernels_tests
         .ci/drivers "$build"
+        ;;
+    watch)
+        build_targets voxelume stand_in_gpu
+        unpack_intel_compiler
+        pip_environment watch nvidia-cuda-nvcc-cu12==12.9.86
+        .ci/watch "$build" "${@:2}"
         ;;
     farm) farm ;;
     readers) readers "${2:-}" ;;

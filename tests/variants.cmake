@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Tests that run once more: with other numbers of lanes, with guarded memory, on oclgrind. What runs by default pairs
-# every test with some setting and every setting with some test; `ctest -C exhaustive` and `./bootstrap.sh test --all`
-# add all other pairs. tests/README.md lists them.
+# Tests that run once more: with other numbers of lanes, with guarded memory, as on a GPU, on oclgrind. What runs by
+# default pairs every test with some setting and every setting with some test; `ctest -C exhaustive` and
+# `./bootstrap.sh test --all` add all other pairs. tests/README.md lists them.
 
 # The kernels' tests and golden bits with each number of lanes. By default a fourth of the tests has
 # each; glibc fills memory with another byte each time, so that a value nobody wrote shows.
@@ -40,6 +40,16 @@ if(NOT VXL_SANITIZE)
     add_variant(guarded FILES glass_cubes_test instance_glass_test medium_test immersed_image_test
                               placer_test trace_test EXCEPT *NoRayLeavesAClosedRoom ${guarded})
     add_variant(guarded.more FILES glass_cubes_test index_test light_test paths_image_test shade_test ${guarded}
+                EXHAUSTIVE)
+endif()
+
+# As on a GPU: its lanes, batches and arithmetic, and each kernel compiled alone.
+if(NOT VXL_SANITIZE)
+    add_library(stand_in_gpu MODULE support/stand_in_gpu.cpp)
+    target_link_libraries(stand_in_gpu PRIVATE voxelume_options ${CMAKE_DL_LIBS})
+    set(gpu LABELS gpu ENVIRONMENT VXL_TEST_DEVICE=gpu LD_PRELOAD=$<TARGET_FILE:stand_in_gpu>)
+    add_variant(gpu FILES golden_test ${gpu})
+    add_variant(gpu.more FILES kernel_builds_test program_test shipped_scenes_test trace_test voxelize_test ${gpu}
                 EXHAUSTIVE)
 endif()
 

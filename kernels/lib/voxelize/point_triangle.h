@@ -4,6 +4,9 @@
 // In the frame of the triangle everything is affine in the point: h above its plane, s_i outside of
 // each edge line, e_i along each edge. The constants are taken at the foot that is nearest to the
 // brick's centre, found in 64-bit fixed point, so a triangle of thousands of voxels loses no digit.
+//
+// Vectors are chosen by `if`: a choice of one by a scalar condition isn't valid in SPIR-V
+// before 1.4.
 #ifndef VXL_POINT_TRIANGLE_H
 #define VXL_POINT_TRIANGLE_H
 
@@ -53,9 +56,9 @@ typedef struct {
 /// A vector perpendicular to the unit vector e, of length 1.
 static inline float3 any_perpendicular(float3 e) {
     const float3 a = fabs(e);
-    const float3 axis = a.x <= a.y && a.x <= a.z ? (float3)(1.0f, 0.0f, 0.0f)
-                        : a.y <= a.z             ? (float3)(0.0f, 1.0f, 0.0f)
-                                                 : (float3)(0.0f, 0.0f, 1.0f);
+    const bool is_x = a.x <= a.y && a.x <= a.z, is_y = !is_x && a.y <= a.z;
+    const float3 axis =
+        (float3)(is_x ? 1.0f : 0.0f, is_y ? 1.0f : 0.0f, is_x || is_y ? 0.0f : 1.0f);
     const float3 p = cross_product(e, axis);
     return p * scalar_reciprocal(scalar_root(dot_product(p, p)));
 }
@@ -72,7 +75,8 @@ static inline void shape_of_triangle(const LatticeTriangle* t, float3 scale, glo
             convert_float3(t->corner[(i + 1) % 3] - t->corner[i]) * scale * to_voxels;
         const float length = scalar_root(dot_product(edge, edge));
         const float inverse = length > 0.0f ? scalar_reciprocal(length) : 0.0f;
-        const float3 direction = length > 0.0f ? edge * inverse : (float3)(1.0f, 0.0f, 0.0f);
+        float3 direction = edge * inverse;
+        if (!(length > 0.0f)) direction = (float3)(1.0f, 0.0f, 0.0f);
         vstore4((float4)(direction, length), 0, shape + 4 + 4 * i);
         shape[16 + i] = inverse;
         if (length > longest) {
@@ -108,11 +112,11 @@ static inline TriangleEdge frame_edge(int3 start, int3 end, float4 edge, float i
     const long3 fixed =
         (convert_long3(start) << 24) + (convert_long3(end) - convert_long3(start)) * part;
     *foot = convert_float3(fixed) * (1.0f / 16777216.0f) * to_metric;
-    const bool from_end = t > 0.5f;
+    float3 along = edge.xyz, zero = from;  // from the nearer end
+    if (t > 0.5f) along = -edge.xyz, zero = convert_float3(end) * to_metric;
     TriangleEdge e;
     e.outside = affine_through(cross_product(edge.xyz, normal), *foot, scale);
-    e.along = affine_through(from_end ? -edge.xyz : edge.xyz,
-                             from_end ? convert_float3(end) * to_metric : from, scale);
+    e.along = affine_through(along, zero, scale);
     e.length = edge.w;
     return e;
 }
