@@ -7,8 +7,6 @@
 // folder alone, as it includes CL/opencl.hpp.
 #pragma once
 
-#include <CL/opencl.hpp>
-
 #include <future>
 #include <map>
 #include <memory>
@@ -22,15 +20,15 @@ namespace voxelume {
 /// What a compiler needs of a device, which may be closed while it runs.
 struct CompilerTarget {
     DeviceInfo info;
-    cl::Context context;
-    cl::Device device;
+    std::shared_ptr<const cl::Context> context;
+    std::shared_ptr<const cl::Device> device;
 };
 
 CompilerTarget compiler_target(const Device& device);
 
 /// A program, and whether an earlier run compiled it.
 struct BuiltProgram {
-    cl::Program program;
+    std::shared_ptr<const cl::Program> program;
     bool is_from_cache = false;
 };
 

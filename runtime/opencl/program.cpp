@@ -100,7 +100,7 @@ void Kernel::Made::wait(const Device& device, const std::string& name) {
     if (build.wait_for(kUntoldWait) != std::future_status::ready) device.note_wait(name);
     try {
         const BuiltProgram& built = build.get();
-        program = built.program;
+        program = *built.program;
         const auto locked = device.lock();
         if (device.find_program(key)()) return;  // others waited, too
         device.keep_program(key, program);

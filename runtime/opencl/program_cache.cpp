@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -69,15 +70,15 @@ cl::Program compile(const CompilerTarget& target, const std::string& label,
                     const ProgramText& text) {
     const DeviceCall call(target.info, "compiling ", label);
     const auto& [source, options] = text;
-    cl::Program program(target.context, source);
-    const cl_device_id id = target.device();
+    cl::Program program(*target.context, source);
+    const cl_device_id id = (*target.device)();
     cl_int status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
     // If the compiler has no message about the source, it failed for another reason, which may be
     // over: a full disk, or other processes in the cache folder that the user gave to PoCL.
-    if (status != CL_SUCCESS && log_of(program, target.device).find("error") == std::string::npos)
+    if (status != CL_SUCCESS && log_of(program, *target.device).find("error") == std::string::npos)
         status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
     if (status == CL_SUCCESS) return program;
-    const std::string log = log_of(program, target.device);
+    const std::string log = log_of(program, *target.device);
     if (log.empty() && status != CL_BUILD_PROGRAM_FAILURE)
         throw cl::Error(status, "clBuildProgram");
     throw Error(ErrorKind::build, "{}:\n{}", status_name(status), log);
@@ -103,8 +104,8 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
     try {
         const DeviceCall call(target.info, "compiling ", label);
         const cl::Program::Binaries binaries = {{bytes.begin(), bytes.end()}};
-        cl::Program program(target.context, {target.device}, binaries);
-        program.build(target.device, options.c_str());
+        cl::Program program(*target.context, {*target.device}, binaries);
+        program.build(*target.device, options.c_str());
         return program;
     } catch (const cl::Error&) {
         return std::nullopt;
@@ -126,9 +127,9 @@ cl::Program build_with_pocl(const Device& device, const std::string& label,
 
 /// Builds with an ordinary driver, and notes in the counters where the program is from.
 cl::Program build_noted(const Device& device, const std::string& label, const ProgramText& text) {
-    BuiltProgram built = build_with_binary(compiler_target(device), label, text);
+    const BuiltProgram built = build_with_binary(compiler_target(device), label, text);
     device.counters().programs_from_cache += uint64_t(built.is_from_cache);
-    return std::move(built.program);
+    return *built.program;
 }
 
 }  // namespace
@@ -145,7 +146,8 @@ std::string without_constants(std::string_view options) {
 }
 
 CompilerTarget compiler_target(const Device& device) {
-    return {device.info(), device.context(), device.handle()};
+    return {device.info(), std::make_shared<const cl::Context>(device.context()),
+            std::make_shared<const cl::Device>(device.handle())};
 }
 
 BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& label,
@@ -155,11 +157,11 @@ BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& 
     CompileTurn turn;
     if (const auto bytes = turn.read(store, key))
         if (auto program = from_binary(target, label, *bytes, text.options))
-            return {std::move(*program), true};
-    BuiltProgram built{compile(target, label, text)};
+            return {std::make_shared<const cl::Program>(std::move(*program)), true};
+    BuiltProgram built{std::make_shared<const cl::Program>(compile(target, label, text))};
     try {
         // Its binary is read right after the build.
-        const auto binaries = built.program.getInfo<CL_PROGRAM_BINARIES>();
+        const auto binaries = built.program->getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.size() == 1 && !binaries[0].empty())
             store.write(key, std::string(binaries[0].begin(), binaries[0].end()));
     } catch (const cl::Error&) {
