@@ -74,7 +74,10 @@ static inline ushort16 larger_step(ushort16 largest, short16 a, short16 b) {
 // The largest difference of two neighbouring nodes, over all gathered nodes.
 static inline int largest_step(const short* nodes) {
     ushort16 largest = 0;
+    // Compilers for GPUs would unroll this 361 times.
+#pragma unroll 1
     for (int z = 0; z < VXL_NODES; ++z)
+#pragma unroll 1
         for (int y = 0; y < VXL_NODES; ++y) {
             const short* row = nodes + y * VXL_NODE_ROW + z * VXL_NODE_LAYER;
             for (int x = 0; x <= 3; x += 3) {  // two overlapping sixteens cover nineteen
@@ -122,7 +125,9 @@ static inline uint keep_row(const short* node, short reach) {
 static inline void keep_smooth_cells(const short* nodes, ulong* kept) {
     // |2D| is at most two steps, so m - 1 at most 3/8 of 129/128 of the largest step.
     const short reach = (short)(largest_step(nodes) * 97 / 256 + 2);
+#pragma unroll 1
     for (int z = 0; z < 16; ++z)
+#pragma unroll 1
         for (int y = 0; y < 16; ++y) {
             const ulong bits = keep_row(nodes + node_index(0, y, z), reach);
             if (bits == 0) continue;
