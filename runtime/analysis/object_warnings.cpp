@@ -13,6 +13,7 @@
 
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/solid_bounds.hpp"
 #include "runtime/geometry/solid_inside.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -166,7 +167,15 @@ struct Thinness {
     }
 };
 
-Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel& placed) {
+/// The edge of the voxels that hold an object's distances.
+double field_voxel(const Scene& scene, const PlacedModel& placed) {
+    const double own = smallest(placed.voxel), world = smallest(scene.world.voxel_size);
+    if (placed.is_instance) return own;
+    return placed.model.is_sized ? std::max(own, world) : world;
+}
+
+Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel& placed,
+                     AssetStore& meshes) {
     const Model& model = placed.model;
     const double world_edge = smallest(scene.world.voxel_size);
     const glm::dvec3 sides = (placed.own.max - placed.own.min) * placed.scale;
@@ -180,6 +189,14 @@ Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel
         thin.consider(sides[axis], placed.voxel[axis]);
         if (!placed.is_instance) thin.consider(sides[axis], world_edge);
     }
+    if (!model.solid && stores_distances(model.surface)) {
+        const MeshSummary& mesh = *meshes.summary_of(model);
+        const MeshShape shape = meshes.shape_of(model);
+        const double part = shape.thickness.part;  // 0 for what has no inside
+        if (part > 0 && !is_open(mesh) && !has_sharp_edges(mesh, shape))
+            thin.consider(part * smallest(placed.scale),
+                          kThinPartVoxels * field_voxel(scene, placed));
+    }
     if (model.solid) {
         const double width = thickness(*model.solid, glm::dmat3(object.world_from_object));
         thin.consider(width, smallest(placed.voxel));
@@ -189,13 +206,13 @@ Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel
 }
 
 void add_thin_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
-                      std::vector<Warning>& warnings) {
+                      AssetStore& meshes, std::vector<Warning>& warnings) {
     const Model& model = placed.model;
     if (lists_primitives(model.surface) || !model.voxels.empty()) return;
     if (model.solid && is_infinite(*model.solid) && shows_voxels(model.surface) &&
         model.set != VoxelSet::solid)
         return;
-    const Thinness thin = thinness_of(scene, object, placed);
+    const Thinness thin = thinness_of(scene, object, placed, meshes);
     if (thin.width >= thin.voxel * (1 - kSizeRounding)) return;
     add_once({WarningKind::thinner_than_voxel, object.where,
               fmt::format("{} is {:.3g} m thin where it is thinnest, and its voxels are {:.3g} m, "
@@ -242,7 +259,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     const PlacedModel model = placed(scene, object, meshes);
     if (add_unit_warning(scene, object, model, warnings)) return;
     if (add_outside_warning(scene, object, model, warnings)) return;
-    add_thin_warning(scene, object, model, warnings);
+    add_thin_warning(scene, object, model, meshes, warnings);
     add_ratio_warning(scene, object, model, warnings);
 }
 
