@@ -174,8 +174,7 @@ double field_voxel(const Scene& scene, const PlacedModel& placed) {
     return placed.model.is_sized ? std::max(own, world) : world;
 }
 
-Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel& placed,
-                     AssetStore& meshes) {
+Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel& placed) {
     const Model& model = placed.model;
     const double world_edge = smallest(scene.world.voxel_size);
     const glm::dvec3 sides = (placed.own.max - placed.own.min) * placed.scale;
@@ -189,14 +188,6 @@ Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel
         thin.consider(sides[axis], placed.voxel[axis]);
         if (!placed.is_instance) thin.consider(sides[axis], world_edge);
     }
-    if (!model.solid && stores_distances(model.surface)) {
-        const MeshSummary& mesh = *meshes.summary_of(model);
-        const MeshShape shape = meshes.shape_of(model);
-        const double part = shape.thickness.part;  // 0 for what has no inside
-        if (part > 0 && !is_open(mesh) && !has_sharp_edges(mesh, shape))
-            thin.consider(part * smallest(placed.scale),
-                          kThinPartVoxels * field_voxel(scene, placed));
-    }
     if (model.solid) {
         const double width = thickness(*model.solid, glm::dmat3(object.world_from_object));
         thin.consider(width, smallest(placed.voxel));
@@ -206,19 +197,42 @@ Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel
 }
 
 void add_thin_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
-                      AssetStore& meshes, std::vector<Warning>& warnings) {
+                      std::vector<Warning>& warnings) {
     const Model& model = placed.model;
     if (lists_primitives(model.surface) || !model.voxels.empty()) return;
     if (model.solid && is_infinite(*model.solid) && shows_voxels(model.surface) &&
         model.set != VoxelSet::solid)
         return;
-    const Thinness thin = thinness_of(scene, object, placed, meshes);
+    const Thinness thin = thinness_of(scene, object, placed);
     if (thin.width >= thin.voxel * (1 - kSizeRounding)) return;
     add_once({WarningKind::thinner_than_voxel, object.where,
               fmt::format("{} is {:.3g} m thin where it is thinnest, and its voxels are {:.3g} m, "
                           "so parts of it get lost or too thick: give its model \"surface\": "
                           "\"exact\", or use voxels below {:.2g} m",
                           title_of(object), thin.width, thin.voxel, thin.width / 2)},
+             warnings);
+}
+
+/// Says once of a mesh that a `smooth` surface loses parts of it, unless it is wholly too thin.
+void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetStore& meshes,
+                           std::vector<Warning>& warnings) {
+    const Model& model = placed.model;
+    if (model.mesh.empty() || !stores_distances(model.surface)) return;
+    const auto is_known = [&](const Warning& w) {
+        return w.kind == WarningKind::thinner_than_voxel && w.where == model.where;
+    };
+    const MeshSummary& mesh = *meshes.summary_of(model);
+    if (is_open(mesh) || std::ranges::any_of(warnings, is_known)) return;
+    const MeshShape shape = meshes.shape_of(model);
+    const double part = shape.thickness.part * smallest(placed.scale),
+                 voxel = field_voxel(scene, placed);
+    const bool has_inside = part > 0;
+    if (!has_inside || part >= kThinPartVoxels * voxel || has_sharp_edges(mesh, shape)) return;
+    add_once({WarningKind::thinner_than_voxel, model.where,
+              fmt::format("parts of {} are less than {:.2g} voxels thick and get lost on "
+                          "\"smooth\": leave \"surface\" out or give \"exact\", or use voxels "
+                          "below {:.2g} m",
+                          quote(model.mesh.filename().string()), part / voxel, part)},
              warnings);
 }
 
@@ -259,7 +273,8 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     const PlacedModel model = placed(scene, object, meshes);
     if (add_unit_warning(scene, object, model, warnings)) return;
     if (add_outside_warning(scene, object, model, warnings)) return;
-    add_thin_warning(scene, object, model, meshes, warnings);
+    add_thin_warning(scene, object, model, warnings);
+    add_thin_part_warning(scene, model, meshes, warnings);
     add_ratio_warning(scene, object, model, warnings);
 }
 

@@ -60,8 +60,12 @@ TEST_F(MeshWarnings, NameAThinPartOfAMesh) {
     show_mesh("fin.obj", fin);
     json["models"]["ball"]["surface"] = "smooth";
     EXPECT_THAT(kinds(), ElementsAre(Kind::thinner_than_voxel));
-    EXPECT_THAT(warnings()[0].text, HasSubstr("is 0.01 m thin where it is thinnest, and its "
-                                              "voxels are 0.05 m"));
+    EXPECT_THAT(warnings()[0].text,
+                HasSubstr("parts of \"fin.obj\" are less than 0.2 voxels thick"));
+    json["objects"].push_back(json["objects"][0]);
+    json["objects"].back().erase("name");
+    json["objects"].back()["scale"] = 1.1;
+    EXPECT_THAT(kinds(), ElementsAre(Kind::thinner_than_voxel));  // once of a mesh
     json["models"]["ball"]["surface"] = "exact";
     EXPECT_THAT(kinds(), IsEmpty());
 }
