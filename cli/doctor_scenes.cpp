@@ -173,8 +173,8 @@ std::vector<KnownPicture> known_pictures() {
         {"clear rays", lattice("default", "rays", "observer", ""), true, "10c69d6634bd4439"},
         {"rays in fog", lattice("default", "rays", "observer", kFog), true, "64f4fababf3ffcce"},
         {"display of voxels", lattice("default", "lattice", "outside", ""), true,
-         "cc4a0bcaa963c2f4"},
-        {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "885551377cfd2373"},
+         "6ee843d60716faea"},
+        {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2ea30b3e2173c4be"},
     };
 }
 

@@ -1,54 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
-// points on lines along a lattice's axes -> how often the lines in each shown voxel cross surfaces.
+// lines along a lattice's axes -> how much the surfaces that they cross in each voxel cover.
 #include "lib/display/lattice_mask.h"
+#include "lib/display/line_order.h"
 #include "lib/lanes/work_item.h"
 #include "shared/display.h"
 
-// Points of a line that are closer together, in voxels, and cross in the same sense are one: a line
-// through the edge of two triangles, or through the side between two voxels of the world, meets the
-// same surface twice.
-#define VXL_SAME_POINT 0.0009765625f
-
-/// True if a point before this one on its line is the same.
-static inline bool is_again(global const float* points, uint total, uint n, uint axis) {
-    const uint a = (axis + 1u) % 3u, b = (axis + 2u) % 3u;
-    const float here = points[axis * total + n];
-    if ((as_uint(here) & VXL_CROSSES_SENSES) == VXL_CROSSES_CUBE)
-        return false;  // one for each cube
-    for (uint i = n; i-- > 0u;) {
-        if (points[a * total + i] != points[a * total + n] ||
-            points[b * total + i] != points[b * total + n])
-            return false;
-        const float there = points[axis * total + i];
-        if (((as_uint(there) ^ as_uint(here)) & VXL_CROSSES_SENSES) == 0u &&
-            fabs(there - here) < VXL_SAME_POINT)
-            return true;
-    }
-    return false;
-}
-
-static inline bool is_shown(global const uint* mask, size_t place) {
+static inline bool is_shown(const DisplayLattice* l, global const uint* mask, int4 v) {
+    if (!is_in_display(l, v)) return false;
+    const size_t place = index_of(l, v);
     return (mask[place >> 5] & (1u << (place & 31u))) != 0u;
 }
 
-/// Adds the points, which lie on lines along `axis`, to their voxels: VXL_CROSSES_SENSES counts for
-/// each axis and each voxel. No line lies on a side of a voxel. Cubes within a row of cubes, whose
-/// voxels show nothing, count for the voxel before them that does.
-kernel void count_covers(DisplayLattice lattice, uint point_count, uint total,
-                         global const float* restrict points, uint axis,
-                         global const uint* restrict mask, global const uint* restrict starts,
-                         global uint* restrict counts) {
-    const uint n = work_item();
-    if (n >= point_count || is_again(points, total, n, axis)) return;
-    const float3 cell =
-        floor((float3)(points[n], points[total + n], points[2u * (size_t)total + n]));
+/// The voxel that shows a line's surface: the one that it is crossed in, or one next to it on the
+/// line. Cubes within a row of cubes, whose voxels show nothing, count for the voxel before them
+/// that does. Its x is -1 if there is none.
+static inline int4 shown_at(const DisplayLattice* l, global const uint* mask, float3 point,
+                            uint axis, uint sense) {
+    const float3 cell = floor(point);
+    const int4 ahead = (int4)(axis == 0u, axis == 1u, axis == 2u, 0);
     int4 v = (int4)((int)cell.x, (int)cell.y, (int)cell.z, 0);
-    const int4 back = (int4)(axis == 0u, axis == 1u, axis == 2u, 0);
-    const uint sense = as_uint(points[axis * (size_t)total + n]) & VXL_CROSSES_SENSES;
-    while (is_in_display(&lattice, v) && !is_shown(mask, index_of(&lattice, v)) &&
-           sense == VXL_CROSSES_CUBE)
-        v -= back;
-    if (!is_in_display(&lattice, v) || !is_shown(mask, index_of(&lattice, v))) return;
-    const size_t voxel = number_of(mask, starts, index_of(&lattice, v));
-    atomic_inc(counts + (voxel * 3u + axis) * VXL_CROSSES_SENSES + sense);
+    if (sense == VXL_CROSSES_CUBE) {
+        while (is_in_display(l, v) && !is_shown(l, mask, v)) v -= ahead;
+    } else if (!is_shown(l, mask, v)) {
+        const float3 within = point - cell;
+        const float along = axis == 0u ? within.x : axis == 1u ? within.y : within.z;
+        v += along < 0.5f ? -ahead : ahead;
+        if (!is_shown(l, mask, v)) v += along < 0.5f ? 2 * ahead : -2 * ahead;
+    }
+    if (!is_shown(l, mask, v)) v.x = -1;
+    return v;
+}
+
+/// Adds lines 0 .. count-1, which lead along `axis`, to the voxels in which they cross surfaces.
+/// The points of line n are those from line_starts[n] on. Each voxel has, for each axis, what the
+/// surfaces in it take of the lines, in units of 1 / VXL_COVER_UNITS; and, for each sense in which
+/// they are crossed, the logarithms of what they let through, in units of -1 / VXL_LOG_UNITS. Those
+/// of the voxel's own object let through what the voxel does: `voxel_logs`; others what their
+/// materials do: `logs`. Logarithms of 0 are VXL_OPAQUE_LOG. No line lies on a side of a voxel.
+kernel void cover_lines(DisplayLattice lattice, uint count, global const uint* restrict line_starts,
+                        uint total, global const float* restrict points,
+                        global const uint* restrict surfaces, uint axis,
+                        global const float* restrict opacities, global const uint* restrict logs,
+                        global const uint* restrict mask, global const uint* restrict starts,
+                        global const uint* restrict voxel_objects,
+                        global const float* restrict voxel_opacities,
+                        global const uint* restrict voxel_logs, global uint* restrict sums) {
+    const uint line = work_item();
+    if (line >= count) return;
+    float clear = 1.0f;
+    for (uint n = line_starts[line]; n < line_starts[line + 1u]; ++n) {
+        const float3 point = load_point(points, total, n);
+        const uint sense = as_uint(points[axis * (size_t)total + n]) & VXL_CROSSES_SENSES;
+        const int4 v = shown_at(&lattice, mask, point, axis, sense);
+        float opacity = fmin(opacity_of_surface(opacities, surfaces[n]), 1.0f);
+        if (v.x < 0) {
+            clear -= clear * opacity;
+            continue;
+        }
+        const size_t voxel = number_of(mask, starts, index_of(&lattice, v));
+        uint log_clear = logs[(surfaces[n] >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK];
+        const bool is_own = voxel_objects[voxel] == (surfaces[n] & VXL_OBJECT_MASK) + 1u;
+        if (is_own) opacity = voxel_opacities[voxel];
+        if (is_own || log_clear == VXL_OPAQUE_LOG) log_clear = voxel_logs[voxel];
+        const float behind = clear - clear * opacity;
+        global uint* sum = sums + (voxel * 3u + axis) * VXL_COVER_SUMS;
+        atomic_add(sum, (uint)fma(clear - behind, VXL_COVER_UNITS, 0.5f));
+        if (log_clear != VXL_OPAQUE_LOG) atomic_add(sum + 1u + sense, log_clear);
+        clear = behind;
+    }
 }

@@ -11,9 +11,10 @@
 /// Scans the `walking` lanes' voxels up to t_end. Lanes that reach an occupied voxel wait until no
 /// lane is walking; then the surfaces in those voxels are crossed together. `beginning` lanes set
 /// out from inside of the voxels: if among cubes, they have not crossed their surface.
-static inline void scan_way(const PyramidView* p, const SurfaceView* s, Walk* w, lane_float t_end,
+static inline void scan_way(const WorldView* world, const PyramidView* p, Walk* w, lane_float t_end,
                             lane_int walking, lane_int beginning, ScanResult* r) {
     lane_int in_cube = (lane_int)0;
+    lane_uint row = (lane_uint)0u;  // the cube that the line is in
     while (lanes_any(walking)) {
         lane_int waiting = (lane_int)0;
         lane_uint leaf = (lane_uint)0u;
@@ -25,14 +26,16 @@ static inline void scan_way(const PyramidView* p, const SurfaceView* s, Walk* w,
             walking &= ~arrived;
             beginning &= ~walking;
             if (VXL_CUBES) {
+                r->surface = row;
                 if (!r->covers) keep_crossings(r, walking & in_cube, w->t, (lane_float)-1.0f);
                 in_cube &= ~walking;
             }
             advance(p, w, state.log2_size, walking);
             walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
         }
-        const lane_int cubes = scan_voxels(p, s, w, leaf, waiting, r);
+        const lane_int cubes = scan_voxels(world, p, w, leaf, waiting, r);
         if (VXL_CUBES) {
+            r->surface = row = LANES_SELECT(cubes, r->surface, row);
             const lane_int counted = r->covers ? cubes : cubes ^ in_cube;
             keep_crossings(
                 r, waiting & counted & ~(beginning & cubes), w->t,
@@ -66,7 +69,8 @@ static INLINED void scan_instance(const WorldView* world, uint number, lane_floa
     w.axis = record->aligned ? (lane_int)3 : way.axis;
     if (record->aligned) enter_box(&p, record, zero, &w);
     r->into = c;
-    scan_way(&p, &world->surface, &w, transformed_t(&c, t_end), active & in_grid(&p, &w),
+    r->instance = number;
+    scan_way(world, &p, &w, transformed_t(&c, t_end), active & in_grid(&p, &w),
              LANE_MASK(w.axis == 3), r);
 }
 
@@ -101,10 +105,12 @@ static INLINED void scan_instances(const WorldView* world, const Walk* line, lan
 /// Those with the world's voxels come first, then those with each instance's, each in their order
 /// along the line. Arrays hold a multiple of 16 lines. With `covers` they are where a line enters
 /// each cube, otherwise where it enters or leaves a row of them, and their lowest bits are a
-/// VXL_CROSSES_*.
+/// VXL_CROSSES_*. Where light goes through surfaces these bits are always that, and `surfaces`
+/// tells what is crossed: packed attributes with VXL_LINE_CUBE.
 kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
                        uint count, uint stride, uint slots, uint line_stride, uint covers,
-                       global uint* restrict counts, global float* restrict crossings) {
+                       global uint* restrict counts, global float* restrict crossings,
+                       global uint* restrict surfaces) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const WorldView world = VXL_WORLD;
@@ -113,8 +119,9 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
     const Vector origin = {w.ox, w.oy, w.oz}, way = {w.dx, w.dy, w.dz};
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const TransformedRay same = {origin, way, zero, zero, one};
-    ScanResult r = {row,    first,         line_stride, slots, crossings,
-                    covers, (lane_uint)0u, origin,      way,   same};
+    ScanResult r = {row,      first,           line_stride,   slots,  crossings,
+                    surfaces, covers,          (lane_uint)0u, origin, way,
+                    same,     VXL_NO_INSTANCE, (lane_uint)0u};
     lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     // A line that comes into the world has crossed the surface of cubes at its side.
     const lane_int comes_in =
@@ -124,7 +131,7 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
         (LANE_MASK(w.oz == (float)shape.size_z) & ~w.pz);
     const lane_int active = LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w);
     const Walk line = w;
-    scan_way(&p, &world.surface, &w, t_end, active, ~comes_in, &r);
+    scan_way(&world, &p, &w, t_end, active, ~comes_in, &r);
     if (VXL_INSTANCES && lanes_any(active)) {
         lane_float t_in = zero;  // beyond the world's bounds there is nothing
         clip_to_world(origin, way, p.size_x, p.size_y, p.size_z, &t_in, &t_end);
@@ -133,25 +140,39 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
     LANES_STORE(r.count, counts, first);
 }
 
+/// Puts the crossings of lines 0 .. count-1 in their order, and leaves out those that other objects
+/// hide; see line_order.h. Every line has slots for all of its crossings.
+kernel void order_lines(uint count, uint line_stride, global const uint* restrict ranks,
+                        global const float* restrict opacities, global uint* restrict counts,
+                        global float* restrict crossings, global uint* restrict surfaces) {
+    const uint n = work_item();
+    if (n >= count) return;
+    const LineCrossings line = {counts[n],    line_stride, crossings + n,
+                                surfaces + n, ranks,       opacities};
+    counts[n] = order_crossings(&line);
+}
+
 /// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
 /// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
-/// row r lie at (last_a - c + offset) / parts_a along the next axis and (last_b - r + offset) /
-/// parts_b along the one after it.
+/// row r lie at (last_a - c + offset_a) / parts_a along the next axis and (last_b - r + offset_b) /
+/// parts_b along the one after it. With `packed` their surfaces come there.
 kernel void pack_points(int axis, uint columns, int last_a, int last_b, float parts_a,
-                        float parts_b, float offset, global const uint* restrict counts,
-                        global const uint* restrict starts, global const float* restrict crossings,
-                        uint first_line, uint count, uint stride, uint total,
-                        global float* restrict points) {
+                        float parts_b, float offset_a, float offset_b,
+                        global const uint* restrict counts, global const uint* restrict starts,
+                        global const float* restrict crossings, uint first_line, uint count,
+                        uint stride, uint total, global float* restrict points,
+                        global const uint* restrict surfaces, global uint* restrict packed) {
     const uint n = work_item();
     if (n >= count) return;
     const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
     const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
-    const float a = exact_quotient((float)(last_a - (int)column) + offset, parts_a);
-    const float b = exact_quotient((float)(last_b - (int)row) + offset, parts_b);
+    const float a = exact_quotient((float)(last_a - (int)column) + offset_a, parts_a);
+    const float b = exact_quotient((float)(last_b - (int)row) + offset_b, parts_b);
     for (uint i = 0; i < counts[n]; ++i) {
         const uint point = starts[n] + i;
         points[(uint)axis * total + point] = crossings[i * stride + n];
         points[(uint)((axis + 1) % 3) * total + point] = a;
         points[(uint)((axis + 2) % 3) * total + point] = b;
+        if (VXL_TRANSMISSION && packed) packed[point] = surfaces[i * stride + n];
     }
 }

@@ -40,6 +40,12 @@ VXL_SIZE_IS(DisplaySteps, 16);
 #define VXL_CROSSES_CUBE 2u
 #define VXL_CROSSES_SENSES 3u
 
+// What lines along one axis sum up in a voxel, see cover_lines.
+#define VXL_COVER_SUMS (1 + VXL_CROSSES_SENSES)
+#define VXL_COVER_UNITS 262144.0f
+#define VXL_LOG_UNITS 4096.0f
+#define VXL_OPAQUE_LOG 0xFFFFFFFFu
+
 // A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y
 // axis_y + z axis_z in voxels of the world.
 typedef struct DisplayLattice {

@@ -37,20 +37,29 @@ bool encloses(const Scene& scene, const Object& object, const glm::dvec3& point,
     return std::abs(meshes.winding_of(model, p)) > kEnclosed;
 }
 
-/// The middle of an object in the world; nothing for one without end or of voxels.
-std::optional<glm::dvec3> middle_of(const Scene& scene, const Object& object, AssetStore& meshes) {
-    const Model& model = scene.models[size_t(object.model)];
-    Bounds box;
-    if (model.solid) {
-        if (is_infinite(*model.solid)) return std::nullopt;
-        const SolidBounds own = bounds(*model.solid, glm::dmat4(1));
-        box = {own.min, own.max};
-    } else if (const MeshSummary* mesh = meshes.summary_of(model)) {
-        box = mesh->surface;
-    } else {
-        return std::nullopt;
+/// The box of a model in its own space; nothing for one without end or of voxels.
+std::optional<Bounds> own_box(const Model& model, AssetStore& meshes) {
+    if (!model.solid) {
+        const MeshSummary* mesh = meshes.summary_of(model);
+        return mesh ? std::optional(mesh->surface) : std::nullopt;
     }
-    return glm::dvec3(object.world_from_object * glm::dvec4((box.min + box.max) / 2.0, 1));
+    if (is_infinite(*model.solid)) return std::nullopt;
+    const SolidBounds own = bounds(*model.solid, glm::dmat4(1));
+    return Bounds{own.min, own.max};
+}
+
+/// Whether an object encloses the other wholly, as a room does what stands in it: the middle and
+/// the corners of its box. One whose middle alone is inside is stuck in it.
+bool encloses(const Scene& scene, const Object& object, const Object& other, AssetStore& meshes) {
+    const auto box = own_box(scene.models[size_t(other.model)], meshes);
+    const auto has = [&](const glm::dvec3& p) {
+        const glm::dvec3 point(other.world_from_object * glm::dvec4(p, 1));
+        return encloses(scene, object, point, meshes);
+    };
+    if (!box || !has((box->min + box->max) / 2.0)) return false;
+    for (int i = 0; i < 8; ++i)
+        if (!has(corner(*box, i))) return false;
+    return true;
 }
 
 /// Where the sight ray through the image's middle begins; nothing where rays begin on a sphere
@@ -75,9 +84,7 @@ bool holds_a_light(const Scene& scene, const Object& object, AssetStore& meshes)
 
 bool holds_an_object(const Scene& scene, const Object& object, AssetStore& meshes) {
     return std::ranges::any_of(scene.objects, [&](const Object& other) {
-        if (&other == &object || !other.visible) return false;
-        const auto middle = middle_of(scene, other, meshes);
-        return middle && encloses(scene, object, *middle, meshes);
+        return &other != &object && other.visible && encloses(scene, object, other, meshes);
     });
 }
 

@@ -13,6 +13,7 @@
 
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/solid_bounds.hpp"
 #include "runtime/geometry/solid_inside.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -166,6 +167,13 @@ struct Thinness {
     }
 };
 
+/// The edge of the voxels that hold an object's distances.
+double field_voxel(const Scene& scene, const PlacedModel& placed) {
+    const double own = smallest(placed.voxel), world = smallest(scene.world.voxel_size);
+    if (placed.is_instance) return own;
+    return placed.model.is_sized ? std::max(own, world) : world;
+}
+
 Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel& placed) {
     const Model& model = placed.model;
     const double world_edge = smallest(scene.world.voxel_size);
@@ -202,6 +210,29 @@ void add_thin_warning(const Scene& scene, const Object& object, const PlacedMode
                           "so parts of it get lost or too thick: give its model \"surface\": "
                           "\"exact\", or use voxels below {:.2g} m",
                           title_of(object), thin.width, thin.voxel, thin.width / 2)},
+             warnings);
+}
+
+/// Says once of a mesh that a `smooth` surface loses parts of it, unless it is wholly too thin.
+void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetStore& meshes,
+                           std::vector<Warning>& warnings) {
+    const Model& model = placed.model;
+    if (model.mesh.empty() || !stores_distances(model.surface)) return;
+    const auto is_known = [&](const Warning& w) {
+        return w.kind == WarningKind::thinner_than_voxel && w.where == model.where;
+    };
+    const MeshSummary& mesh = *meshes.summary_of(model);
+    if (is_open(mesh) || std::ranges::any_of(warnings, is_known)) return;
+    const MeshShape shape = meshes.shape_of(model);
+    const double part = shape.thickness.part * smallest(placed.scale),
+                 voxel = field_voxel(scene, placed);
+    const bool has_inside = part > 0;
+    if (!has_inside || part >= kThinPartVoxels * voxel || has_sharp_edges(mesh, shape)) return;
+    add_once({WarningKind::thinner_than_voxel, model.where,
+              fmt::format("parts of {} are less than {:.2g} voxels thick and get lost on "
+                          "\"smooth\": leave \"surface\" out or give \"exact\", or use voxels "
+                          "below {:.2g} m",
+                          quote(model.mesh.filename().string()), part / voxel, part)},
              warnings);
 }
 
@@ -243,6 +274,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     if (add_unit_warning(scene, object, model, warnings)) return;
     if (add_outside_warning(scene, object, model, warnings)) return;
     add_thin_warning(scene, object, model, warnings);
+    add_thin_part_warning(scene, model, meshes, warnings);
     add_ratio_warning(scene, object, model, warnings);
 }
 

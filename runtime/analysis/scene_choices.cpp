@@ -75,8 +75,27 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
     return own > kCoarser * longest(scene.world.voxel_size);
 }
 
+/// Copies of a mesh from which on they are instances: in the world, each is voxelized anew. The
+/// pictures are the same, and a first frame takes less time and memory for any mesh.
+constexpr uint32_t kInstancedCopies = 8;
+
+/// The number of objects that show each model as `exact` meshes that light doesn't go through or
+/// come from; 0 where cubes are in the world, which hide what shares their voxels.
+std::vector<uint32_t> count_copies(const Scene& scene) {
+    std::vector<uint32_t> copies(scene.models.size());
+    for (const Object& object : scene.objects) {
+        const Model& model = scene.models[size_t(object.model)];
+        if (!object.visible) continue;
+        if (shows_voxels(model.surface)) return std::vector<uint32_t>(scene.models.size());
+        copies[size_t(object.model)] += !model.mesh.empty() && lists_primitives(model.surface) &&
+                                        !transmits(scene, object) && !has_emission(scene, object);
+    }
+    return copies;
+}
+
 void choose_placements(Scene& scene, AssetStore& meshes) {
     const bool may_appear = moves(scene);
+    const std::vector<uint32_t> copies = count_copies(scene);
     bool has_changed = false;
     for (Object& object : scene.objects) {
         if (object.placement == Placement::automatic && is_instanced(scene, object) &&
@@ -89,7 +108,9 @@ void choose_placements(Scene& scene, AssetStore& meshes) {
                              !is_instanced(scene, object) && (object.visible || may_appear);
         if (!is_open || !can_be_instance(scene, object) ||
             (!is_finer_field(scene, object, meshes) &&
-             !is_coarser_soft_cubes(scene, object, meshes)))
+             !is_coarser_soft_cubes(scene, object, meshes) &&
+             (copies[size_t(object.model)] < kInstancedCopies || transmits(scene, object) ||
+              has_emission(scene, object))))
             continue;
         object.placement = Placement::instance;
         has_changed = true;

@@ -71,7 +71,8 @@ Report describe_mesh(const std::filesystem::path& path) {
                      {"closed", open == 0},
                      {"open edges", open},
                      {"sharp edges, m", shape.sharp_length},
-                     {"thickness, m", shape.thickness}};
+                     {"thickness, m", shape.thickness.body},
+                     {"thickness of thin parts, m", shape.thickness.part}};
     report["min"] = {box.min.x, box.min.y, box.min.z};
     report["max"] = {box.max.x, box.max.y, box.max.z};
     if (!mesh.triangle_colors.empty()) report["face colors"] = true;

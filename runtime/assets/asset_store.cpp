@@ -113,7 +113,8 @@ const MeshShape& AssetStore::shape_of_file(const MeshName& name) {
 MeshShape AssetStore::shape_of(const Model& model) {
     const MeshShape& shape = shape_of_file({model.mesh, model.part});
     const double scale = model.object_from_file.scale;
-    return {scale * shape.sharp_length, scale * shape.thickness};
+    return {scale * shape.sharp_length,
+            {scale * shape.thickness.body, scale * shape.thickness.part}};
 }
 
 const MeshSummary& AssetStore::morphed_summary(const Model& model) {

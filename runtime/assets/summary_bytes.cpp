@@ -106,12 +106,13 @@ std::optional<MeshSummary> summary_of_bytes(const std::string& bytes) {
 }
 
 std::string bytes_of(const MeshShape& shape) {
-    return cbor_of({shape.sharp_length, shape.thickness});
+    return cbor_of({shape.sharp_length, shape.thickness.body, shape.thickness.part});
 }
 
 std::optional<MeshShape> shape_of_bytes(const std::string& bytes) {
     return value_of<MeshShape>(bytes, [](const nlohmann::json& json) {
-        return MeshShape{json.at(0).get<double>(), json.at(1).get<double>()};
+        return MeshShape{json.at(0).get<double>(),
+                         {json.at(1).get<double>(), json.at(2).get<double>()}};
     });
 }
 

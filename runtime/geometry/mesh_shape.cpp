@@ -11,20 +11,26 @@ MeshShape shape_of(const Mesh& mesh) {
     return {sharp_length_of(mesh), thickness_of(mesh)};
 }
 
+bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape) {
+    return shape.sharp_length > kSharpShare * std::sqrt(mesh.area.total);
+}
+
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge) {
     if (is_open(mesh))
         return {Surface::exact, fmt::format("it is open at {} edges", mesh.topology.open_edges)};
     if (!(mesh.topology.volume > 0))
         return {Surface::exact, "it has no volume, or its faces look inwards"};
-    if (shape.sharp_length > kSharpShare * std::sqrt(mesh.area.total))
+    if (has_sharp_edges(mesh, shape))
         return {Surface::exact, fmt::format("it has {:.3g} m of edges that turn by {} degrees or "
                                             "more",
                                             shape.sharp_length, kSharpAngle)};
     // A distance field has the facets of the triangles, which such normals are made to hide.
     if (mesh.has_normals) return {Surface::exact, "its file has normals"};
-    const double thickness = shape.thickness / voxel_edge;
-    if (thickness < kThinVoxels)
-        return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick", thickness)};
+    const double thickness = shape.thickness.body / voxel_edge,
+                 part = shape.thickness.part / voxel_edge;
+    if (thickness < kThinVoxels || part < kThinPartVoxels)
+        return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick",
+                                            thickness < kThinVoxels ? thickness : part)};
     return {Surface::smooth,
             fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",
                         mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed",

@@ -19,13 +19,19 @@ inline constexpr double kSharpShare = 0.7;
 /// Parts of a body are thin below this many voxels.
 inline constexpr double kThinVoxels = 2;
 
+/// Small parts of one are lost or shredded below this many.
+inline constexpr double kThinPartVoxels = 1;
+
 /// What is asked of a mesh besides its summary.
 struct MeshShape {
     double sharp_length = 0;  ///< metres, of sharp_length_of()
-    double thickness = 0;     ///< metres, of thickness_of()
+    MeshThickness thickness;
 };
 
 MeshShape shape_of(const Mesh& mesh);
+
+/// Whether so many of its edges are sharp that chords beside them say nothing of thin parts.
+bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
 
 /// A surface with the reason for it, as the second half of a sentence.
 struct SurfaceChoice {
@@ -34,8 +40,8 @@ struct SurfaceChoice {
 };
 
 /// `smooth` for a mesh with an inside and without sharp edges that is at least kThinVoxels thick,
-/// else `exact`. `voxel_edge` is that of the voxels that would hold its distances, metres in the
-/// space of the mesh.
+/// and its parts kThinPartVoxels, else `exact`. `voxel_edge` is that of the voxels that would hold
+/// its distances, metres in the space of the mesh.
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
 }  // namespace voxelume

@@ -97,22 +97,21 @@ class AxisLines {
         std::vector<std::vector<Crossing>>(size_t(kLines) * kLines);
 };
 
-/// The thickness that kThinShare of the area doesn't reach.
-double quantile(std::vector<Chord>& chords) {
-    std::ranges::stable_sort(chords, {}, &Chord::thickness);
+/// The thickness that `share` of the area doesn't reach, of chords in ascending order.
+double quantile(const std::vector<Chord>& chords, double share) {
     double sum = 0;
     for (const Chord& chord : chords) sum += chord.area;
     double so_far = 0;
     for (const Chord& chord : chords) {
         so_far += chord.area;
-        if (so_far >= kThinShare * sum) return chord.thickness;
+        if (so_far >= share * sum) return chord.thickness;
     }
     return 0;
 }
 
 }  // namespace
 
-double thickness_of(const Mesh& mesh) {
+MeshThickness thickness_of(const Mesh& mesh) {
     const Bounds box = mesh_bounds(mesh);
     std::vector<Chord> chords;
     for (int axis = 0; axis < 3; ++axis) {
@@ -120,10 +119,11 @@ double thickness_of(const Mesh& mesh) {
         for (const glm::uvec3& t : mesh.triangles)
             lines.cross({glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
                          glm::dvec3(mesh.positions[t.z])});
-        if (lines.is_full()) return 0;
+        if (lines.is_full()) return {};
         lines.add_chords(chords);
     }
-    return quantile(chords);
+    std::ranges::stable_sort(chords, {}, &Chord::thickness);
+    return {quantile(chords, kThinShare), quantile(chords, kThinPartShare)};
 }
 
 }  // namespace voxelume

@@ -6,16 +6,22 @@
 
 namespace voxelume {
 
-/// The share of its area by which a body counts as thin.
-inline constexpr double kThinShare = 0.02;
+/// The shares of its area by which a body counts as thin, and by which it has a part that does.
+inline constexpr double kThinShare = 0.02, kThinPartShare = 0.005;
 
-/// The thickness, in metres, that all but kThinShare of a closed mesh's area has behind it. A
+/// Metres.
+struct MeshThickness {
+    double body = 0;  ///< what all but kThinShare of the area has behind it
+    double part = 0;  ///< what all but kThinPartShare has
+};
+
+/// The thickness that a closed mesh's area has behind it. A
 /// regular lattice of 64 x 64 lines along each axis crosses it. Where a line enters through a face
 /// that turns to it more than to the other axes, the way to the exit is the body's thickness times
 /// the cosine of the angle, at least a third of that of a ball, and exactly that of a plate away
 /// from its rim. Open meshes have some number, and those of which 1,024 faces lie before one
 /// another nearly everywhere have 0. Sums are in the order of the triangles, so equal
 /// meshes give equal numbers.
-double thickness_of(const Mesh& mesh);
+MeshThickness thickness_of(const Mesh& mesh);
 
 }  // namespace voxelume

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 
 #include "runtime/base/error.hpp"
@@ -101,6 +102,12 @@ SolidBounds bounds(const Solid& solid, const glm::dmat4& frame_from_solid,
                         "with a finite solid",
                         "xyz"[axis]);
     return box;
+}
+
+bool reaches_past(const Solid& solid, const glm::dmat4& frame_from_solid, const SolidBounds& box) {
+    const SolidBounds whole = tree_bounds(solid, frame_from_solid);
+    return glm::any(glm::lessThan(whole.min, box.min)) ||
+           glm::any(glm::greaterThan(whole.max, box.max));
 }
 
 GridFrame frame_around(const Solid& solid, const glm::dmat4& frame_from_solid,

@@ -105,6 +105,9 @@ class DisplayCounter {
         const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
         const Buffer<float> crossings =
             allocate_crossings(device_, scanned_lines(batch), kFirstSlots);
+        const Buffer<uint32_t> surfaces =
+            features.transmission ? allocate_surfaces(device_, scanned_lines(batch), kFirstSlots)
+                                  : Buffer<uint32_t>();
         const Buffer<uint32_t> lines(device_, "probe counts", scanned_lines(batch));
         const double found = is_least_ ? 16 : probe_points(frame_, world_);
         const double shown =

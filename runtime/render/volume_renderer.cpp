@@ -146,13 +146,36 @@ void render_rays(Work& work, Volume& volume) {
     display.read(volume);
 }
 
+/// Leaves out voxels of which no ray meets a surface.
+void leave_out_unlit(Volume& volume) {
+    size_t kept = 0;
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        if (volume.objects[i] == 0) continue;
+        volume.indices[kept] = volume.indices[i];
+        volume.colors[kept] = volume.colors[i];
+        volume.opacities[kept] = volume.opacities[i];
+        volume.depths[kept] = volume.depths[i];
+        volume.objects[kept] = volume.objects[i];
+        volume.kinds[kept++] = volume.kinds[i];
+    }
+    volume.indices.resize(kept);
+    volume.colors.resize(kept);
+    volume.opacities.resize(kept);
+    volume.depths.resize(kept);
+    volume.objects.resize(kept);
+    volume.kinds.resize(kept);
+}
+
 void render_lattice(Work& work, Volume& volume) {
     work.features = begun_anywhere(work.features, work.scene);
     RayBatch batch =
         allocate_batch(work.device, work.features, batch_rays(work.device, work.features));
-    // Finding surfaces needs only their geometry.
-    const Features geometry = features_of(work.world);
-    DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);
+    // Finding surfaces needs only their geometry, and what hides them.
+    Features geometry = features_of(work.world);
+    geometry.transmission = work.features.transmission;
+    DisplayScanStage scan(
+        work.device, geometry, work.frame, work.world.frame,
+        geometry.transmission ? line_surfaces(work.device, work.scene) : LineSurfaces());
     DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.camera,
                                 work.frame, work.world);
     const auto report_progress = [&work](uint32_t done) {
@@ -177,17 +200,17 @@ void render_lattice(Work& work, Volume& volume) {
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
-    std::optional<DisplayCoverStage> cover;
-    if (work.features.transmission && shown.voxels.count > 0) {
-        cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
-        scan.scan_covers(work.world, batch, [&](int axis, const ProbePoints& points) {
-            cover->count(axis, points, display.mask());
-        });
-    }
     const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
         illumination.light(rays, count, sink);
     };
     display.light(look, light_rays, environment_of(work.scene.world), batch, shown);
+    std::optional<DisplayCoverStage> cover;
+    if (work.features.transmission && shown.voxels.count > 0) {
+        cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
+        scan.scan_covers(work.frame, work.world, batch, [&](int axis, const LinePoints& lines) {
+            cover->add(axis, lines, scan.surfaces(), display.mask());
+        });
+    }
     report_progress(3);
     work.report.display_lines = scan.lines();
     work.report.clear_display_lines = scan.clear_lines();
@@ -196,6 +219,7 @@ void render_lattice(Work& work, Volume& volume) {
     read_voxels(shown.voxels, volume);
     if (cover)
         cover->adjust({scan.cover_lines(0), scan.cover_lines(1), scan.cover_lines(2)}, volume);
+    leave_out_unlit(volume);
 }
 
 uint32_t count_not_finite(const Volume& volume) {

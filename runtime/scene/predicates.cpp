@@ -2,6 +2,7 @@
 #include "runtime/scene/predicates.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 
 #include "runtime/base/error.hpp"
@@ -48,6 +49,16 @@ std::vector<int> materials_of_groups(const Object& object,
         materials[found - known.begin()] = entry.material;
     }
     return materials;
+}
+
+std::vector<uint32_t> object_ranks(const std::vector<Object>& objects) {
+    std::vector<uint32_t> order(objects.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(
+        order, [&](uint32_t a, uint32_t b) { return objects[a].priority > objects[b].priority; });
+    std::vector<uint32_t> ranks(objects.size());
+    for (uint32_t rank = 0; rank < order.size(); ++rank) ranks[order[rank]] = rank;
+    return ranks;
 }
 
 bool transmits(const Material& material) {

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "runtime/base/error.hpp"
+#include "runtime/geometry/solid_clip.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/stages/voxelize/cut.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
@@ -113,6 +114,10 @@ BrickGrid GridCache::read_or_make(const Model& model, const Source& source, bool
 BrickGrid GridCache::make(const Model& model, const Source& source) {
     if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
     const VoxelizeOptions options = options_of(model);
+    if (model.solid && lists_primitives(model.surface))
+        return voxelize_solid(device_,
+                              clipped_solid(*model.solid, source.frame_from_model, source.frame),
+                              glm::dmat4(1), source.frame, options);
     if (model.solid)
         return voxelize_solid(device_, *model.solid, source.frame_from_model, source.frame,
                               options);

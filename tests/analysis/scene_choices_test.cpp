@@ -208,5 +208,36 @@ TEST_F(SceneChoices, AreMadeBeforeAPictureIs) {
     EXPECT_NE(chosen_hash, hash(R"(, "surface": "smooth")"));
 }
 
+/// The placement that `auto` gives the first of `count` objects of the model.
+bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
+    scene.materials.push_back(material);
+    scene.objects[0].material = int(scene.materials.size()) - 1;
+    scene.objects.resize(size_t(count), scene.objects[0]);
+    if (has_cubes) {
+        scene.models.push_back(scene.models[0]);
+        scene.models.back().surface = Surface::cubes;
+        scene.objects.push_back(scene.objects[0]);
+        scene.objects.back().model = int(scene.models.size()) - 1;
+    }
+    AssetStore meshes;
+    make_choices(scene, meshes);
+    return is_instanced(scene, scene.objects[0]);
+}
+
+TEST_F(SceneChoices, ManyCopiesOfAnExactMeshAreInstances) {
+    const std::string box = R"("mesh": "box.obj", "surface": "exact")";
+    Material glass, lamp;
+    glass.opacity = 0.5f;
+    lamp.emission = glm::vec3(1);
+    EXPECT_TRUE(first_is_instanced(scene_of(box), 8, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 7, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, glass, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, lamp, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, {}, true));
+    EXPECT_FALSE(
+        first_is_instanced(scene_of(R"("mesh": "ring.obj", "surface": "smooth")"), 8, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box, R"(, "placement": "world")"), 8, {}, false));
+}
+
 }  // namespace
 }  // namespace voxelume

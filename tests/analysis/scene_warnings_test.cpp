@@ -111,6 +111,17 @@ TEST_F(SceneWarnings, NameAnObserverInAWallButNotInARoom) {
     EXPECT_THAT(kinds(), IsEmpty());
 }
 
+TEST_F(SceneWarnings, NameAnObserverInABallInWhichAnotherIsStuck) {
+    json["models"]["large"] = {{"shape", "sphere"}, {"radius", 0.5}};
+    json["objects"].push_back({{"name", "large"}, {"model", "large"}, {"position", {0.3, 0, 0}}});
+    json["objects"][0]["position"] = {0.3, 0.4, 0};  // its middle is inside, and it looks out
+    json["lights"][0]["position"] = {0, 5, 0};
+    json["observer"] = {
+        {"position", {0.3, -0.3, 0}}, {"look_at", {0, 0, 0}}, {"display", {{"shape", "pyramid"}}}};
+    EXPECT_THAT(kinds(), ElementsAre(Kind::observer_in_object));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("inside \"large\""));
+}
+
 TEST_F(SceneWarnings, LetAnObserverOfALatticeStandAnywhere) {
     json["observer"]["position"] = {0.2, -0.9, 0.1};
     json["observer"]["display"] = {{"shape", "ball"}, {"radius", 1}, {"layout", "lattice"}};

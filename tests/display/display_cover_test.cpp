@@ -4,131 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <glm/vec2.hpp>
 
-#include "runtime/image/volume_geometry.hpp"
-#include "runtime/render/renderer.hpp"
-#include "tests/support/display_fixture.hpp"
+#include "tests/display/lattice_cover.hpp"
 #include "tests/support/exhaustive.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr double kOpacity = 0.4;
-
-struct CoverCase {
-    const char* name;
-    const char* model;  ///< keys of it
-    const char* turn;
-};
-
 constexpr std::array kCoverCases = {
-    CoverCase{"sphere", R"("shape": "sphere", "radius": 0.63)", "[0, 0, 0]"},
-    CoverCase{"slab", R"("shape": "box", "size": [1.13, 0.33, 0.87])", "[0, 0, 0]"},
-    CoverCase{"plate", R"("shape": "box", "size": [1.1, 0.24, 0.9])", "[35, 25, 15]"}};
-
-/// The object around the origin, as an observer sees it. `display` has its keys.
-Scene cover_scene(const CoverCase& c, const char* surface, const std::string& observer,
-                  const std::string& display, glm::ivec2 size) {
-    return parsed(fmt::format(R"({{"voxelume": 1,
-"world": {{"voxel_size": 0.05, "bounds": {{"min": [-1, -0.9, -0.95], "max": [1.1, 1, 0.9]}},
-          "ambient": [1, 1, 1]}},
-"materials": {{"veil": {{"color": [0.5, 0.7, 0.9], "opacity": {}}}}},
-"models": {{"m": {{{}, "surface": "{}"}}}},
-"objects": [{{"model": "m", "material": "veil", "turn": {}}}],
-"observer": {{{}, "display": {{{}}}}},
-"render": {{"size": [{}, {}], "samples": 16, "depth": 1}}}})",
-                              kOpacity, c.model, surface, c.turn, observer, display, size.x,
-                              size.y));
-}
-
-/// How far what voxels cover together is from what the flat picture's pixels cover.
-struct CoverDifference {
-    double sum = 0, largest_inside = 0;  ///< inside: where no outline is
-    int pixels = 0;
-
-    void add(double voxels, double picture, bool is_inside) {
-        sum += voxels - picture;
-        ++pixels;
-        if (is_inside) largest_inside = std::max(largest_inside, std::abs(voxels - picture));
-    }
-    double mean() const { return std::abs(sum) / pixels; }
-};
-
-/// True if all pixels next to one have its opacity, so that no outline runs through it.
-bool is_even(const Image& picture, int u, int v) {
-    const auto& alpha = picture.planes.at("A");
-    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, picture.height - 1); ++y)
-        for (int x = std::max(u - 1, 0); x <= std::min(u + 1, picture.width - 1); ++x)
-            if (std::abs(alpha[size_t(y * picture.width + x)] -
-                         alpha[size_t(v * picture.width + u)]) > 1e-3f)
-                return false;
-    return true;
-}
-
-/// The opacity of each voxel of a lattice.
-std::vector<float> dense_opacities(const Volume& volume) {
-    std::vector<float> dense(voxel_count(volume.frame), 0.0f);
-    for (size_t i = 0; i < volume.indices.size(); ++i)
-        dense[volume.indices[i]] = volume.opacities[i];
-    return dense;
-}
-
-/// What a lattice covers along the lines of the middle of its columns along `axis`.
-double cover_of_column(const VolumeFrame& frame, const std::vector<float>& dense, glm::ivec3 cell,
-                       int axis) {
-    double clear = 1;
-    for (cell[axis] = 0; cell[axis] < frame.size[axis]; ++cell[axis])
-        clear *=
-            1 - double(dense[size_t(cell.x + frame.size.x * (cell.y + frame.size.y * cell.z))]);
-    return 1 - clear;
-}
-
-constexpr glm::ivec3 kSize{76, 72, 74};
-constexpr glm::dvec3 kEdges{1.9, 1.8, 1.85};  // of the box around the origin
-
-/// Observers that look along x, y and z of the world, with boxes around the same space.
-constexpr std::array kLookingAlong = {R"("position": [-1.25, 0, 0], "turn": [90, 0, 0])",
-                                      R"("position": [0, -1.2, 0], "turn": [0, -90, 0])",
-                                      R"("position": [0, 0, -1.225], "turn": [0, 0, 0])"};
-
-std::string box_keys(int axis, const std::string& more) {
-    const glm::dvec3 size = axis == 0   ? glm::dvec3(kEdges.z, kEdges.y, kEdges.x)
-                            : axis == 1 ? glm::dvec3(kEdges.x, kEdges.z, kEdges.y)
-                                        : kEdges;
-    return fmt::format(R"("shape": "box", "size": [{}, {}, {}], "near": 0.3{})", size.x, size.y,
-                       size.z, more);
-}
-
-CoverDifference compare_along(const CoverCase& c, const char* surface, int axis) {
-    const std::array names = {"x", "y", "z"};
-    const std::string lattice = fmt::format(
-        R"(, "voxels": [{}, {}, {}], "layout": "lattice", "visibility": "all", "seen_along": "{}")",
-        kSize.x, kSize.y, kSize.z, names[size_t(axis)]);
-    const Volume volume =
-        volume_of(cover_scene(c, surface, kLookingAlong[2], box_keys(2, lattice), {8, 8}));
-    const std::vector<float> dense = dense_opacities(volume);
-    const int right = axis == 0 ? 2 : 0, down = axis == 1 ? 2 : 1;
-    RenderReport report;
-    const Image picture = render(shared_device(),
-                                 cover_scene(c, surface, kLookingAlong[size_t(axis)],
-                                             box_keys(axis, ""), {kSize[right], kSize[down]}),
-                                 report);
-    CoverDifference result;
-    for (int v = 0; v < picture.height; ++v)
-        for (int u = 0; u < picture.width; ++u) {
-            // Image right is -X_E, which is +Z for the first observer and -X for the others; down
-            // is -Y_E, which is +Z for the second and -Y for the others.
-            glm::ivec3 cell(0);
-            cell[right] = axis == 0 ? u : picture.width - 1 - u;
-            cell[down] = axis == 1 ? v : picture.height - 1 - v;
-            const double alpha = double(picture.planes.at("A")[size_t(v * picture.width + u)]);
-            const double covered = cover_of_column(volume.frame, dense, cell, axis);
-            if (alpha > 0 || covered > 0)
-                result.add(covered, alpha, alpha > 0 && is_even(picture, u, v));
-        }
-    return result;
-}
+    CoverCase{"sphere", R"("m": {"shape": "sphere", "radius": 0.63, "surface": "SURFACE"})",
+              R"({"model": "m", "material": "veil"})"},
+    CoverCase{"slab", R"("m": {"shape": "box", "size": [1.13, 0.33, 0.87], "surface": "SURFACE"})",
+              R"({"model": "m", "material": "veil"})"},
+    CoverCase{"plate", R"("m": {"shape": "box", "size": [1.1, 0.24, 0.9], "surface": "SURFACE"})",
+              R"({"model": "m", "material": "veil", "turn": [35, 25, 15]})"}};
 
 /// What a lattice covers along a ray from the observer, by all voxels that it passes.
 double cover_of_ray(const VolumeFrame& frame, const std::vector<float>& dense,
@@ -159,12 +48,12 @@ CoverDifference compare_from_corner(const CoverCase& c, const char* surface) {
     const char* observer = R"("position": [-1.5, -1.5, -1.5], "turn": [0, 0, 0])";
     const std::string keys = R"("shape": "pyramid", "angles": [110, 110], "far": 2.6)";
     const Volume volume = volume_of(
-        cover_scene(c, surface, observer,
+        cover_scene(c, {surface}, observer,
                     keys + R"(, "voxels": [297, 297, 104], "layout": "lattice")", {8, 8}));
     const std::vector<float> dense = dense_opacities(volume);
     RenderReport report;
     const Image picture = render(
-        shared_device(), cover_scene(c, surface, observer, keys, {kPixels, kPixels}), report);
+        shared_device(), cover_scene(c, {surface}, observer, keys, {kPixels, kPixels}), report);
     CoverDifference result;
     const double slope = std::tan(55 * M_PI / 180);
     for (int v = 0; v < kPixels; ++v)
@@ -191,7 +80,7 @@ TEST(Covering, AlongEachAxisIsThatOfTheFlatPicture) {
          {std::pair{"exact", 0.02}, {"smooth", 0.05}, {"cubes", 0.002}}) {
         for (const CoverCase& c : kCoverCases)
             for (const int axis : in_turn<int>({0, 1, 2}, turn++)) {
-                const CoverDifference d = compare_along(c, surface, axis);
+                const CoverDifference d = compare_along(c, {surface}, axis);
                 SCOPED_TRACE(fmt::format("along {}: {}", "xyz"[axis], text_of(surface, c, d)));
                 EXPECT_GT(d.pixels, 400);
                 EXPECT_LT(d.mean(), limit);

@@ -49,9 +49,9 @@ TEST(MeshShape, OfAPlateHasItsLongEdgesAndThickness) {
         const MeshShape shape = shape_of(turned(kPlate, turn));
         EXPECT_NEAR(shape.sharp_length, 4 * (1.6 + 1.2), 1e-5);
         if (turn == glm::dvec3(0)) {
-            EXPECT_NEAR(shape.thickness, 0.05, 1e-6);
+            EXPECT_NEAR(shape.thickness.body, 0.05, 1e-6);
         } else {  // lines that enter near an edge leave through the side
-            EXPECT_LT(shape.thickness, 0.0501);
+            EXPECT_LT(shape.thickness.body, 0.0501);
         }
     }
 }
@@ -60,14 +60,14 @@ TEST(MeshShape, OfEndlesslyManyEqualFacesHasNoThickness) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles.assign(30000, {0, 1, 2});  // 60 million crossings
-    EXPECT_EQ(thickness_of(mesh), 0);
+    EXPECT_EQ(thickness_of(mesh).body, 0);
 }
 
 TEST(MeshShape, OfABallHasNoSharpEdgesAndAboutItsDiameter) {
     const MeshShape shape = shape_of(ball({0.3, -0.2, 0.1}, 0.5, 48, 24));
     EXPECT_EQ(shape.sharp_length, 0);
-    EXPECT_GT(shape.thickness, 0.3);
-    EXPECT_LT(shape.thickness, 1.0);
+    EXPECT_GT(shape.thickness.body, 0.3);
+    EXPECT_LT(shape.thickness.body, 1.0);
 }
 
 TEST(MeshShape, OfAMeshWithSeamsIsThatOfTheWhole) {
@@ -82,7 +82,7 @@ TEST(MeshShape, OfAMeshWithSeamsIsThatOfTheWhole) {
     const MeshShape shape = shape_of(whole);
     EXPECT_GT(shape.sharp_length, 1) << "it is coarse";
     EXPECT_NEAR(shape_of(seams).sharp_length, shape.sharp_length, 1e-9);
-    EXPECT_EQ(shape_of(seams).thickness, shape.thickness);
+    EXPECT_EQ(shape_of(seams).thickness.body, shape.thickness.body);
 }
 
 TEST(MeshShape, CountsEveryEdgeOfDoubledSheetsAsSharp) {
@@ -131,6 +131,16 @@ TEST(SurfaceFor, ThinDependsOnTheVoxels) {
     round_plate.sharp_length = 0;
     EXPECT_EQ(surface_for(plate, round_plate, 0.024).surface, Surface::smooth);
     EXPECT_EQ(surface_for(plate, round_plate, 0.026).surface, Surface::exact);
+}
+
+TEST(SurfaceFor, AThinPartOfAThickMeshIsNotShredded) {
+    Mesh fin = ball({0, 0, 0}, 0.5, 48, 24);
+    const Mesh sheet = box({0.7f, 0, 0}, {0.83f, 0.13f, 0.004f});  // 1 % of the area
+    const auto first = uint32_t(fin.positions.size());
+    fin.positions.insert(fin.positions.end(), sheet.positions.begin(), sheet.positions.end());
+    for (const glm::uvec3& t : sheet.triangles) fin.triangles.push_back(t + first);
+    expect_choice(fin, 0.02, Surface::exact, "parts of it are only 0.2 voxels thick");
+    expect_choice(fin, 0.0035, Surface::smooth, "thick");
 }
 
 TEST(SurfaceFor, NoiseDoesntMakeAMeshSharp) {

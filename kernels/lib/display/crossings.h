@@ -3,9 +3,11 @@
 #ifndef VXL_CROSSINGS_H
 #define VXL_CROSSINGS_H
 
+#include "lib/display/line_order.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/smooth.h"
 #include "lib/surface/triangle.h"
+#include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/transformed_ray.h"
 #include "lib/traverse/voxel_kinds.h"
 #include "shared/display.h"
@@ -23,11 +25,26 @@ typedef struct {
     float4 row;  // of the lattice coordinate along the lines
     uint first, stride, slots;
     global float* restrict crossings;
-    uint covers;          // 1: what sight rays count of them is looked for, see scan_lines
-    lane_uint count;      // crossings found, including those without a slot
-    Vector origin, way;   // the lines in the world's voxels
+    global uint* restrict surfaces;  // of each crossing, where light goes through some
+    uint covers;                     // 1: what sight rays count of them is looked for, see
+                                     // scan_lines
+    lane_uint count;                 // crossings found, including those without a slot
+    Vector origin, way;              // the lines in the world's voxels
     TransformedRay into;  // ... and in the voxels that are scanned, of scenes with instances
+    uint instance;        // whose voxels these are, VXL_NO_INSTANCE for the world's
+    lane_uint surface;    // what is crossed: packed attributes, with VXL_LINE_CUBE for a kind
 } ScanResult;
+
+/// The surface of a voxel, of a field or of a primitive, as in ScanResult.
+static inline lane_uint surface_of(const SurfaceView* s, const InstanceView* instances,
+                                   uint instance, lane_uint number, lane_uint primitive,
+                                   lane_int tested) {
+    const lane_uint in = LANES_AS_UINT(tested);
+    lane_uint packed = attributes_of_hit(s, number & in, primitive, tested);
+    if (VXL_INSTANCES && instance != VXL_NO_INSTANCE)
+        packed = instance_attributes(instances, (lane_uint)instance, packed, tested);
+    return packed & ((1u << VXL_KIND_SHIFT) - 1u);
+}
 
 /// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to
 /// the one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where
@@ -42,7 +59,7 @@ static inline void keep_crossings(ScanResult* r, lane_int crossed, lane_float t,
     const lane_float side = rint(s);
     const lane_int on_side = LANE_MASK(fabs(s - side) < VXL_INWARD) & LANE_MASK(inward != 0.0f);
     s = LANES_SELECT(on_side, fma(inward, (lane_float)VXL_INWARD, side), s);
-    if (r->covers) {
+    if (r->covers || VXL_TRANSMISSION) {
         const lane_uint sense =
             LANES_SELECT(LANE_MASK(inward > 1.0f), (lane_uint)VXL_CROSSES_CUBE,
                          LANES_SELECT(LANE_MASK(inward > 0.0f), (lane_uint)VXL_CROSSES_IN,
@@ -58,6 +75,13 @@ static inline void keep_crossings(ScanResult* r, lane_int crossed, lane_float t,
     for (uint i = 0; i < VXL_LANES; ++i)
         if (kept[i] && slot[i] < r->slots)
             r->crossings[slot[i] * r->stride + r->first + i] = value[i];
+    if (VXL_TRANSMISSION) {
+        uint surface[VXL_LANES];
+        LANES_STORE(r->surface, surface, 0);
+        for (uint i = 0; i < VXL_LANES; ++i)
+            if (kept[i] && slot[i] < r->slots)
+                r->surfaces[slot[i] * r->stride + r->first + i] = surface[i];
+    }
     r->count += LANES_AS_UINT(crossed) & 1u;
 }
 
@@ -104,8 +128,9 @@ static inline void scan_field(const SurfaceView* s, const Walk* w, lane_uint num
 
 /// Keeps the crossings with the fields of the `tested` lanes' voxels: one, or those that the record
 /// lists.
-static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint voxel,
+static inline void scan_smooth(const WorldView* world, const Walk* w, lane_uint voxel,
                                lane_int tested, lane_int lists, ScanResult* r) {
+    const SurfaceView* s = &world->surface;
     lane_uint number = voxel & LANES_AS_UINT(tested), end = number + 1u;
     if (VXL_FIELD_LISTS && lanes_any(lists)) {
         const lane_uint record = (voxel & LANES_AS_UINT(lists)) * VXL_FIELD_WORDS;
@@ -114,6 +139,9 @@ static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint vo
         tested &= LANE_MASK(number < end);
     }
     while (lanes_any(tested)) {
+        if (VXL_TRANSMISSION)
+            r->surface = surface_of(s, &world->instances, r->instance, number,
+                                    (lane_uint)VXL_NO_PRIMITIVE, tested);
         scan_field(s, w, number & LANES_AS_UINT(tested), tested, r);
         if (!VXL_FIELD_LISTS) return;
         number += 1u;
@@ -156,8 +184,9 @@ static inline lane_float triangle_inward(global const float* restrict triangles,
 
 /// Keeps the crossings with the primitives that the voxel lists. What lies on a voxel's side may be
 /// kept for both voxels.
-static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, const Walk* w,
+static inline void scan_primitives(const WorldView* world, const PyramidView* p, const Walk* w,
                                    lane_uint voxel, lane_int tested, ScanResult* r) {
+    const SurfaceView* s = &world->surface;
     const lane_float t_first = w->t - p->plane_bound, t_exit = exit_time(w) + p->plane_bound;
     const RayShear shear = ray_shear(w);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
@@ -168,6 +197,8 @@ static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, c
             LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) &
             LANES_AS_UINT(listing);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
+        if (VXL_TRANSMISSION)
+            r->surface = surface_of(s, &world->instances, r->instance, voxel, primitive, listing);
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~is_solid;
             lane_float t = t_exit;
@@ -175,7 +206,7 @@ static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, c
                                                   primitive & LANES_AS_UINT(triangle), w, &shear,
                                                   (lane_int)0, triangle, &t);
             lane_float inward = (lane_float)0.0f;
-            if (r->covers)
+            if (r->covers || VXL_TRANSMISSION)
                 inward = triangle_inward(s->triangles, primitive & LANES_AS_UINT(triangle), w);
             keep_crossings(r, crossed, t, inward);
         }
@@ -189,18 +220,23 @@ static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, c
 
 /// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these. A cube
 /// that other surfaces come before is one where the line crosses none of them in its voxel.
-static INLINED lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, const Walk* w,
+static INLINED lane_int scan_voxels(const WorldView* world, const PyramidView* p, const Walk* w,
                                     lane_uint leaf, lane_int tested, ScanResult* r) {
+    const SurfaceView* s = &world->surface;
     const lane_uint voxel =
         voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
         LANES_AS_UINT(tested);
     const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
     const lane_uint before = r->count;
     if (VXL_SMOOTH && lanes_any(kinds.smooth))
-        scan_smooth(s, w, voxel, kinds.smooth, kinds.lists, r);
-    if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(p, s, w, voxel, kinds.exact, r);
-    if (!VXL_SHARED_CUBES) return kinds.cubes;
-    return kinds.cubes | (kinds.behind & LANE_MASK(r->count == before));
+        scan_smooth(world, w, voxel, kinds.smooth, kinds.lists, r);
+    if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(world, p, w, voxel, kinds.exact, r);
+    lane_int cubes = kinds.cubes;
+    if (VXL_SHARED_CUBES) cubes |= kinds.behind & LANE_MASK(r->count == before);
+    if (VXL_TRANSMISSION && VXL_CUBES)
+        r->surface = VXL_LINE_CUBE | surface_of(s, &world->instances, r->instance, voxel,
+                                                (lane_uint)VXL_NO_PRIMITIVE, cubes);
+    return cubes;
 }
 
 #endif

@@ -2,8 +2,10 @@
 #include "runtime/stages/display/display_cover.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <unordered_map>
 
 #include "runtime/image/volume_geometry.hpp"
 
@@ -12,7 +14,6 @@ namespace {
 
 /// The direction of the sight line of E through the middle of a voxel, in E's coordinates.
 glm::dvec3 sight_line(const VolumeFrame& frame, const glm::ivec3& cell) {
-    if (shape_row(frame.display).projection == SightProjection::parallel) return {0, 0, 1};
     return frame.origin + frame.edge * (glm::dvec3(cell) + 0.5);
 }
 
@@ -30,28 +31,68 @@ double crossings_along(const VolumeFrame& frame, const glm::dvec3& line, const M
     return (added + std::abs(signed_area)) / whole;
 }
 
+/// The part of a column's lines that has come through its voxels so far.
+class ColumnClearance {
+  public:
+    explicit ColumnClearance(const VolumeFrame& frame) : frame_(frame) {}
+
+    /// Takes what surfaces in a voxel take of its column's lines. Voxels come in ascending order.
+    /// Returns the part of what has come to the voxel, or -1 where too little has to tell.
+    double take(glm::ivec3 cell, int axis, double taken) {
+        cell[axis] = 0;
+        const glm::u64vec3 at(cell), size(frame_.size);
+        double& clear =
+            clear_[axis].try_emplace(at.x + size.x * (at.y + size.y * at.z), 1.0).first->second;
+        const double before = clear;
+        clear = std::max(clear - taken, 0.0);
+        return before < kLeastClear ? -1 : std::min(taken / before, 1.0);
+    }
+
+  private:
+    static constexpr double kLeastClear = 1.0 / 256;
+
+    const VolumeFrame& frame_;
+    std::array<std::unordered_map<uint64_t, double>, 3> clear_;
+};
+
+/// What lines sum up in a voxel, see cover_lines.
+struct VoxelCover {
+    MeanCrossings mean;
+    glm::dvec3 taken{0};
+};
+
+VoxelCover cover_of(const uint32_t* sums, const glm::uvec3& lines) {
+    VoxelCover cover;
+    for (int axis = 0; axis < 3; ++axis, sums += VXL_COVER_SUMS) {
+        if (lines[axis] == 0) continue;
+        const double all = lines[axis], logs = all * double(VXL_LOG_UNITS);
+        cover.taken[axis] = sums[0] / (all * double(VXL_COVER_UNITS));
+        cover.mean.out[axis] = sums[1 + VXL_CROSSES_OUT] / logs;
+        cover.mean.in[axis] = sums[1 + VXL_CROSSES_IN] / logs;
+        cover.mean.cubes[axis] = sums[1 + VXL_CROSSES_CUBE] / logs;
+    }
+    return cover;
+}
+
 }  // namespace
 
 Buffer<uint32_t> allocate_covers(const Device& device, uint32_t voxels) {
-    return {device, "display covers", size_t(voxels) * 3 * VXL_CROSSES_SENSES};
+    return {device, "display covers", size_t(voxels) * 3 * size_t(VXL_COVER_SUMS)};
+}
+
+int axis_seen_along(const VolumeFrame& frame, const MeanCrossings& along_axes) {
+    const CoverAxes axes = cover_axes(frame.display);
+    if (axes == CoverAxes::oblique) return -1;
+    if (axes != CoverAxes::all) return int(axes);
+    const glm::dvec3 all = along_axes.in + along_axes.out + along_axes.cubes;
+    return all.x >= all.y && all.x >= all.z ? 0 : all.y >= all.z ? 1 : 2;
 }
 
 double mean_crossings(const VolumeFrame& frame, const glm::ivec3& cell,
                       const MeanCrossings& along_axes) {
-    const glm::dvec3 all = along_axes.in + along_axes.out + along_axes.cubes;
-    switch (frame.display.seen_along) {
-        case SeenAlong::observer:
-            return crossings_along(frame, sight_line(frame, cell), along_axes);
-        case SeenAlong::facing:
-            return std::max({all.x, all.y, all.z});
-        case SeenAlong::x:
-            return all.x;
-        case SeenAlong::y:
-            return all.y;
-        case SeenAlong::z:
-            break;
-    }
-    return all.z;
+    const int axis = axis_seen_along(frame, along_axes);
+    if (axis < 0) return crossings_along(frame, sight_line(frame, cell), along_axes);
+    return along_axes.in[axis] + along_axes.out[axis] + along_axes.cubes[axis];
 }
 
 DisplayCoverStage::DisplayCoverStage(const Device& device, const Features& features,
@@ -61,31 +102,38 @@ DisplayCoverStage::DisplayCoverStage(const Device& device, const Features& featu
       shown_(shown),
       covers_(allocate_covers(device, uint32_t(shown.voxels.count))),
       program_(device, "display_cover.cl", features.defines(device)),
-      count_(program_.kernel("count_covers")) {
+      cover_(program_.kernel("cover_lines")) {
     covers_.fill(0);
+    std::vector<uint32_t> logs;
+    for (const float opacity : shown.voxels.opacities.read(0, shown.voxels.count))
+        logs.push_back(log_clear(double(opacity)));
+    logs_ = Buffer<uint32_t>(device, "voxel logs", std::span<const uint32_t>(logs));
 }
 
-void DisplayCoverStage::count(int axis, const ProbePoints& points, const Buffer<uint32_t>& mask) {
-    count_.launch(WorkItem::light, points.count, lattice_, points.count, points.total,
-                  points.coordinates, uint32_t(axis), mask, shown_.starts, covers_);
+void DisplayCoverStage::add(int axis, const LinePoints& lines, const LineSurfaces& surfaces,
+                            const Buffer<uint32_t>& mask) {
+    cover_.launch(WorkItem::light, lines.lines, lattice_, lines.lines, lines.starts,
+                  lines.points.total, lines.points.coordinates, lines.surfaces, uint32_t(axis),
+                  surfaces.opacities, surfaces.logs, mask, shown_.starts, shown_.voxels.objects,
+                  shown_.voxels.opacities, logs_, covers_);
 }
 
 void DisplayCoverStage::adjust(const glm::uvec3& lines, Volume& volume) const {
     const std::vector<uint32_t> covers = covers_.read();
+    ColumnClearance columns(volume.frame);
     for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const VoxelCover cover = cover_of(&covers[i * 3 * size_t(VXL_COVER_SUMS)], lines);
+        const glm::ivec3 cell = cell_of(volume.frame, volume.indices[i]);
+        const int along = axis_seen_along(volume.frame, cover.mean);
+        std::array<double, 3> covered{};
+        for (int axis = 0; axis < 3; ++axis)
+            if (lines[axis] > 0 && along >= 0)
+                covered[size_t(axis)] = columns.take(cell, axis, cover.taken[axis]);
         const auto opacity = double(volume.opacities[i]);
         if (opacity <= 0 || opacity >= 1) continue;
-        MeanCrossings mean;
-        for (int axis = 0; axis < 3; ++axis) {
-            const uint32_t* counts = &covers[(i * 3 + size_t(axis)) * size_t(VXL_CROSSES_SENSES)];
-            const double all = lines[axis];
-            mean.out[axis] = counts[VXL_CROSSES_OUT] / all;
-            mean.in[axis] = counts[VXL_CROSSES_IN] / all;
-            mean.cubes[axis] = counts[VXL_CROSSES_CUBE] / all;
-        }
-        const double crossings =
-            mean_crossings(volume.frame, cell_of(volume.frame, volume.indices[i]), mean);
-        volume.opacities[i] = float(-std::expm1(crossings * std::log1p(-opacity)));
+        const double exact = along < 0 ? -1 : covered[size_t(along)];
+        volume.opacities[i] = float(
+            exact >= 0 ? exact : -std::expm1(-mean_crossings(volume.frame, cell, cover.mean)));
     }
 }
 

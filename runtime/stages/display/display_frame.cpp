@@ -90,4 +90,21 @@ DisplayLattice display_lattice(const VolumeFrame& frame, const GridFrame& world)
     return lattice;
 }
 
+CoverAxes cover_axes(const Display& display) {
+    switch (display.seen_along) {
+        case SeenAlong::observer:
+            return shape_row(display).projection == SightProjection::parallel ? CoverAxes::z
+                                                                              : CoverAxes::oblique;
+        case SeenAlong::facing:
+            return CoverAxes::all;
+        case SeenAlong::x:
+            return CoverAxes::x;
+        case SeenAlong::y:
+            return CoverAxes::y;
+        case SeenAlong::z:
+            break;
+    }
+    return CoverAxes::z;
+}
+
 }  // namespace voxelume

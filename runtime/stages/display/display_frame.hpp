@@ -18,4 +18,14 @@ DisplaySteps display_steps(const VolumeFrame& frame, const Medium& medium);
 /// The lattice of a frame of layout `lattice` in a world.
 DisplayLattice display_lattice(const VolumeFrame& frame, const GridFrame& world);
 
+/// The lattice's axes along which its opacities are measured.
+enum class CoverAxes : uint8_t {
+    x,
+    y,
+    z,
+    all,     ///< each voxel's opacity is that along one of them
+    oblique  ///< all, of which the opacity along other lines is made
+};
+CoverAxes cover_axes(const Display& display);
+
 }  // namespace voxelume

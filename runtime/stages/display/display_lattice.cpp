@@ -214,8 +214,18 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
                                 ShownVoxels& shown) {
     light_points(light_rays, environment, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
-    // A ray along the surface at its point, as at an outline, may miss the surface; a ray next to
-    // it meets it.
+    const auto look_elsewhere = [&](bool hidden) {
+        for (uint32_t view = 1; view < views_.size(); ++view) {
+            LightTask missed = missed_points(shown, glm::vec3(0), host);
+            if (missed.points.count == 0) return;
+            missed.points.views.fill(hidden ? view : kNoView);
+            if (!hidden) search(look, batch, missed.points, view, kMaxCovered);
+            light_points(light_rays, environment, batch, missed, shown.voxels);
+        }
+    };
+    // A ray along the surface at its point, as at an outline or along a wall, may miss the surface.
+    // Others of the views that see the point meet it, or else a ray next to it.
+    if (visibility_ != Visibility::observer) look_elsewhere(false);
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
@@ -224,16 +234,7 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             if (missed.points.count == 0) return;
             light_points(light_rays, environment, batch, missed, shown.voxels);
         }
-    if (visibility_ == Visibility::observer) return;
-    // A whole face along which a view looks may be missed, too: other views see it.
-    for (const bool hidden : {false, true})
-        for (uint32_t view = 1; view < views_.size(); ++view) {
-            LightTask missed = missed_points(shown, glm::vec3(0), host);
-            if (missed.points.count == 0) return;
-            missed.points.views.fill(hidden ? view : kNoView);
-            if (!hidden) search(look, batch, missed.points, view, kMaxCovered);
-            light_points(light_rays, environment, batch, missed, shown.voxels);
-        }
+    if (visibility_ != Visibility::observer) look_elsewhere(true);
 }
 
 }  // namespace voxelume

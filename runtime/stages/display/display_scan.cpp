@@ -15,6 +15,23 @@ namespace {
 
 constexpr int kMaxParts = 64;
 
+/// The numbers of lines in a voxel that measure what its surfaces cover: along the one axis for
+/// which this must hold column by column, and along all of them.
+constexpr int kColumnLines = 64, kMeanLines = 16;
+
+int lines_along(int axis, CoverAxes axes) {
+    if (axes == CoverAxes::all || axes == CoverAxes::oblique) return kMeanLines;
+    return int(axes) == axis ? kColumnLines : 0;
+}
+
+/// The place of line i of `count` across a voxel. No two have the same coordinate along any edge,
+/// so that outlines along the lattice's axes are met as evenly as others.
+glm::vec2 cover_place(int i, int count) {
+    constexpr double kGoldenRatio = 0.61803398874989485;
+    const double down = (i + 0.5) * kGoldenRatio;
+    return {(i + 0.5) / count, down - std::floor(down)};
+}
+
 /// The part of a batch whose lines are scanned together. It is small because lines have room for
 /// many crossings; and if that room is too small, only these few lines are scanned again.
 constexpr uint32_t kBatchParts = 4;
@@ -93,6 +110,10 @@ Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t 
     return {device, "probe crossings", size_t(lines) * slots};
 }
 
+Buffer<uint32_t> allocate_surfaces(const Device& device, uint32_t lines, uint32_t slots) {
+    return {device, "probe surfaces", size_t(lines) * slots};
+}
+
 uint32_t scanned_lines(uint32_t rays) {
     return std::max(rays / 16 / kBatchParts, 1u) * 16;
 }
@@ -102,21 +123,31 @@ void bind(KernelArguments& to, const ProbePoints& points) {
 }
 
 DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
-                                   const VolumeFrame& frame, const GridFrame& world)
+                                   const VolumeFrame& frame, const GridFrame& world,
+                                   LineSurfaces surfaces)
     : device_(device),
       lattice_(display_lattice(frame, world)),
-      families_{family(0, frame, world, 1, 0), family(1, frame, world, 1, 0),
-                family(2, frame, world, 1, 0)},
-      cover_families_{family(0, frame, world, 2, 0.5f), family(1, frame, world, 2, 0.5f),
-                      family(2, frame, world, 2, 0.5f)},
+      seen_along_(cover_axes(frame.display)),
+      families_{edge_lines(0, frame, world), edge_lines(1, frame, world),
+                edge_lines(2, frame, world)},
       camera_(device, features, families_.front().camera),
       program_(device, "display_scan.cl", features.defines(device)),
       scan_(program_.kernel("scan_lines")),
-      pack_(program_.kernel("pack_points")) {}
+      pack_(program_.kernel("pack_points")),
+      order_(program_.kernel("order_lines")),
+      surfaces_(std::move(surfaces)),
+      transmission_(features.transmission) {}
+
+DisplayScanStage::Family DisplayScanStage::edge_lines(int axis, const VolumeFrame& frame,
+                                                      const GridFrame& world) const {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    return family(axis, frame, world,
+                  {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)}, {0, 0});
+}
 
 DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& frame,
-                                                  const GridFrame& world, int min_parts,
-                                                  float offset) const {
+                                                  const GridFrame& world, const glm::ivec2& parts,
+                                                  const glm::vec2& offset) const {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
     const glm::dmat4& map = frame.world_from_observer;
     const auto direction = [&](int i) {
@@ -125,8 +156,7 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     Family result{};
     result.axis = axis;
     result.offset = offset;
-    result.parts = glm::max(
-        glm::ivec2(parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)), min_parts);
+    result.parts = parts;
     const std::array rows = {lattice_.row_x, lattice_.row_y, lattice_.row_z};
     result.row_second = rows[size_t(b)];
     result.count = frame.size[b] * result.parts.y;
@@ -136,10 +166,10 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     const LineRange across_b = lines_across(result.row_second, result.parts.y, result.count, all);
     result.last = {across_a.last, across_b.last};
     glm::dvec3 corner = frame.origin;
-    corner[a] +=
-        (0.5 * (across_a.first + across_a.last) + double(offset)) / result.parts.x * frame.edge[a];
-    corner[b] +=
-        (0.5 * (across_b.first + across_b.last) + double(offset)) / result.parts.y * frame.edge[b];
+    corner[a] += (0.5 * (across_a.first + across_a.last) + double(offset.x)) / result.parts.x *
+                 frame.edge[a];
+    corner[b] += (0.5 * (across_b.first + across_b.last) + double(offset.y)) / result.parts.y *
+                 frame.edge[b];
     const glm::dvec3 origin =
         (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
     // A box of parallel rays. Its unit of length is a part across them, and a lattice voxel along
@@ -176,37 +206,46 @@ glm::uvec2 DisplayScanStage::rows_across(const Family& family, const VoxelBox& b
     return {uint32_t(first) / 4, uint32_t(last) / 4 + 1};
 }
 
-ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& family,
-                                         uint32_t first_line, uint32_t count, RayBatch& batch) {
+LinePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& family,
+                                        uint32_t first_line, uint32_t count, RayBatch& batch) {
     const uint32_t stride = (count + 15) / 16 * 16;
     std::vector<uint32_t> counts;
     for (;;) {
         if (crossings_.size() < size_t(stride) * slots_)
             crossings_ = allocate_crossings(device_, stride, slots_);
+        if (transmission_ && crossed_.size() < size_t(stride) * slots_)
+            crossed_ = allocate_surfaces(device_, stride, slots_);
         if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,
-                             stride, uint32_t(covers_), counts_, crossings_);
+                             stride, uint32_t(covers_), counts_, crossings_, crossed_);
         counts = counts_.read(0, count);
         const uint32_t maximum = *std::ranges::max_element(counts);
         if (maximum <= slots_) break;
         slots_ = std::max(maximum, 2 * slots_);
     }
-    std::vector<uint32_t> starts(count);
-    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
-    ProbePoints points = allocate_points(device_, starts.back() + counts.back());
-    if (points.count == 0) return points;
+    if (transmission_) {
+        order_.launch(WorkItem::light, count, count, stride, surfaces_.ranks, surfaces_.opacities,
+                      counts_, crossings_, crossed_);
+        counts = counts_.read(0, count);
+    }
+    std::vector<uint32_t> starts(size_t(count) + 1);
+    std::inclusive_scan(counts.begin(), counts.end(), starts.begin() + 1);
+    LinePoints found;
+    found.lines = count;
+    ProbePoints& points = found.points = allocate_points(device_, starts.back());
+    if (points.count == 0) return found;
     points.views.fill(kNoView);
-    const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
+    found.starts = Buffer<uint32_t>(device_, "probe starts", std::span<const uint32_t>(starts));
+    if (covers_) found.surfaces = Buffer<uint32_t>(device_, "probe surfaces", points.count);
     pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.camera.width), family.last.x,
-                 family.last.y, float(family.parts.x), float(family.parts.y), family.offset,
-                 counts_, places, crossings_, first_line, count, stride, points.total,
-                 points.coordinates);
-    return points;
+                 family.last.y, float(family.parts.x), float(family.parts.y), family.offset.x,
+                 family.offset.y, counts_, found.starts, crossings_, first_line, count, stride,
+                 points.total, points.coordinates, crossed_, found.surfaces);
+    return found;
 }
 
-void DisplayScanStage::scan_families(
-    const Pyramid& world, const std::vector<Family>& families, RayBatch& batch,
-    const std::function<void(int axis, ProbePoints points)>& sink) {
+void DisplayScanStage::scan_families(const Pyramid& world, const std::vector<Family>& families,
+                                     RayBatch& batch, const PointSink& sink) {
     const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
     const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
     for (const Family& family : families) {
@@ -221,8 +260,8 @@ void DisplayScanStage::scan_families(
             const uint32_t now = std::min(batch_tiles, tiles.y - first);
             const uint32_t count = camera_.cast(shape_of(world), first, now, batch);
             lines_ += count;
-            ProbePoints points = scan_batch(world, family, first * 16, count, batch);
-            if (points.count > 0) sink(family.axis, std::move(points));
+            LinePoints found = scan_batch(world, family, first * 16, count, batch);
+            if (found.points.count > 0) sink(family.axis, std::move(found));
         }
     }
 }
@@ -230,19 +269,25 @@ void DisplayScanStage::scan_families(
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
     scan_families(world, families_, batch,
-                  [&pieces](int, ProbePoints points) { pieces.push_back(std::move(points)); });
+                  [&pieces](int, LinePoints found) { pieces.push_back(std::move(found.points)); });
     return pieces;
 }
 
-void DisplayScanStage::scan_covers(const Pyramid& world, RayBatch& batch, const PointSink& sink) {
+void DisplayScanStage::scan_covers(const VolumeFrame& frame, const Pyramid& world, RayBatch& batch,
+                                   const PointSink& sink) {
     covers_ = true;
-    scan_families(world, cover_families_, batch, sink);
+    for (int axis = 0; axis < 3; ++axis) {
+        const int lines = cover_lines(axis);
+        std::vector<Family> families;
+        for (int i = 0; i < lines; ++i)
+            families.push_back(family(axis, frame, world.frame, {1, 1}, cover_place(i, lines)));
+        scan_families(world, families, batch, sink);
+    }
     covers_ = false;
 }
 
-uint32_t DisplayScanStage::cover_lines(int axis) const {
-    const glm::ivec2& parts = cover_families_[size_t(axis)].parts;
-    return uint32_t(parts.x * parts.y);
+int DisplayScanStage::cover_lines(int axis) const {
+    return lines_along(axis, seen_along_);
 }
 
 }  // namespace voxelume

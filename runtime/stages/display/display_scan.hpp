@@ -8,6 +8,7 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/display/display_frame.hpp"
+#include "runtime/stages/display/line_surfaces.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/stages/trace/sight.hpp"
@@ -21,12 +22,22 @@ struct ProbePoints {
     Buffer<float> coordinates;  ///< x, y, z, `total` apart
     Buffer<uint32_t> views;     ///< a view in which each point is visible; kNoView for none
 };
+
+/// The points of lines, one line after another, and what they cross there: only where light goes
+/// through surfaces.
+struct LinePoints {
+    ProbePoints points;
+    uint32_t lines = 0;
+    Buffer<uint32_t> starts;    ///< the number of each line's first point, and of all points
+    Buffer<uint32_t> surfaces;  ///< of each point, see line_order.h
+};
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
 /// The arrays of `count` points, which have no views yet; and the crossings of `lines` lines, with
-/// `slots` places for each.
+/// `slots` places for each, and their surfaces.
 ProbePoints allocate_points(const Device& device, uint32_t count);
 Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
+Buffer<uint32_t> allocate_surfaces(const Device& device, uint32_t lines, uint32_t slots);
 inline constexpr uint32_t kFirstSlots = 64;
 
 /// The number of lines that are scanned together with a batch of `rays` rays.
@@ -42,24 +53,27 @@ void bind(KernelArguments& to, const ProbePoints& points);
 /// out, and so are rows of four lines that all miss its objects.
 class DisplayScanStage {
   public:
-    /// Throws Error::limit if more than 2^31 lines along an axis meet the world.
+    /// `surfaces` are needed for features with `transmission`. Throws Error::limit if more than
+    /// 2^31 lines along an axis meet the world.
     DisplayScanStage(const Device& device, const Features& features, const VolumeFrame& frame,
-                     const GridFrame& world);
+                     const GridFrame& world, LineSurfaces surfaces);
 
     /// The crossings of all lines, in pieces that a part of a batch gives. `batch` holds the rays
     /// meanwhile.
     std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
 
     /// The points of a part of the lines along `axis`.
-    using PointSink = std::function<void(int axis, const ProbePoints& points)>;
+    using PointSink = std::function<void(int axis, LinePoints points)>;
 
     /// Gives `sink` the points where lines cross surfaces, or enter a cube: what sight rays count
-    /// of them, too. These lines lie inside the voxels, at least 2 x 2 in each.
-    void scan_covers(const Pyramid& world, RayBatch& batch, const PointSink& sink);
+    /// of them, too. These lines lie inside the voxels of `frame`.
+    void scan_covers(const VolumeFrame& frame, const Pyramid& world, RayBatch& batch,
+                     const PointSink& sink);
 
-    /// The number of lines in a voxel that lead along `axis` for that.
-    uint32_t cover_lines(int axis) const;
+    /// The number of lines in a voxel that lead along `axis` for that; 0 where none are needed.
+    int cover_lines(int axis) const;
 
+    const LineSurfaces& surfaces() const { return surfaces_; }
     uint64_t lines() const { return lines_; }              ///< number of lines cast so far
     uint64_t clear_lines() const { return clear_lines_; }  ///< number of lines left out so far
 
@@ -74,27 +88,31 @@ class DisplayScanStage {
         Camera camera;
         float4 row;         ///< row of the lattice coordinate along the lines
         float4 row_second;  ///< row of the second coordinate across them
-        /// In parts, of the lines from the edges of voxels: 0, or 1/2 so that none lies on an edge.
-        float offset;
+        glm::vec2 offset;   ///< of the lines from the edges of parts, in parts
     };
-    Family family(int axis, const VolumeFrame& frame, const GridFrame& world, int min_parts,
-                  float offset) const;
+    Family family(int axis, const VolumeFrame& frame, const GridFrame& world,
+                  const glm::ivec2& parts, const glm::vec2& offset) const;
+    Family edge_lines(int axis, const VolumeFrame& frame, const GridFrame& world) const;
     /// The rows of tiles with the lines that meet `box`: the first, and one beyond the last.
     static glm::uvec2 rows_across(const Family& family, const VoxelBox& box);
-    ProbePoints scan_batch(const Pyramid& world, const Family& family, uint32_t first_line,
-                           uint32_t count, RayBatch& batch);
+    LinePoints scan_batch(const Pyramid& world, const Family& family, uint32_t first_line,
+                          uint32_t count, RayBatch& batch);
     void scan_families(const Pyramid& world, const std::vector<Family>& families, RayBatch& batch,
-                       const std::function<void(int axis, ProbePoints points)>& sink);
+                       const PointSink& sink);
 
     Device device_;
     DisplayLattice lattice_;
-    std::vector<Family> families_, cover_families_;
+    CoverAxes seen_along_;
+    std::vector<Family> families_;
     SightStage camera_;
     Program program_;
-    Kernel scan_, pack_;
+    Kernel scan_, pack_, order_;
+    LineSurfaces surfaces_;
+    bool transmission_;
     bool covers_ = false;           ///< see scan_lines
     uint32_t slots_ = kFirstSlots;  ///< number of crossings that a line has room for; it grows
     Buffer<float> crossings_;
+    Buffer<uint32_t> crossed_;  ///< surfaces of crossings
     Buffer<uint32_t> counts_;
     uint64_t lines_ = 0, clear_lines_ = 0;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/shade.hpp"
 
-#include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -14,22 +12,6 @@
 #include "runtime/stages/light/sky_map.hpp"
 
 namespace voxelume {
-namespace {
-
-/// The rank of each object by descending priority; of equal priorities the earlier object comes
-/// first.
-std::vector<uint32_t> object_ranks(const std::vector<Object>& objects) {
-    std::vector<uint32_t> order(objects.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(
-        order, [&](uint32_t a, uint32_t b) { return objects[a].priority > objects[b].priority; });
-    std::vector<uint32_t> ranks(objects.size());
-    for (uint32_t rank = 0; rank < order.size(); ++rank) ranks[order[rank]] = rank;
-    return ranks;
-}
-
-}  // namespace
-
 void bind(KernelArguments& to, const SourceMeshes& sources) {
     if (!sources.words.empty()) to.add(sources.objects, sources.words);
 }
