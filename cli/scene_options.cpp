@@ -160,13 +160,13 @@ std::string read_stdin() {
     return text;
 }
 
+}  // namespace
+
 Scene load_scene(const std::string& name, const v1::SceneOptions& options) {
     if (name != "-") return Scene::load(name, options);
     static const std::string text = read_stdin();  // several views or values read it once
     return Scene::parse(text, "stdin", options);
 }
-
-}  // namespace
 
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);

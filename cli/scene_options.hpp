@@ -47,6 +47,9 @@ void set_limits(const SceneOptions& options, const char* command);
 /// Reads "PATH=VALUE". Throws Error::usage; `command` and `option` open messages.
 SceneChange setting_of(const std::string& text, const char* option, const char* command);
 
+/// The scene of a file, or from standard input for `-`.
+Scene load_scene(const std::string& name, const v1::SceneOptions& options);
+
 /// The scene with the options applied. `command` opens the messages about options.
 Scene read_with(const SceneOptions& options, const char* command);
 

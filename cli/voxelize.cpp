@@ -11,6 +11,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/scene_options.hpp"
 #include "cli/slice_names.hpp"
 #include "cli/tell.hpp"
 
@@ -126,14 +127,21 @@ void voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
         tell_notes(command, convert_voxels(file, output));
 }
 
+void check_voxels_output(const std::string& path) {
+    check_output(path, {".vxm", ".vdb", ".vox", ".kv6", ".binvox", ".npy", ".nrrd"}, "voxelize");
+    if (path.find('#') != std::string::npos)
+        fail_usage(
+            "voxelize: {}: one frame's voxels are written, so no #### counts them: choose the "
+            "frame by --frame",
+            path);
+}
+
 int run(const VoxelizeCommand& command) {
     if (command.outputs.empty()) fail_usage("voxelize: say where the voxels go: -o model.vxm");
-    for (const std::string& path : command.outputs)
-        check_output(path, {".vxm", ".vdb", ".vox", ".kv6", ".binvox", ".npy", ".nrrd"},
-                     "voxelize");
+    for (const std::string& path : command.outputs) check_voxels_output(path);
     const std::string file = first_slice(command.file), ending = ending_of(file);
     constexpr std::array kMeshEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    const bool is_scene = ending == ".json";
+    const bool is_scene = ending == ".json" || file == "-";
     const bool is_mesh =
         std::ranges::count(kMeshEndings, ending) > 0 || (!is_scene && !is_model_file(file));
     if (is_mesh) {
@@ -142,7 +150,7 @@ int run(const VoxelizeCommand& command) {
     }
     refuse_mesh_options(command);
     if (is_scene)
-        voxelize_scene(command, Scene::load(file, {command.assets, {}, {}, 0}));
+        voxelize_scene(command, load_scene(file, {command.assets, {}, {}, 0}));
     else
         voxelize_voxels(command, file);
     return 0;
@@ -152,9 +160,10 @@ int run(const VoxelizeCommand& command) {
 
 Action add_voxelize(CLI::App& app) {
     const auto command = std::make_shared<VoxelizeCommand>();
-    app.add_option("FILE", command->file,
-                   "triangle mesh, .obj .ply .stl .gltf .glb; file of voxels, as `info` tells; or "
-                   "scene, .json, all of whose objects become cubes")
+    app.add_option(
+           "FILE", command->file,
+           "triangle mesh, .obj .ply .stl .gltf .glb; file of voxels, as `info` tells; or "
+           "scene, .json, all of whose objects become cubes; - is a scene from standard input")
         ->required();
     app.add_option("-o,--output", command->outputs,
                    "output: model .vxm or OpenVDB volume .vdb, or of cubes .vox .kv6 .binvox .npy "

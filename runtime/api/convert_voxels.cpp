@@ -46,24 +46,51 @@ CubeList cubes_of_volume(const std::filesystem::path& path) {
     return cubes;
 }
 
-/// The voxels of a model file, those of an array as pictures of the file have them.
-VoxelModel model_of(const std::filesystem::path& path) {
+/// The voxels of a model file, those of an array as pictures of the file have them, and the inside
+/// of a surface.
+VoxelModel model_of(const std::filesystem::path& path, WriterNotes& notes) {
     const VoxelFileFormat* const format = voxel_file_format(path);
-    if (!format || !format->array || !is_model_file(path))
+    const std::string ending = ending_of(path);
+    const bool is_array = format && format->array;
+    const bool may_have_surface = ending == ".vxm" || ending == ".vdb";
+    if (!is_model_file(path) || !(is_array || may_have_surface))
         return read_voxel_model(path, Surface::cubes);
     const v1::Scene handle = v1::scene_of_file(path, {.ground = false});
     const Model& shown = api::inside(handle).models.front();
-    return read_voxel_model(path, Surface::cubes, shown.part, shown.values);
+    if (is_array || shown.surface == Surface::cubes)
+        return read_voxel_model(path, Surface::cubes, shown.part, shown.values);
+    if (shown.surface == Surface::exact)
+        throw Error(ErrorKind::input,
+                    "{}: holds triangles in voxels (\"exact\"), which have no inside: voxelize the "
+                    "mesh again, as cubes",
+                    SourcePlace(path.string()));
+    const VoxelModel smooth = read_voxel_model(path, Surface::smooth, shown.part, shown.values);
+    notes.emplace_back(smooth.colors.empty()
+                           ? "a smooth surface became the cubes inside it"
+                           : "a smooth surface became the cubes inside it, without its colours");
+    return cubes_inside(smooth);
+}
+
+void note_materials(const std::filesystem::path& from, const VoxelModel& model,
+                    WriterNotes& notes) {
+    if (ending_of(from) == ".vox" && !model.groups.empty())
+        notes.emplace_back("metal, glass, and what gives off light became plain colours");
 }
 
 WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (is_grid_name(to)) return write_cubes(to, VoxelExport(model_of(from)));
     const auto write = cube_writer(to);
-    if (!write)
+    if (!write && !is_grid_name(to))
         throw Error(ErrorKind::usage,
                     "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy, .nrrd, .vxm or .vdb",
                     SourcePlace(to.string()));
-    return write(to, holds_model(from) ? cube_list(model_of(from)) : cubes_of_volume(from));
+    if (!is_grid_name(to) && !holds_model(from)) return write(to, cubes_of_volume(from));
+    WriterNotes notes;
+    VoxelModel model = model_of(from, notes);
+    note_materials(from, model, notes);
+    const WriterNotes of_writer = is_grid_name(to) ? write_cubes(to, VoxelExport(std::move(model)))
+                                                   : write(to, cube_list(model));
+    notes.insert(notes.end(), of_writer.begin(), of_writer.end());
+    return notes;
 }
 
 }  // namespace

@@ -131,6 +131,16 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
     return report;
 }
 
+/// What is lost of materials in files of voxels, which know colours alone.
+std::string note_of_materials(const Scene& scene) {
+    const bool has_more = std::ranges::any_of(scene.materials, [](const Material& material) {
+        return material.emission != glm::vec3(0) || material.refraction > 0 ||
+               material.transmission.value_or(0) > 0 || material.metallic.value_or(0) > 0 ||
+               material.reflection > 0;
+    });
+    return has_more ? "metal, glass, mirrors, and what gives off light became plain colours" : "";
+}
+
 v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
                                            const std::vector<fs::path>& outputs,
                                            const Device& device,
@@ -159,6 +169,7 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
         if (const std::string note = note_of_edges(output, scene.world.voxel_size); !note.empty())
             add_notes({note}, report);
     }
+    if (const std::string note = note_of_materials(scene); !note.empty()) add_notes({note}, report);
     return report;
 }
 

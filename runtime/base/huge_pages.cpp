@@ -7,13 +7,31 @@
 
 namespace voxelume {
 
-void advise_huge_pages(void* data, size_t bytes) {
+namespace {
+
+/// Gives the system advice on the whole huge pages of an array.
+void advise(void* data, size_t bytes, int advice) {
     constexpr uintptr_t kHugePage = uintptr_t{1} << 21;
     const auto first = (reinterpret_cast<uintptr_t>(data) + kHugePage - 1) / kHugePage * kHugePage;
     const auto last = (reinterpret_cast<uintptr_t>(data) + bytes) / kHugePage * kHugePage;
-    // Where the system has no such pages, nothing changes.
+    // Where the system has no such pages, or no such advice, nothing changes.
     if (data != nullptr && last > first)
-        madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+        madvise(reinterpret_cast<void*>(first), last - first, advice);
+}
+
+}  // namespace
+
+void advise_huge_pages(void* data, size_t bytes) {
+    advise(data, bytes, MADV_HUGEPAGE);
+}
+
+void populate_pages(void* data, size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+    advise(data, bytes, MADV_POPULATE_WRITE);
+#else
+    static_cast<void>(data);
+    static_cast<void>(bytes);
+#endif
 }
 
 }  // namespace voxelume

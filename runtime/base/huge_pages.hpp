@@ -11,6 +11,9 @@ namespace voxelume {
 /// 0.5 µs when it is first touched, which is as long as filling it takes.
 void advise_huge_pages(void* data, size_t bytes);
 
+/// Takes the memory of whole pages at once, where the system can: what is stored there stays.
+void populate_pages(void* data, size_t bytes);
+
 /// Reserves memory for so many elements, in large pages where there are any.
 template <class Element>
 void reserve_in_huge_pages(std::vector<Element>& elements, size_t count) {

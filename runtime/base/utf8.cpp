@@ -21,6 +21,14 @@ bool is_code(uint32_t code, int further) {
     return code >= kLeast[further] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
 }
 
+void add_character(uint32_t code, std::string& out) {
+    const auto add = [&](uint32_t byte) { out += static_cast<char>(byte); };
+    if (code < 0x80) return add(code);
+    const int further = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    add((0xFF00u >> (further + 1) & 0xFF) | code >> 6 * further);
+    for (int k = further - 1; k >= 0; --k) add(0x80 | (code >> 6 * k & 0x3F));
+}
+
 }  // namespace
 
 bool is_utf8(const std::string& text) {
@@ -51,6 +59,38 @@ std::string utf8_text(const std::string& text) {
             out += static_cast<char>(0xC0 | byte >> 6);
             out += static_cast<char>(0x80 | (byte & 0x3F));
         }
+    }
+    return out;
+}
+
+bool is_utf16(const std::string& text) {
+    return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
+std::string utf8_of_utf16(const std::string& text) {
+    const size_t high = text.starts_with("\xFE\xFF") ? 0 : 1;
+    const size_t units = text.size() / 2;
+    const auto unit = [&](size_t i) {
+        return i >= units
+                   ? 0u
+                   : uint32_t(uint8_t(text[2 * i + high])) << 8 | uint8_t(text[2 * i + 1 - high]);
+    };
+    std::string out;
+    out.reserve(units);
+    for (size_t i = 1; i < units; ++i) {
+        uint32_t code = unit(i);
+        const uint32_t next = unit(i + 1);
+        if (code >= 0xD800 && code < 0xDC00 && next >= 0xDC00 && next < 0xE000) {
+            code = 0x10000 + ((code & 0x3FF) << 10 | (next & 0x3FF));
+            ++i;
+        }
+        add_character(is_code(code, code < 0x80      ? 0
+                                    : code < 0x800   ? 1
+                                    : code < 0x10000 ? 2
+                                                     : 3)
+                          ? code
+                          : 0xFFFD,
+                      out);
     }
     return out;
 }

@@ -51,6 +51,12 @@ TEST_F(CliStreamTest, ASceneIsReadFromStandardInputAndAnImageWrittenToStandardOu
     EXPECT_EQ(pipe("voxelume check - <scene.json").exit_code, 0);
 }
 
+TEST_F(CliStreamTest, VoxelizeReadsASceneToo) {
+    ASSERT_EQ(pipe("voxelume voxelize - --resolution 8 -o a.vox <scene.json").exit_code, 0);
+    ASSERT_EQ(pipe("voxelume voxelize scene.json --resolution 8 -o b.vox").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "a.vox"), bytes_of(folder / "b.vox"));
+}
+
 TEST_F(CliStreamTest, StreamsThatAreClosedAreNoFilesOfTheProgram) {
     const ProgramResult in = pipe("timeout 60 voxelume render - -o a.png <&-");
     EXPECT_EQ(in.exit_code, 4) << in.err;  // it waited for what it wrote itself

@@ -109,6 +109,34 @@ TEST_F(CliVoxelFilesTest, VoxelizedCubesAreWrittenForOtherPrograms) {
     EXPECT_THAT(run("voxelize a.obj --surface smooth -o d.vox").err, HasSubstr("cubes alone"));
 }
 
+// The middles of 294 voxels lie in this tetrahedron; a field of distances has its edges rounded.
+TEST_F(CliVoxelFilesTest, TheInsideOfASmoothSurfaceBecomesCubes) {
+    put_bytes(folder / "t.obj",
+              "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+              "f 2 3 4\nf 3 1 4\n");
+    ASSERT_EQ(run("voxelize t.obj --resolution 20 -o t.vxm -o t.vdb").exit_code, 0);
+    for (const char* command : {"voxelize t.vxm -o {}", "voxelize t.vdb -o {}", "convert t.vxm {}"})
+        for (const char* output : {"a.vox", "a.binvox"}) {
+            const ProgramResult result = run(fmt::format(fmt::runtime(command), output));
+            EXPECT_EQ(result.exit_code, 0) << result.err;
+            EXPECT_THAT(result.err, HasSubstr("note: a smooth surface became the cubes inside it"));
+            EXPECT_NEAR(info(output)["voxels"].get<double>(), 294, 30) << command << output;
+            std::filesystem::remove(folder / output);
+        }
+    ASSERT_EQ(run("voxelize t.obj --resolution 20 --surface exact -o e.vxm").exit_code, 0);
+    EXPECT_THAT(run("voxelize e.vxm -o e.vox").err, HasSubstr("voxelize the mesh again, as cubes"));
+}
+
+TEST_F(CliVoxelFilesTest, WhatCubesDontHoldIsSaid) {
+    put_bytes(folder / "s.json", R"({"voxelume": 1, "world": {"voxel_size": 0.1},
+        "materials": {"lamp": {"emission": [1, 1, 1]}},
+        "models": {"ball": {"shape": "sphere", "radius": 0.3}},
+        "objects": [{"model": "ball", "material": "lamp"}]})");
+    EXPECT_THAT(run("voxelize s.json -o s.vox").err, HasSubstr("became plain colours"));
+    EXPECT_THAT(run("voxelize s.json -o s###.npy").err, HasSubstr("choose the frame by --frame"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "s###.npy"));
+}
+
 TEST_F(CliVoxelFilesTest, DamagedFilesAreRefusedByTheReaderThatTheirNameNames) {
     put_ball();
     put_bytes(folder / "t.obj", "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n");

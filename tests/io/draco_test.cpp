@@ -25,7 +25,8 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco:
     return int(mesh.attribute(id)->unique_id());
 }
 
-std::string draco_data(const Sheet& sheet, int method, int bits) {
+std::string draco_data(const Sheet& sheet, int method, int bits,
+                       draco::DataType colors_as = draco::DT_UINT8) {
     draco::Mesh mesh;
     mesh.set_num_points(uint32_t(sheet.positions.size()));
     for (size_t i = 0; i < sheet.indices.size(); i += 3)
@@ -36,7 +37,7 @@ std::string draco_data(const Sheet& sheet, int method, int bits) {
     std::vector<uint8_t> colors;
     for (const vec3& p : sheet.positions)
         for (const float value : {p.x * 14, p.y * 25, 51.0f}) colors.push_back(uint8_t(value));
-    add_attribute(mesh, draco::GeometryAttribute::COLOR, draco::DT_UINT8, 3, colors.data(),
+    add_attribute(mesh, draco::GeometryAttribute::COLOR, colors_as, 3, colors.data(),
                   sheet.positions.size());
     draco::Encoder encoder;
     encoder.SetEncodingMethod(method);
@@ -106,6 +107,14 @@ TEST(Draco, DracoDataThatDontFitTheirAccessorsAreRefused) {
     EXPECT_THAT(refusal_of_gltf(draco_gltf("DRACO", 35, 144)), HasSubstr("Draco data"));
     EXPECT_THAT(refusal_of_gltf(draco_gltf(data.substr(0, data.size() / 2), 35, 144)),
                 HasSubstr("its Draco data can't be decoded"));
+}
+
+// Draco's library loads any byte as a bool, which the fuzzer found.
+TEST(Draco, TruthValuesAreRefused) {
+    const std::string data =
+        draco_data(Sheet(), draco::MESH_SEQUENTIAL_ENCODING, 12, draco::DT_BOOL);
+    EXPECT_THAT(refusal_of_gltf(draco_gltf(data, 35, 144)),
+                HasSubstr("attribute 1 of its Draco data has truth values, not numbers"));
 }
 
 TEST(Draco, DamagedDracoDataAreAnInputErrorOrAMesh) {

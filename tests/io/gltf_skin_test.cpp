@@ -19,13 +19,13 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-constexpr size_t kVertices = 30;
+constexpr size_t kSkinVertices = 30;
 
 /// A strip of triangles whose vertices follow joints of a random tree by two sets of weights: one
 /// of floats and one of bytes.
 struct SkinnedTree {
     explicit SkinnedTree(unsigned seed) : tree(seed), writer(tree.writer()), random(seed + 50) {
-        for (size_t i = 0; i < 3 * kVertices; ++i) positions.push_back(number(-2, 2));
+        for (size_t i = 0; i < 3 * kSkinVertices; ++i) positions.push_back(number(-2, 2));
         for (size_t joint = 0; joint < joints.size(); ++joint) {
             Matrix4 map = identity_rows();
             for (size_t row = 0; row < 3; ++row)
@@ -41,7 +41,7 @@ struct SkinnedTree {
     }
 
     void add_weights() {
-        for (size_t i = 0; i < kVertices; ++i) {
+        for (size_t i = 0; i < kSkinVertices; ++i) {
             // Bytes that add up to 255 - 51 in one set, and 0.2 in the other.
             std::array<int, 3> parts = {int(random() % 100), int(random() % 100), 0};
             parts[2] = 204 - parts[0] - parts[1];
@@ -102,7 +102,7 @@ struct SkinnedTree {
     double distance_from(const Mesh& mesh, double time) const {
         const std::vector<Matrix4> maps = maps_at(time);
         double worst = 0;
-        for (size_t i = 0; i < kVertices; ++i) {
+        for (size_t i = 0; i < kSkinVertices; ++i) {
             const Numbers expected = place(i, maps);
             for (size_t c = 0; c < 3; ++c)
                 worst = std::max(worst, std::abs(double(mesh.positions[i][int(c)]) - expected[c]) /
@@ -166,7 +166,7 @@ TEST_F(GltfSkinTest, VerticesAreBlendsOfTheirJointsAtAnyTime) {
             const Scene now = scene_at(scene, 1 + t * scene.animation.fps);
             const Model& model = skinned(now);
             const Mesh mesh = *assets_.mesh_of(model);
-            ASSERT_EQ(mesh.positions.size(), kVertices);
+            ASSERT_EQ(mesh.positions.size(), kSkinVertices);
             worst = std::max(worst, tree.distance_from(mesh, t));
             const Bounds box = assets_.box_of_file(model, true);
             for (const glm::vec3& p : mesh.positions)
@@ -203,7 +203,7 @@ TEST_F(GltfSkinTest, WeightsThatDontAddUpToOneAreMadeTo) {
     Mesh mesh = gltf_mesh(less, 2);
     GltfSkin(less, 2, 0, "dance").move(mesh, 0, 0.75);
     const std::vector<Matrix4> maps = tree.maps_at(0.75);
-    for (size_t i = 0; i < kVertices; ++i) {
+    for (size_t i = 0; i < kSkinVertices; ++i) {
         Numbers expected(3);
         for (size_t k = 4 * i; k < 4 * i + 4; ++k)
             tree.add(maps[tree.first_joints[k]], tree.byte_weights[k] / 204.0, i, expected);
@@ -233,7 +233,7 @@ TEST_F(GltfSkinTest, PartsThatDontGoTogetherAreRefused) {
                 HasSubstr("nodes[24].skin: is 0, and the file has 0 of these"));
     GltfWriter shorter = tree.writer;
     const Json& attributes = shorter.json["meshes"][1]["primitives"][0]["attributes"];
-    shorter.json["accessors"][attributes["JOINTS_1"].get<size_t>()]["count"] = kVertices - 1;
+    shorter.json["accessors"][attributes["JOINTS_1"].get<size_t>()]["count"] = kSkinVertices - 1;
     EXPECT_THAT(skin_refusal(shorter), HasSubstr("30 vertices, 29 of JOINTS_1"));
     EXPECT_THAT(error_of([&] { GltfSkin(parsed_gltf(tree.writer), 2, 0, "danse"); }).what(),
                 HasSubstr("has no clip \"danse\"; did you mean \"dance\"?"));

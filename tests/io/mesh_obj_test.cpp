@@ -45,6 +45,26 @@ TEST(MeshObj, KeepsTheNameOfItsFirstMaterialLibrary) {
     EXPECT_EQ(library("mtllib a.mtl \\\n b.mtl\n"), "a.mtl \\");  // a name over two lines is none
 }
 
+// The bytes of both orders, and a name of two units: U+1F600, D83D DE00.
+TEST(MeshObj, TextOfUtf16IsRead) {
+    for (const bool is_big : {true, false}) {
+        std::string bytes;
+        const auto add = [&](unsigned unit) {
+            const char high = char(unit >> 8), low = char(unit & 255);
+            bytes += is_big ? high : low;
+            bytes += is_big ? low : high;
+        };
+        add(0xFEFF);
+        for (const char c : kObjVertices + "usemtl ") add(static_cast<unsigned char>(c));
+        for (const unsigned unit : {0xE9u, 0x20ACu, 0xD83Du, 0xDE00u, 0xD83Du}) add(unit);
+        for (const char c : std::string("\nf 1 2 3")) add(static_cast<unsigned char>(c));
+        const Mesh mesh = parse_mesh(bytes, "a.obj");
+        EXPECT_THAT(mesh.positions, ElementsAre(vec3(0), vec3(5, 0, 0), vec3(0, 3, 1)));
+        EXPECT_THAT(mesh.group_names,
+                    ElementsAre("\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80\xEF\xBF\xBD"));
+    }
+}
+
 TEST(MeshObj, FacesBeforeTheFirstMaterialAreInTheUnnamedGroup) {
     const Mesh mesh =
         parse_mesh(kObjVertices + "f 1 2 3\nusemtl unused\nusemtl b\nf 3 2 1\n", "a.obj");

@@ -2,12 +2,16 @@
 // array -> cubes. Slabs of 16 layers become rows of bits, and those the bits of bricks: the file is
 // read in its own order, whatever the model's is.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 #include "kernels/shared/voxel.h"
+#include "runtime/base/huge_pages.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_choice.hpp"
+#include "runtime/io/arrays/array_layout.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
@@ -16,42 +20,6 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kClear = 255u << VXL_TRANSPARENCY_SHIFT;  // the colour of no voxel
-
-/// A cell's place along one axis of the model, by its number along the file's axis.
-struct AxisMap {
-    int axis = 0;    ///< of the model
-    int bricks = 0;  ///< of the file's cells, 16 each
-    int first = 0;   ///< the brick of the model in which cells 0..15 lie
-    int step = 1;    ///< from brick to brick
-    bool is_mirrored = false;
-};
-
-/// Lays the model's lattice so that 16 cells of the file are one brick along each axis.
-struct Layout {
-    GridFrame frame;
-    std::array<AxisMap, 3> maps;  ///< by the file's axes
-};
-
-Layout layout_of(const CellArray& array, const InputFile& file) {
-    Layout layout;
-    for (int axis = 0; axis < 3; ++axis) {
-        AxisMap& map = layout.maps[size_t(array.axis[axis])];
-        const int count = array.counts[array.axis[axis]];
-        map.axis = axis;
-        map.bricks = (count + kBrickSize - 1) / kBrickSize;
-        map.is_mirrored = array.sign[axis] < 0;
-        // A mirrored axis begins in the middle of a brick, where the file's cells end.
-        const int room = map.is_mirrored ? (kBrickSize - count % kBrickSize) % kBrickSize : 0;
-        const int before = room >= kModelMargin ? room : room + kBrickSize;
-        map.first = map.is_mirrored ? (before + count) / kBrickSize - 1 : before / kBrickSize;
-        map.step = map.is_mirrored ? -1 : 1;
-        layout.frame.size[axis] = before + count + kModelMargin;
-        layout.frame.origin[axis] = array.first_corner[axis] - before * array.voxel_edge[axis];
-    }
-    layout.frame.voxel_edge = array.voxel_edge;
-    check_voxel_span(glm::dvec3(layout.frame.size), file);
-    return layout;
-}
 
 uint32_t code_of(double value, bool is_fraction) {
     const double v = is_fraction ? 255 * value : value;
@@ -86,15 +54,16 @@ class ArrayCubes {
 
     VoxelModel read() {
         read_bits();
-        if (found_.empty()) file_.refuse(fault());
+        if (found_.found.empty()) file_.refuse(fault());
         VoxelModel model;
         model.surface = Surface::cubes;
         model.frame = layout_.frame;
         model.slots.assign(voxelume::bricks_of(model.frame), kBrickOutside);
-        for (const Found& found : found_) model.slots[found.brick] = found.number;
+        for (const Found& found : found_.found) model.slots[found.brick] = found.number;
         for (size_t brick = 0; brick < model.slots.size(); ++brick) {
             if (model.slots[brick] == kBrickOutside) continue;
-            const uint64_t* bits = bits_.data() + size_t(model.slots[brick]) * kLeavesPerBrick;
+            const uint64_t* bits =
+                found_.bits.data() + size_t(model.slots[brick]) * kLeavesPerBrick;
             model.slots[brick] = uint32_t(model.coordinates.size());
             model.coordinates.push_back(uint32_t(brick));
             model.occupancy.insert(model.occupancy.end(), bits, bits + kLeavesPerBrick);
@@ -106,6 +75,10 @@ class ArrayCubes {
   private:
     struct Found {
         uint32_t brick, number;
+    };
+    struct Bricks {
+        std::vector<Found> found;
+        std::vector<uint64_t> bits;  ///< by number
     };
 
     std::string fault() const {
@@ -160,7 +133,19 @@ class ArrayCubes {
     }
 
     void read_bits() {
-        ArraySlabs slabs(array_, file_, kBrickSize);
+        for_layer_ranges(array_, kBrickSize, [&](int first, int end) {
+            Bricks part;
+            read_bits(first, end, part);
+            const std::scoped_lock lock(mutex_);
+            for (const Found& found : part.found)
+                found_.found.push_back(
+                    {found.brick, uint32_t(found.number + found_.bits.size() / kLeavesPerBrick)});
+            found_.bits.insert(found_.bits.end(), part.bits.begin(), part.bits.end());
+        });
+    }
+
+    void read_bits(int first, int end, Bricks& part) {
+        ArraySlabs slabs(array_, file_, kBrickSize, first, end);
         const size_t width = size_t(array_.counts.x), height = size_t(array_.counts.y);
         std::vector<uint8_t> chosen(16 * rows_x_);
         std::vector<uint16_t> words(rows_x_ * height * kBrickSize);
@@ -171,7 +156,7 @@ class ArrayCubes {
             }
             for (int y = 0; y < layout_.maps[1].bricks; ++y)
                 for (int x = 0; x < layout_.maps[0].bricks; ++x)
-                    add_brick(words, {x, y, slabs.first() / kBrickSize}, layers);
+                    add_brick(words, {x, y, slabs.first() / kBrickSize}, layers, part);
         }
     }
 
@@ -181,7 +166,8 @@ class ArrayCubes {
     }
 
     /// Adds the brick if one of its cells is chosen.
-    void add_brick(const std::vector<uint16_t>& words, const glm::ivec3& brick, int layers) {
+    void add_brick(const std::vector<uint16_t>& words, const glm::ivec3& brick, int layers,
+                   Bricks& part) {
         const size_t height = size_t(array_.counts.y), y_first = size_t(brick.y) * kBrickSize,
                      rows = std::min<size_t>(kBrickSize, height - y_first);
         std::array<uint64_t, kLeavesPerBrick> leaves{};
@@ -196,43 +182,63 @@ class ArrayCubes {
                     leaves[leaf | leaf_[0][x]] |= spread_[word >> x & 15] << bit;
             }
         if (is_empty) return;
-        found_.push_back({uint32_t(number_of(brick)), uint32_t(found_.size())});
-        check_stored_bricks(found_.size(), file_);
-        bits_.insert(bits_.end(), leaves.begin(), leaves.end());
+        check_stored_bricks(++stored_, file_);
+        part.found.push_back({uint32_t(number_of(brick)), uint32_t(part.found.size())});
+        part.bits.insert(part.bits.end(), leaves.begin(), leaves.end());
     }
 
     void read_colors(VoxelModel& model) {
+        reserve_in_huge_pages(model.colors, model.coordinates.size() * kVoxelsPerBrick);
         model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFF);
-        ArraySlabs slabs(array_, file_, kBrickSize);
+        std::atomic<bool> transparent = false;
+        for_layer_ranges(array_, kBrickSize, [&](int first, int end) {
+            if (read_colors(first, end, model)) transparent = true;
+        });
+        model.transparent = transparent;
+    }
+
+    /// Whether a voxel lets light through.
+    bool read_colors(int first, int end, VoxelModel& model) const {
+        ArraySlabs slabs(array_, file_, kBrickSize, first, end);
+        bool transparent = false;
         for (int layers = slabs.next(); layers > 0; layers = slabs.next())
             for (int y = 0; y < layout_.maps[1].bricks; ++y)
                 for (int x = 0; x < layout_.maps[0].bricks; ++x) {
                     const glm::ivec3 brick(x, y, slabs.first() / kBrickSize);
                     const uint32_t slot = model.slots[size_t(number_of(brick))];
                     if (slot == kBrickOutside) continue;
-                    color_brick(slabs, brick, layers, slot, model);
+                    transparent |= color_brick(slabs, brick, layers, slot, model);
                 }
+        return transparent;
     }
 
-    void color_brick(const ArraySlabs& slabs, const glm::ivec3& brick, int layers, uint32_t slot,
+    bool color_brick(const ArraySlabs& slabs, const glm::ivec3& brick, int layers, uint32_t slot,
                      VoxelModel& model) const {
+        bool transparent = false;
         const glm::ivec3 low = brick * kBrickSize, high = glm::min(low + kBrickSize, array_.counts);
         const size_t width = size_t(array_.counts.x), height = size_t(array_.counts.y);
         uint32_t* colors = model.colors.data() + size_t(slot) * kVoxelsPerBrick;
         with_type(array_.type, slabs.values(), [&](const auto* values) {
+            // Neighbours often have one label: 512^3 bytes take 0.3 instead of 3 s.
+            auto last = values[0];
+            uint32_t last_color = color_of(slabs, values, 0);
             for (int z = 0; z < layers; ++z)
                 for (int y = low.y; y < high.y; ++y)
                     for (int x = low.x; x < high.x; ++x) {
                         const size_t cell = (size_t(z) * height + size_t(y)) * width + size_t(x);
                         const uint32_t place = place_[2][size_t(z)] | place_[1][size_t(y - low.y)] |
                                                place_[0][size_t(x - low.x)];
-                        const uint32_t color = color_of(slabs, values, cell);
+                        const bool is_last = !array_.is_color() && values[cell] == last;
+                        const uint32_t color = is_last ? last_color : color_of(slabs, values, cell);
+                        if (!array_.is_color()) last = values[cell];
+                        last_color = color;
                         // Where there is no voxel, no colour is to be seen.
                         if (color >= kClear) continue;
                         colors[place] = color;
-                        model.transparent |= color >> VXL_TRANSPARENCY_SHIFT != 0;
+                        transparent |= color >> VXL_TRANSPARENCY_SHIFT != 0;
                     }
         });
+        return transparent;
     }
 
     template <class Value>
@@ -258,7 +264,7 @@ class ArrayCubes {
     const CellArray& array_;
     const VoxelValues& values_;
     const InputFile file_;
-    Layout layout_;
+    CubeLayout layout_;
     glm::ivec3 bricks_;
     size_t rows_x_;  ///< words of a row of cells
     int first_brick_ = 0;
@@ -266,8 +272,9 @@ class ArrayCubes {
     // By the file's axis and the cell in a brick.
     std::array<std::array<uint32_t, 16>, 3> leaf_{}, bit_{}, place_{};
     std::array<uint64_t, 16> spread_{};
-    std::vector<Found> found_;
-    std::vector<uint64_t> bits_;
+    Bricks found_;
+    std::mutex mutex_;  ///< of found_
+    std::atomic<size_t> stored_ = 0;
 };
 
 }  // namespace

@@ -12,6 +12,12 @@ void swap_bytes(std::byte* data, size_t size, size_t each) {
     for (size_t i = 0; i < size; i += each) std::reverse(data + i, data + i + each);
 }
 
+/// Bytes from the start of the data to a layer of cells, whose channels lie together.
+uint64_t start_of_layer(const CellArray& array, int layer) {
+    if (!in_any_order(array)) return 0;
+    return array.skip + array.bytes() / uint64_t(array.counts.z) * uint64_t(layer);
+}
+
 }  // namespace
 
 ByteStream::ByteStream(const InputFile& file, uint64_t start, DataEncoding encoding, CellType type)
@@ -28,17 +34,20 @@ void ByteStream::read(void* data, size_t size) {
     if (read_some(data, size) != size) file_.refuse("its data end too early; it is truncated");
 }
 
-ArraySlabs::ArraySlabs(const CellArray& array, const InputFile& data, int thickness)
+ArraySlabs::ArraySlabs(const CellArray& array, const InputFile& data, int thickness, int first,
+                       int end)
     : array_(array),
       file_(data),
-      stream_(data, array.start, array.encoding, array.type),
-      thickness_(thickness) {
-    stream_.skip(array.skip);
+      stream_(data, array.start + start_of_layer(array, first), array.encoding, array.type),
+      thickness_(thickness),
+      first_(first),
+      end_(end) {
+    if (!in_any_order(array)) stream_.skip(array.skip);
 }
 
 int ArraySlabs::next() {
     first_ += layers_;
-    layers_ = std::min(thickness_, array_.counts.z - first_);
+    layers_ = std::min(thickness_, end_ - first_);
     if (layers_ == 0) return 0;
     const size_t each = bytes_of(array_.type);
     const size_t layer = size_t(array_.counts.x) * size_t(array_.counts.y) * each;

@@ -2,11 +2,13 @@
 // The values of an array, a slab of cells at a time, from plain or compressed files.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/ranges.hpp"
 #include "runtime/io/arrays/byte_decoder.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
 
@@ -34,7 +36,10 @@ class ByteStream {
 class ArraySlabs {
   public:
     /// The array must have passed check_array().
-    ArraySlabs(const CellArray& array, const InputFile& data, int thickness);
+    ArraySlabs(const CellArray& array, const InputFile& data, int thickness)
+        : ArraySlabs(array, data, thickness, 0, array.counts.z) {}
+    /// The layers from `first` to one before `end`; `first` is 0 unless layers are in_any_order().
+    ArraySlabs(const CellArray& array, const InputFile& data, int thickness, int first, int end);
 
     /// Reads the next slab. Returns how many layers it has; 0 after the last.
     int next();
@@ -50,10 +55,27 @@ class ArraySlabs {
     const InputFile& file_;
     ByteStream stream_;
     int thickness_;
-    int first_ = 0, layers_ = 0;
+    int first_, end_;
+    int layers_ = 0;
     size_t plane_ = 0;  ///< bytes of a slab, or of one of its channels where they are apart
     std::vector<std::byte> bytes_;
 };
+
+/// Whether a layer can be read without those before it.
+inline bool in_any_order(const CellArray& array) {
+    return array.encoding == DataEncoding::raw;
+}
+
+/// Calls `use(first, end)` for ranges that cover the array's layers, at the same time where they
+/// can be read in any order. Ranges begin at multiples of `thickness`.
+template <class Use>
+void for_layer_ranges(const CellArray& array, int thickness, const Use& use) {
+    const int layers = array.counts.z;
+    if (!in_any_order(array)) return use(0, layers);
+    for_ranges((layers + thickness - 1) / thickness, [&](int first, int end) {
+        use(first * thickness, std::min(end * thickness, layers));
+    });
+}
 
 /// Calls `use` with the first value as a pointer of its type.
 template <class Use>

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// array -> the field of a smooth surface. Nodes are the middles of the array's cells.
+// array -> the field of a smooth surface. Nodes are the middles of cells. The file is read three
+// times, layer by layer: for sides, for steps, and for values close to the surface.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "runtime/grid/brick_cells.hpp"
+#include "runtime/io/arrays/array_sides.hpp"
+#include "runtime/io/arrays/array_steps.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
@@ -11,23 +15,25 @@
 namespace voxelume {
 namespace {
 
-constexpr int kPad = 4;       // nodes around the array, as around other models
-constexpr size_t kReach = 4;  // nodes from a crossing that gradients and resampling read
+constexpr int kPad = 4;    // nodes around the array, as around other models
+constexpr int kReach = 4;  // nodes from a crossing that gradients and resampling read
 constexpr uint64_t kMaxCells = uint64_t{1} << 30;
 constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // few bytes tell many of them
-constexpr float kMaxUnits = 32767;
-constexpr double kMaxStep = 1e37;  // of which floats hold sums
+constexpr int16_t kMaxUnits = 32767;
 
-/// How far a value is below another one. Infinity stays what it is.
-float step_between(double high, double low) {
-    const double step = high - low;
-    return float(std::isfinite(step) ? std::clamp(step, -kMaxStep, kMaxStep) : step);
-}
+/// Where the model has the cells along one of the file's axes.
+struct AxisPlaces {
+    int axis = 0;  ///< of the model
+    bool is_mirrored = false;
+    std::vector<int> node;      ///< of the model, by the file's cell
+    std::vector<size_t> brick;  ///< likewise: what it adds to the number of the brick
+    std::vector<size_t> cell;   ///< and to the cell in it
+};
 
 class ArraySurface {
   public:
     ArraySurface(const CellArray& array, const VoxelValues& values)
-        : array_(array), values_(values), file_(array.data) {
+        : array_(array), file_(array.data), values_(array, values) {
         if (array.is_color())
             file_.refuse("it holds colours, which have no surface: give it \"cubes\"");
         if (values.each_label)
@@ -40,229 +46,250 @@ class ArraySurface {
                 fmt::format("it has {} compressed cells; a smooth surface runs through {} "
                             "at most: save it raw",
                             array.cells(), kMaxCompressedCells));
-        frame_.size = array.size() + 2 * kPad;
-        check_voxel_span(glm::dvec3(frame_.size), file_);
-        frame_.voxel_edge = array.voxel_edge;
-        frame_.origin = array.first_corner + array.voxel_edge * (0.5 - kPad);
-        for (size_t axis = 0; axis < 3; ++axis) make_offsets(int(axis));
+        model_.surface = Surface::smooth;
+        model_.frame.size = array.size() + 2 * kPad;
+        check_voxel_span(glm::dvec3(model_.frame.size), file_);
+        model_.frame.voxel_edge = array.voxel_edge;
+        model_.frame.origin = array.first_corner + array.voxel_edge * (0.5 - kPad);
+        for (int axis = 0; axis < 3; ++axis) make_places(axis);
     }
 
     VoxelModel read() {
-        measure();
-        if (!may_have_surface()) file_.refuse(fault());
-        load();
-        find_crossings();
+        sides_ = sides_of_array(array_, file_, values_);
+        if (!values_.are_crossed(sides_.min, sides_.max)) file_.refuse(fault());
+        find_close();
+        measure_steps();
+        // A body that fills the array has no surface but its ends.
+        if (steepest_ == 0 && has_cut_)
+            steepest_ = std::max(SurfaceValues::step_between(sides_.max, sides_.min), 1e-30f);
         if (!(steepest_ > 0)) file_.refuse(fault());
-        VoxelModel model;
-        model.surface = Surface::smooth;
-        model.frame = frame_;
-        number_bricks(model);
-        fill(model);
-        return model;
+        number_bricks();
+        close_.dilate(kReach);
+        fill();
+        return std::move(model_);
     }
 
   private:
-    void make_offsets(int axis) {
-        const int from = array_.axis[axis], count = array_.counts[from];
-        const std::array<size_t, 3> stride = {1, size_t(array_.counts.x),
-                                              size_t(array_.counts.x) * size_t(array_.counts.y)};
-        for (int node = 0; node < (frame_.size[axis] / kBrickSize + 1) * kBrickSize; ++node) {
-            const int cell = std::clamp(node - kPad, 0, count - 1);
-            const int at = array_.sign[axis] < 0 ? count - 1 - cell : cell;
-            offsets_[size_t(axis)].push_back(size_t(at) * stride[size_t(from)]);
-            is_pad_[size_t(axis)].push_back(node - kPad != cell);
+    void make_places(int axis) {
+        AxisPlaces& places = places_[size_t(array_.axis[axis])];
+        const int count = array_.counts[array_.axis[axis]];
+        const glm::ivec3 bricks = model_.frame.bricks();
+        const std::array<size_t, 3> stride = {1, size_t(bricks.x),
+                                              size_t(bricks.x) * size_t(bricks.y)};
+        places.axis = axis;
+        places.is_mirrored = array_.sign[axis] < 0;
+        for (int cell = 0; cell < count; ++cell) {
+            const int node = kPad + (places.is_mirrored ? count - 1 - cell : cell);
+            places.node.push_back(node);
+            places.brick.push_back(size_t(node / kBrickSize) * stride[size_t(axis)]);
+            places.cell.push_back(size_t(node % kBrickSize) << 4 * axis);
         }
     }
 
     std::string fault() const {
-        const std::string where =
-            values_.label ? fmt::format("the label {}", *values_.label)
-            : values_.iso || is_float(array_.type)
-                ? fmt::format("the value {} (\"iso\")", values_.iso.value_or(0.5))
-                : std::string("values that aren't 0");
-        return fmt::format("has no surface at {}: its values go from {:g} to {:g}", where, min_,
-                           max_);
+        return fmt::format("has no surface at {}: its values go from {:g} to {:g}",
+                           values_.in_words(), sides_.min, sides_.max);
     }
 
-    /// Whether what is looked for is one value, or all but 0.
-    bool is_set() const { return values_.label || (!values_.iso && !is_float(array_.type)); }
+    /// Whether cell `i` along the file's axis has a next one.
+    bool has_next(int axis, int i) const { return i >= 0 && i + 1 < array_.counts[axis]; }
 
-    /// Calls `use` with the number of each cell and its value.
-    template <class Use>
-    void for_each_value(const Use& use) const {
-        ArraySlabs slabs(array_, file_, 1);
-        const size_t layer = size_t(array_.counts.x) * size_t(array_.counts.y);
-        while (slabs.next() > 0) {
-            const size_t first = size_t(slabs.first()) * layer;
-            with_type(array_.type, slabs.values(), [&](const auto* values) {
-                for (size_t i = 0; i < layer; ++i)
-                    use(first + i, array_.slope * double(values[i]) + array_.intercept);
-            });
-        }
-    }
-
-    /// Finds the range of the values, before memory is taken for all of them.
-    void measure() {
-        min_ = INFINITY;
-        max_ = -INFINITY;
-        for_each_value([&](size_t, double v) {
-            min_ = std::min(min_, v);
-            max_ = std::max(max_, v);
-        });
-    }
-
-    /// False where no value in the range lies inside.
-    bool may_have_surface() const {
-        if (values_.label) return min_ <= *values_.label && *values_.label <= max_;
-        return is_set() ? min_ != 0 || max_ != 0 : max_ > values_.iso.value_or(0.5);
-    }
-
-    /// Reads the values as how far they are below what is looked for.
-    void load() {
-        field_.resize(array_.cells());
-        const bool is_one = is_set();
-        const double iso = values_.iso.value_or(0.5), label = values_.label.value_or(0);
-        for_each_value([&](size_t cell, double v) {
-            field_[cell] = is_one ? ((v == label) == values_.label.has_value() ? -0.5f : 0.5f)
-                                  : step_between(iso, v);
-        });
-    }
-
-    size_t index(int x, int y, int z) const {
-        return offsets_[0][size_t(x)] + offsets_[1][size_t(y)] + offsets_[2][size_t(z)];
-    }
-    /// The node's value in the array.
-    float at(int x, int y, int z) const { return field_[index(x, y, z)]; }
-
-    /// Widens what is close to the surface by kReach cells along each axis. Farther nodes store
-    /// nothing but their side, however flat the values are there.
-    void spread() {
-        const std::array<size_t, 3> count = {size_t(array_.counts.x), size_t(array_.counts.y),
-                                             size_t(array_.counts.z)};
-        size_t stride = 1;
-        for (size_t axis = 0; axis < 3; stride *= count[axis++])
-            for (size_t outer = 0; outer < field_.size(); outer += stride * count[axis])
-                for (size_t inner = 0; inner < stride; ++inner)
-                    spread_row(outer + inner, stride, count[axis]);
-    }
-
-    void spread_row(size_t first, size_t stride, size_t count) {
-        constexpr size_t kNever = size_t{1} << 40;
-        row_.assign(count, 0);
-        size_t since = kNever, until = kNever;
-        for (size_t i = 0; i < count; ++i) {
-            since = is_close_[first + i * stride] ? 0 : since + 1;
-            row_[i] = since <= kReach;
-        }
-        for (size_t i = count; i-- > 0;) {
-            until = is_close_[first + i * stride] ? 0 : until + 1;
-            if (row_[i] || until <= kReach) is_close_[first + i * stride] |= 2;
-        }
-        for (size_t i = 0; i < count; ++i) {
-            uint8_t& close = is_close_[first + i * stride];
-            close = close != 0;
-        }
-    }
-
-    /// Notes the steepest step through the surface, and the bricks around all of them.
-    void find_crossings() {
-        is_near_.assign(bricks_of(frame_), false);
-        is_close_.assign(field_.size(), 0);
-        const double shortest =
-            std::min({frame_.voxel_edge.x, frame_.voxel_edge.y, frame_.voxel_edge.z});
-        const glm::vec3 weight(shortest / frame_.voxel_edge);
-        const glm::ivec3 end = array_.size() + kPad;
-        for (int z = kPad; z < end.z; ++z)
-            for (int y = kPad; y < end.y; ++y) {
-                const bool is_edge = y == kPad || y + 1 == end.y || z == kPad || z + 1 == end.z;
-                for (int x = kPad; x < end.x; ++x) {
-                    const float f = at(x, y, z);
-                    float step = 0;
-                    const auto cross = [&](float other, float scale) {
-                        if ((f < 0) != (other < 0) && std::isfinite(f) && std::isfinite(other))
-                            step = std::max(step, std::abs(f - other) * scale);
-                    };
-                    cross(at(x + 1, y, z), weight.x);
-                    cross(at(x, y + 1, z), weight.y);
-                    cross(at(x, y, z + 1), weight.z);
-                    const bool is_cut = f < 0 && (is_edge || x == kPad || x + 1 == end.x);
-                    if (step == 0 && !is_cut) continue;
-                    has_cut_ |= is_cut;
-                    steepest_ = std::max(steepest_, step);
-                    mark({x, y, z});
-                    is_close_[index(x, y, z)] = 1;
+    /// Marks the cells at the surface: of two neighbours, the one that comes first in the model,
+    /// and what lies inside where the array ends.
+    void find_close() {
+        close_ = CellBits(array_.counts);
+        std::atomic<bool> has_cut = false;
+        for_ranges(array_.counts.z, [&](int first, int end) {
+            std::vector<uint64_t> pairs(close_.words());
+            for (int z = first; z < end; ++z)
+                for (int y = 0; y < array_.counts.y; ++y) {
+                    find_close_pairs(y, z, pairs);
+                    if (find_cut(y, z)) has_cut = true;
                 }
-            }
-        spread();
-        // A body that fills the array has no surface but its ends.
-        if (steepest_ == 0 && has_cut_) steepest_ = std::max(step_between(max_, min_), 1e-30f);
+        });
+        has_cut_ = has_cut;
+        is_near_.assign(bricks_of(model_.frame), false);
+        for (int z = 0; z < array_.counts.z; ++z)
+            for (int y = 0; y < array_.counts.y; ++y)
+                for (size_t word = 0; word < close_.words(); ++word)
+                    for_each_bit(close_.row(y, z)[word], word, [&](int x) { mark(x, y, z); });
     }
 
-    void mark(const glm::ivec3& node) {
-        const glm::ivec3 low = glm::max(node - int(kReach), 0) / kBrickSize,
-                         high = glm::min(node + 1 + int(kReach), frame_.size) / kBrickSize,
-                         bricks = frame_.bricks();
-        for (int z = low.z; z <= high.z; ++z)
-            for (int y = low.y; y <= high.y; ++y)
-                for (int x = low.x; x <= high.x; ++x)
-                    is_near_[size_t(x) + size_t(bricks.x) * size_t(y + bricks.y * z)] = true;
+    void find_close_pairs(int y, int z, std::vector<uint64_t>& pairs) {
+        uint64_t* close = close_.row(y, z);
+        sides_.pairs(0, y, z, pairs.data());
+        for (size_t i = 0; i < pairs.size(); ++i)
+            close[i] = !places_[0].is_mirrored ? pairs[i]
+                       : i == 0                ? pairs[i] << 1
+                                               : pairs[i] << 1 | pairs[i - 1] >> 63;
+        for (int axis = 1; axis < 3; ++axis) {
+            const int back = places_[size_t(axis)].is_mirrored ? 1 : 0;
+            const int from_y = axis == 1 ? y - back : y, from_z = axis == 2 ? z - back : z;
+            if (!has_next(axis, axis == 1 ? from_y : from_z)) continue;
+            sides_.pairs(axis, from_y, from_z, pairs.data());
+            for (size_t i = 0; i < pairs.size(); ++i) close[i] |= pairs[i];
+        }
     }
 
-    void number_bricks(VoxelModel& model) const {
-        model.slots.resize(is_near_.size());
+    /// Whether the body goes on where the array ends.
+    bool find_cut(int y, int z) {
+        const bool is_edge =
+            y == 0 || y + 1 == array_.counts.y || z == 0 || z + 1 == array_.counts.z;
+        const uint64_t* inside = sides_.inside.row(y, z);
+        uint64_t* close = close_.row(y, z);
+        const size_t last = size_t(array_.counts.x - 1) / 64;
+        bool has_cut = false;
+        for (size_t i = 0; i <= last; i += is_edge || last == 0 ? 1 : last) {
+            uint64_t ends = is_edge ? ~uint64_t{0} : 0;
+            if (i == 0) ends |= 1;
+            if (i == last) ends |= uint64_t{1} << (array_.counts.x - 1) % 64;
+            close[i] |= inside[i] & ends;
+            has_cut |= (inside[i] & ends) != 0;
+        }
+        return has_cut;
+    }
+
+    /// Marks the bricks whose nodes lie near a cell at the surface.
+    void mark(int x, int y, int z) {
+        glm::ivec3 node;
+        node[places_[0].axis] = places_[0].node[size_t(x)];
+        node[places_[1].axis] = places_[1].node[size_t(y)];
+        node[places_[2].axis] = places_[2].node[size_t(z)];
+        const glm::ivec3 low = glm::max(node - kReach, 0) / kBrickSize,
+                         high = glm::min(node + 1 + kReach, model_.frame.size) / kBrickSize,
+                         bricks = model_.frame.bricks();
+        for (int k = low.z; k <= high.z; ++k)
+            for (int j = low.y; j <= high.y; ++j)
+                for (int i = low.x; i <= high.x; ++i)
+                    is_near_[size_t(i) + size_t(bricks.x) * size_t(j + bricks.y * k)] = true;
+    }
+
+    /// Finds the steepest step through the surface, per shortest edge of a voxel.
+    void measure_steps() {
+        const glm::dvec3 edge = model_.frame.voxel_edge;
+        const glm::vec3 by_axis(std::min({edge.x, edge.y, edge.z}) / edge);
+        glm::vec3 weight;
+        for (int axis = 0; axis < 3; ++axis) weight[axis] = by_axis[places_[size_t(axis)].axis];
+        steepest_ = steepest_step(array_, file_, values_, sides_, weight);
+    }
+
+    /// The cell of the file at a node, or the nearest one.
+    glm::ivec3 cell_at(const glm::ivec3& node) const {
+        glm::ivec3 cell;
+        for (int i = 0; i < 3; ++i) {
+            const AxisPlaces& places = places_[size_t(i)];
+            const int count = array_.counts[i];
+            const int at = std::clamp(node[places.axis] - kPad, 0, count - 1);
+            cell[i] = places.is_mirrored ? count - 1 - at : at;
+        }
+        return cell;
+    }
+    glm::ivec3 nearest_cell_node(const glm::ivec3& node) const {
+        return glm::clamp(node, glm::ivec3(kPad), array_.size() + (kPad - 1));
+    }
+    bool is_inside(const glm::ivec3& node) const {
+        const glm::ivec3 cell = cell_at(node);
+        return sides_.inside(cell.x, cell.y, cell.z);
+    }
+
+    void number_bricks() {
+        model_.slots.resize(is_near_.size());
         for (size_t brick = 0; brick < is_near_.size(); ++brick) {
-            const glm::ivec3 first = brick_corner(model.frame, brick);
             if (is_near_[brick]) {
-                model.slots[brick] = uint32_t(model.coordinates.size());
-                model.coordinates.push_back(uint32_t(brick));
-            } else {
-                model.slots[brick] =
-                    units(first.x, first.y, first.z) < 0 ? kBrickInside : kBrickOutside;
+                model_.slots[brick] = uint32_t(model_.coordinates.size());
+                model_.coordinates.push_back(uint32_t(brick));
+                continue;
+            }
+            const glm::ivec3 first = brick_corner(model_.frame, brick);
+            const bool is_pad = first != nearest_cell_node(first);
+            model_.slots[brick] = !is_pad && is_inside(first) ? kBrickInside : kBrickOutside;
+        }
+        check_stored_bricks(model_.coordinates.size(), file_);
+    }
+
+    /// The distance that a node stores: the steepest step is a voxel long.
+    int16_t units(float step) const {
+        const float whole = step < 0 ? -kMaxUnits : kMaxUnits;
+        return int16_t(std::lround(
+            std::isfinite(step) ? std::clamp(step / steepest_ * float(kDistanceUnitsPerVoxel),
+                                             -float(kMaxUnits), float(kMaxUnits))
+                                : whole));
+    }
+
+    void fill() {
+        model_.distance.resize(model_.coordinates.size() * kVoxelsPerBrick);
+        for_layer_ranges(array_, 1, [&](int first, int end) {
+            ArraySlabs slabs(array_, file_, 1, first, end);
+            while (slabs.next() > 0)
+                with_type(array_.type, slabs.values(), [&](const auto* layer) {
+                    for (int y = 0; y < array_.counts.y; ++y)
+                        fill_row(layer + size_t(y) * size_t(array_.counts.x), y, slabs.first());
+                });
+        });
+        for_ranges(int(model_.coordinates.size()), [&](int first, int end) {
+            for (int slot = first; slot < end; ++slot) fill_pad(size_t(slot));
+        });
+    }
+
+    /// Far from the surface, nodes store nothing but their side, however flat the values are there.
+    template <class Value>
+    void fill_row(const Value* row, int y, int z) {
+        const AxisPlaces &along = places_[0], &y_places = places_[1], &z_places = places_[2];
+        const size_t brick = y_places.brick[size_t(y)] + z_places.brick[size_t(z)];
+        const size_t cell = y_places.cell[size_t(y)] + z_places.cell[size_t(z)];
+        const uint64_t *close = close_.row(y, z), *inside = sides_.inside.row(y, z);
+        const size_t width = size_t(array_.counts.x);
+        for (size_t x = 0; x < width;) {
+            const size_t number = brick + along.brick[x], at = along.brick[x];
+            if (!is_near_[number]) {
+                while (x < width && along.brick[x] == at) ++x;
+                continue;
+            }
+            int16_t* out = model_.distance.data() + model_.slots[number] * kVoxelsPerBrick + cell;
+            for (; x < width && along.brick[x] == at; ++x) {
+                const bool is_close = close[x / 64] >> x % 64 & 1;
+                const bool is_inside = inside[x / 64] >> x % 64 & 1;
+                out[along.cell[x]] = is_close    ? units(values_.step(row[x]))
+                                     : is_inside ? int16_t(-kMaxUnits)
+                                                 : kMaxUnits;
             }
         }
-        check_stored_bricks(model.coordinates.size(), file_);
     }
 
-    /// The distance that the node stores: the steepest step is a voxel long. Outside of the array
-    /// the values are mirrored, and no farther than a voxel, so that the end is found.
-    int16_t units(int x, int y, int z) const {
-        const float f = at(x, y, z);
-        const float whole = f < 0 ? -kMaxUnits : kMaxUnits;
-        const float scaled =
-            is_close_[index(x, y, z)] && std::isfinite(f)
-                ? std::clamp(f / steepest_ * float(kDistanceUnitsPerVoxel), -kMaxUnits, kMaxUnits)
-                : whole;
-        const bool is_pad = is_pad_[0][size_t(x)] || is_pad_[1][size_t(y)] || is_pad_[2][size_t(z)];
-        if (is_pad && scaled < 0)
-            return int16_t(std::lround(std::min(-scaled, float(kDistanceUnitsPerVoxel))));
-        return int16_t(std::lround(scaled));
-    }
-
-    void fill(VoxelModel& model) const {
-        model.distance.resize(model.coordinates.size() * kVoxelsPerBrick);
-        for (size_t slot = 0; slot < model.coordinates.size(); ++slot) {
-            const glm::ivec3 first = brick_corner(model.frame, model.coordinates[slot]);
-            int16_t* out = model.distance.data() + slot * kVoxelsPerBrick;
-            for (int z = 0; z < kBrickSize; ++z)
-                for (int y = 0; y < kBrickSize; ++y)
-                    for (int x = 0; x < kBrickSize; ++x)
-                        *out++ = units(first.x + x, first.y + y, first.z + z);
+    /// Outside of the array the values are mirrored, and no farther than a voxel, so that the end
+    /// is found.
+    void fill_pad(size_t slot) {
+        const glm::ivec3 corner = brick_corner(model_.frame, model_.coordinates[slot]);
+        const glm::ivec3 top = corner + (kBrickSize - 1);
+        if (corner == nearest_cell_node(corner) && top == nearest_cell_node(top)) return;
+        int16_t* out = model_.distance.data() + slot * kVoxelsPerBrick;
+        for (size_t i = 0; i < kVoxelsPerBrick; ++i) {
+            const glm::ivec3 node = corner + cell_in_brick(i), from = nearest_cell_node(node);
+            if (node == from) continue;
+            const int value = stored(from);
+            out[i] = int16_t(value < 0 ? std::min(-value, int(kDistanceUnitsPerVoxel)) : value);
         }
+    }
+
+    int stored(const glm::ivec3& node) const {
+        const glm::ivec3 b = node / kBrickSize, in = node % kBrickSize,
+                         bricks = model_.frame.bricks();
+        const size_t brick = size_t(b.x) + size_t(bricks.x) * size_t(b.y + bricks.y * b.z);
+        if (!is_near_[brick]) return is_inside(node) ? -kMaxUnits : kMaxUnits;
+        return model_
+            .distance[model_.slots[brick] * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8)];
     }
 
     const CellArray& array_;
-    const VoxelValues& values_;
     const InputFile file_;
-    GridFrame frame_;
-    std::array<std::vector<size_t>, 3> offsets_;  ///< by the model's axis and node
-    std::array<std::vector<char>, 3> is_pad_;     ///< likewise
-    std::vector<float> field_;                    ///< in the file's order; negative inside
-    std::vector<bool> is_near_;                   ///< by brick
-    std::vector<uint8_t> is_close_;               ///< within kReach of the surface, as field_
-    std::vector<uint8_t> row_;                    ///< of is_close_
-    float steepest_ = 0;                          ///< step through the surface, per shortest edge
-    bool has_cut_ = false;                        ///< the body goes on where the array ends
-    double min_ = 0, max_ = 0;
+    const SurfaceValues values_;
+    VoxelModel model_;
+    std::array<AxisPlaces, 3> places_;  ///< by the file's axes
+    ArraySides sides_;
+    CellBits close_;                ///< within kReach of the surface
+    std::vector<uint8_t> is_near_;  ///< by brick
+    float steepest_ = 0;
+    bool has_cut_ = false;  ///< the body goes on where the array ends
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
@@ -124,19 +125,25 @@ void count_bytes(const uint8_t* values, size_t count, std::vector<uint64_t>& cou
 /// How often each code of 8 or 16 bits occurs. 512^3 bytes take 40 ms, and one by one 1 s.
 std::vector<uint64_t> count_codes(const CellArray& array) {
     const InputFile file(array.data);
-    ArraySlabs slabs(array, file, 1);
     const size_t layer = size_t(array.counts.x) * size_t(array.counts.y);
     const bool is_byte = bytes_of(array.type) == 1;
-    std::vector<uint64_t> counts(is_byte ? 256 : 65536);
-    while (slabs.next() > 0) {
-        if (is_byte) {
-            count_bytes(reinterpret_cast<const uint8_t*>(slabs.values()), layer, counts);
-            continue;
+    std::vector<uint64_t> all(is_byte ? 256 : 65536);
+    std::mutex mutex;
+    for_layer_ranges(array, 1, [&](int first, int end) {
+        ArraySlabs slabs(array, file, 1, first, end);
+        std::vector<uint64_t> counts(all.size());
+        while (slabs.next() > 0) {
+            if (is_byte) {
+                count_bytes(reinterpret_cast<const uint8_t*>(slabs.values()), layer, counts);
+                continue;
+            }
+            const auto* codes = reinterpret_cast<const uint16_t*>(slabs.values());
+            for (size_t i = 0; i < layer; ++i) ++counts[codes[i]];
         }
-        const auto* codes = reinterpret_cast<const uint16_t*>(slabs.values());
-        for (size_t i = 0; i < layer; ++i) ++counts[codes[i]];
-    }
-    return counts;
+        const std::scoped_lock lock(mutex);
+        for (size_t code = 0; code < all.size(); ++code) all[code] += counts[code];
+    });
+    return all;
 }
 
 /// Calls `use` with the value of each code that occurs, and how often.

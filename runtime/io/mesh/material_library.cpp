@@ -148,7 +148,7 @@ std::string bytes_of(const std::filesystem::path& path) {
     if (file.size() > kMaxBytes) return {};
     std::string bytes(file.size(), '\0');
     file.read(0, bytes.data(), bytes.size());
-    return bytes;
+    return is_utf16(bytes) ? utf8_of_utf16(bytes) : bytes;
 }
 
 }  // namespace

@@ -283,6 +283,10 @@ class ObjParser {
 }  // namespace
 
 Mesh parse_obj(const MeshSource& source) {
+    if (is_utf16(source.bytes)) {
+        const std::string text = utf8_of_utf16(source.bytes);
+        return parse_obj({text, source.name});
+    }
     source.require_text();
     return ObjParser(source).parse();
 }

@@ -62,6 +62,10 @@ std::vector<uint8_t> values_of(const draco::Mesh& mesh, const DracoAttribute& wa
     if (attribute->num_components() != wanted.components)
         refuse(fmt::format("attribute {} of its Draco data has {} components, and its accessor {}",
                            wanted.id, attribute->num_components(), wanted.components));
+    // glTF has none, and the library reads damaged ones as what no truth value can be.
+    if (attribute->data_type() == draco::DT_BOOL)
+        refuse(
+            fmt::format("attribute {} of its Draco data has truth values, not numbers", wanted.id));
     switch (wanted.component_type) {
         case 5120:
             return values_of<int8_t>(*attribute, mesh.num_points(), wanted);

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <climits>
+#include <cstdint>
+#include <glm/vector_relational.hpp>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
@@ -48,6 +50,25 @@ struct CellBox {
     }
 };
 
+/// The distance at a node, in units, and as far as they go where none is stored.
+int distance_at(const VoxelModel& model, const glm::ivec3& node) {
+    const glm::ivec3 bricks = model.frame.bricks(), brick = node / kBrickSize,
+                     in = node % kBrickSize;
+    if (glm::any(glm::greaterThanEqual(brick, bricks))) return INT16_MAX;
+    const uint32_t slot =
+        model.slots[size_t(brick.x) + size_t(bricks.x) * size_t(brick.y + bricks.y * brick.z)];
+    if (slot >= kBrickInside) return slot == kBrickInside ? INT16_MIN : INT16_MAX;
+    return model.distance[slot * kVoxelsPerBrick + voxel_in_brick(in)];
+}
+
+/// Has the sign of the distance at a voxel's middle.
+int sum_of_corners(const VoxelModel& model, const glm::ivec3& voxel) {
+    int sum = 0;
+    for (int corner = 0; corner < 8; ++corner)
+        sum += distance_at(model, voxel + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2));
+    return sum;
+}
+
 }  // namespace
 
 glm::ivec3 size_of_cubes(const VoxelModel& model) {
@@ -68,6 +89,24 @@ glm::ivec3 size_of_cubes(const VoxelModel& model) {
     }
     if (box.high.x < box.low.x) refuse_empty();
     return box.high - box.low + 1;
+}
+
+VoxelModel cubes_inside(const VoxelModel& smooth) {
+    VoxelModel cubes;
+    cubes.surface = Surface::cubes;
+    cubes.set = VoxelSet::solid;
+    cubes.frame = smooth.frame;
+    cubes.slots = smooth.slots;
+    cubes.coordinates = smooth.coordinates;
+    cubes.occupancy.resize(smooth.coordinates.size() * kLeavesPerBrick);
+    for (size_t slot = 0; slot < smooth.coordinates.size(); ++slot)
+        for (size_t i = 0; i < kVoxelsPerBrick; ++i) {
+            const glm::ivec3 in = cell_in_brick(i);
+            if (sum_of_corners(smooth, brick_corner(smooth.frame, smooth.coordinates[slot]) + in) <
+                0)
+                cubes.occupancy[slot * kLeavesPerBrick + leaf_in_brick(in)] |= bit_in_leaf(in);
+        }
+    return cubes;
 }
 
 CubeList cube_list(const VoxelModel& model) {

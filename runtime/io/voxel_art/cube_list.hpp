@@ -23,6 +23,9 @@ struct CubeList {
 /// Error::input for a model without voxels.
 glm::ivec3 size_of_cubes(const VoxelModel& model);
 
+/// The inside of a smooth model as cubes, without its colours: the voxels whose middles lie inside.
+VoxelModel cubes_inside(const VoxelModel& smooth);
+
 /// The voxels of cubes, with those of bricks that are full. Throws Error::limit for more than 2^28.
 CubeList cube_list(const VoxelModel& model);
 

@@ -114,6 +114,14 @@ void VoxCells::allocate() {
     cells_.resize(size_t(count_) * kVoxelsPerBrick);
 }
 
+std::future<void> VoxCells::take_memory(uint64_t voxels, VoxelModel& model) const {
+    if (voxels < cells_.size() / 2) return {};
+    reserve_in_huge_pages(model.colors, cells_.size());
+    return std::async([&colors = model.colors] {
+        populate_pages(colors.data(), colors.capacity() * sizeof(uint32_t));
+    });
+}
+
 /// Each row of the place depends on one coordinate alone.
 VoxCells::Steps VoxCells::steps_of(const VoxStanding& standing) const {
     const CellMap map = cell_map(standing);
@@ -216,7 +224,8 @@ void VoxCells::fill(const std::array<uint32_t, 256>& colors,
         reserve_in_huge_pages(model.attributes, bricks.size() * kVoxelsPerBrick);
         for (const uint8_t* cells : bricks) append_values(groups, cells, model.attributes);
     });
-    reserve_in_huge_pages(model.colors, bricks.size() * kVoxelsPerBrick);
+    if (model.colors.capacity() == 0)
+        reserve_in_huge_pages(model.colors, bricks.size() * kVoxelsPerBrick);
     for (const uint8_t* cells : bricks) append_values(colors, cells, model.colors);
     marked.get();
 }

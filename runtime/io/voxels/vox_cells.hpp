@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <future>
 #include <vector>
 
 #include "runtime/geometry/voxel_model.hpp"
@@ -37,6 +38,10 @@ class VoxCells {
     /// Makes room for a box of cells. Throws Error::input for more bricks than a model may have.
     void add_box(const CellBox& box);
     void allocate();
+
+    /// Takes memory for the model's colours while the voxels are read, if so many voxels fill most
+    /// of the bricks. 16.8 M voxels take 45 instead of 57 ms.
+    std::future<void> take_memory(uint64_t voxels, VoxelModel& model) const;
 
     /// Sets the cells of a model's voxels to their palette indices. Throws Error::input for voxels
     /// outside of their model.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <future>
 #include <glm/common.hpp>
 
 #include "kernels/shared/voxel.h"
@@ -29,6 +30,12 @@ std::vector<VoxStanding> standing_in(const VoxFile& vox, int part, const InputFi
     return all;
 }
 
+uint64_t voxels_of(const std::vector<VoxStanding>& all) {
+    uint64_t voxels = 0;
+    for (const VoxStanding& standing : all) voxels += standing.model->voxels;
+    return voxels;
+}
+
 }  // namespace
 
 VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
@@ -47,11 +54,12 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
     VoxCells cells(box, file);
     for (const VoxStanding& standing : all) cells.add_box(box_of(standing));
     cells.allocate();
+    VoxelModel model;
+    const std::future<void> memory = cells.take_memory(voxels_of(all), model);
     // Where objects overlap, the earlier one is seen, as in scenes.
     for (auto standing = all.rbegin(); standing != all.rend(); ++standing)
         cells.add_voxels(*standing);
 
-    VoxelModel model;
     model.surface = Surface::cubes;
     std::array<uint32_t, 256> colors{}, groups{};
     for (size_t i = 0; i < colors.size(); ++i) colors[i] = vox.palette[i] & 0xFFFFFF;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bit for each cell of an array, in the file's order. A row along the file's first axis has words
+// of its own: cell x is bit x % 64 of word x / 64, and bits beyond the last cell are 0.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace voxelume {
+
+class CellBits {
+  public:
+    CellBits() = default;
+    explicit CellBits(const glm::ivec3& counts);
+
+    size_t words() const { return words_; }  ///< of a row
+    uint64_t* row(int y, int z) { return bits_.data() + place(y, z); }
+    const uint64_t* row(int y, int z) const { return bits_.data() + place(y, z); }
+    bool operator()(int x, int y, int z) const { return row(y, z)[x / 64] >> (x % 64) & 1; }
+
+    /// Sets a row from a byte for each cell, 0 or 1. `bytes` goes on to a multiple of 64, with 0.
+    void set_row(int y, int z, const uint8_t* bytes);
+
+    /// Sets all cells that are no farther from one that is set than `reach` cells, at most 63,
+    /// along each axis.
+    void dilate(int reach);
+
+  private:
+    size_t place(int y, int z) const {
+        return (size_t(y) + size_t(counts_.y) * size_t(z)) * words_;
+    }
+    void dilate_row(int reach, const uint64_t* from, uint64_t* to) const;
+
+    glm::ivec3 counts_{0};
+    size_t words_ = 0;
+    std::vector<uint64_t> bits_;
+};
+
+/// Calls `use` with the number of each bit of a row that is 1, in order.
+template <class Use>
+void for_each_bit(uint64_t word, size_t number, const Use& use) {
+    for (; word != 0; word &= word - 1) use(int(64 * number) + __builtin_ctzll(word));
+}
+
+}  // namespace voxelume
