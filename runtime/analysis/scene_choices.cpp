@@ -76,7 +76,8 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
 }
 
 /// Copies of a mesh from which on they are instances: in the world, each is voxelized anew. The
-/// pictures are the same, and a first frame takes less time and memory for any mesh.
+/// pictures differ in rounding alone, and a first frame takes less time and memory, but for meshes
+/// of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;
 
 /// The number of objects that show each model as `exact` meshes that light doesn't go through or
