@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSunAside = 42, kSunHeight = 44;  // degrees: left of the observer, above
 constexpr double kSunSpread = 2.5;                 // degrees, half of the angle that the sun fills
-constexpr int kSunSpots = 12;
+constexpr int kSunSpots = 24;  // of 12, each drew a shadow of its own behind thin things
 constexpr glm::dvec3 kSunColor{1, 0.97, 0.92}, kSkyColor{0.9, 0.95, 1};
 constexpr double kSun = 0.92;  // irradiance of a plane that faces it
 constexpr double kSky = 0.5;   // radiance

@@ -126,7 +126,7 @@ TEST(CellBits, CellsSpreadAlongEachAxis) {
                         return std::abs(cell.x - x) <= 2 && std::abs(cell.y - y) <= 2 &&
                                std::abs(cell.z - z) <= 2;
                     });
-                    ASSERT_EQ(bits(x, y, z), is_near) << x << ' ' << y << ' ' << z;
+                    ASSERT_EQ(bits({x, y, z}), is_near) << x << ' ' << y << ' ' << z;
                 }
     }
 }

@@ -187,10 +187,7 @@ class ArraySurface {
     glm::ivec3 nearest_cell_node(const glm::ivec3& node) const {
         return glm::clamp(node, glm::ivec3(kPad), array_.size() + (kPad - 1));
     }
-    bool is_inside(const glm::ivec3& node) const {
-        const glm::ivec3 cell = cell_at(node);
-        return sides_.inside(cell.x, cell.y, cell.z);
-    }
+    bool is_inside(const glm::ivec3& node) const { return sides_.inside(cell_at(node)); }
 
     void number_bricks() {
         model_.slots.resize(is_near_.size());

@@ -17,7 +17,9 @@ class CellBits {
     size_t words() const { return words_; }  ///< of a row
     uint64_t* row(int y, int z) { return bits_.data() + place(y, z); }
     const uint64_t* row(int y, int z) const { return bits_.data() + place(y, z); }
-    bool operator()(int x, int y, int z) const { return row(y, z)[x / 64] >> (x % 64) & 1; }
+    bool operator()(const glm::ivec3& cell) const {
+        return row(cell.y, cell.z)[cell.x / 64] >> (cell.x % 64) & 1;
+    }
 
     /// Sets a row from a byte for each cell, 0 or 1. `bytes` goes on to a multiple of 64, with 0.
     void set_row(int y, int z, const uint8_t* bytes);
