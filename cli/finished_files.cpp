@@ -38,7 +38,7 @@ bool is_kept(const std::filesystem::path& volume) {
                             others.front().string(), volume.string()));
 }
 
-/// Whether a file of this state needs no rendering. Counts it if it is another.
+/// True if a file in this state needs no rendering; otherwise the file is counted.
 bool is_current(FrameFileState state, Finished& finished) {
     finished.damaged += size_t(state == FrameFileState::damaged);
     finished.changed += size_t(state == FrameFileState::stale);

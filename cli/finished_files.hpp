@@ -11,7 +11,8 @@ namespace voxelume::cli {
 /// Which of the files that are there already are rendered.
 enum class Overwrite { always, never, changed };
 
-/// What the options ask for. Throws Error::usage for a word that is none, or both options at odds.
+/// What the options ask for. Throws Error::usage for an unknown word, and where the two options
+/// conflict.
 Overwrite overwrite_of(const RenderCommand& command);
 
 /// What is there of a run already.

@@ -11,35 +11,12 @@
 #include "cli/complaint.hpp"
 #include "cli/render_job.hpp"
 #include "cli/render_jobs.hpp"
+#include "cli/render_tally.hpp"
 #include "cli/tell.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
-
-/// What became of several jobs.
-struct Tally {
-    size_t done = 0;
-    std::vector<std::string> failed;  ///< their names
-    ErrorKind kind = ErrorKind::render;
-
-    /// Failures of one kind have its exit code.
-    void add(const std::string& name, ErrorKind failure) {
-        kind = failed.empty() || kind == failure ? failure : ErrorKind::render;
-        failed.push_back(name);
-    }
-};
-
-void print_tally(const Tally& tally, double seconds) {
-    constexpr size_t kMaxNames = 20;
-    std::string names;
-    for (size_t i = 0; i < tally.failed.size() && i < kMaxNames; ++i)
-        names += (i == 0 ? "; failed: " : ", ") + tally.failed[i];
-    if (tally.failed.size() > kMaxNames)
-        names += fmt::format(" and {} more", tally.failed.size() - kMaxNames);
-    tell("{} of {} rendered in {:.1f} s{}\n", tally.done, tally.done + tally.failed.size(), seconds,
-         harmless_line(names));
-}
 
 /// The devices of a run, and those that step in where one of them fails.
 class Devices {

@@ -33,7 +33,7 @@ ProgressStyle style_of(const RenderCommand& command) {
     return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
 }
 
-/// Says what is there of so many frames, and why the rest of it is rendered again.
+/// Says how many of the frames are there, and why others are rendered again.
 void tell_of(const Finished& finished, size_t count) {
     if (finished.frames > 0) tell("{} of {} frames are there already\n", finished.frames, count);
     const auto again = [](size_t files, const char* one, const char* several) {

@@ -9,7 +9,7 @@
 
 namespace voxelume::cli {
 
-/// The devices of a selector, opened once, when a scene was read that is to be rendered.
+/// The devices of a selector, opened once, when the first scene to be rendered was read.
 class LazyDevices {
   public:
     explicit LazyDevices(std::string selector) : selector_(std::move(selector)) {}

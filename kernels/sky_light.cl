@@ -12,8 +12,8 @@ static inline lane_uint seed_of_place(Vector position) {
     return decision_seed(place, LANES_AS_UINT(position.z));
 }
 
-/// Of a map, a direction as probable as bright, or one as dense as the cosine with the normal, by
-/// turns; sets its `weight` over the number of directions, by which both ways share all light.
+/// A direction to a sky map, chosen in turn in proportion to the map's brightness and to the cosine
+/// with the normal. Sets its `weight` over the number of directions, by which both share all light.
 static inline Vector direction_to_map(const SkyMap* map, Vector normal, uint number,
                                       uint directions, lane_uint seed, lane_float* weight) {
     const float to_map = (float)(directions / 2), evenly = (float)(directions - directions / 2);

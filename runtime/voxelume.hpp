@@ -91,8 +91,8 @@
 #include "voxelume/world.hpp"
 
 #ifndef VOXELUME_BUILDING
-/// Names of the library's first binary interface, `voxelume::v1`, are those of `voxelume`. (Its own
-/// sources have other types of the same names.)
+/// `voxelume::v1` is the library's first binary interface; its names are visible in `voxelume`.
+/// (The library's own sources have other types of the same names.)
 namespace voxelume {
 using namespace v1;  // NOLINT(google-build-using-namespace): all of them, for every caller
 }

@@ -53,7 +53,7 @@ struct StressResult {
 inline constexpr size_t kMaxStressExamples = 5;
 
 /// Runs cases of the test of that name. A run that is stopped returns what it has. Throws
-/// Error::usage for a name that there isn't, and Error as devices do.
+/// Error::usage for an unknown name, and Error as devices do.
 StressResult run_stress(const std::string& test, const Device& device,
                         const StressOptions& options);
 
@@ -69,8 +69,8 @@ std::vector<KernelName> kernel_names();
 /// How often each kernel was launched since the device was opened.
 std::map<std::string, uint64_t> launches_of(const Device& device);
 
-/// Asks a device again for arithmetic and walks whose answers are known, as it was asked when it
-/// was first opened. The first fault in words for people; empty if all answers are right. Throws
+/// Repeats the self-test of an open device: arithmetic and walks whose answers are known. Returns
+/// the first fault as a sentence for people, or an empty string if all answers are right. Throws
 /// Error as devices do.
 std::string fault_of_known_bits(const Device& device);
 
@@ -98,7 +98,7 @@ struct BenchOptions {
     std::filesystem::path peers{};  ///< rows of other programs, a file of tests/bench/bench_peers
 };
 
-/// How many rows the options ask for. Throws Error::usage for a scene that there isn't.
+/// How many rows the options ask for. Throws Error::usage for an unknown scene.
 size_t count_bench_rows(const BenchOptions& options);
 
 /// What was measured, in every form in which it is read.

@@ -17,7 +17,7 @@ class DevicesInUse {
     /// Waits for them without Python's lock. Throws Error of the kind `cancelled` when asked to.
     DevicesInUse(std::vector<OpenDevice> devices, const std::stop_token& stop) {
         for (const OpenDevice& open : devices) devices_.push_back(open.device);
-        // Always in the same order, so that no two calls wait for each other; each lock once.
+        // Takes each lock once and always in the same order, so that two calls can't deadlock.
         const auto lock_of = [](const OpenDevice& open) { return open.in_use.get(); };
         std::ranges::sort(devices, {}, lock_of);
         const auto rest = std::ranges::unique(devices, {}, lock_of);

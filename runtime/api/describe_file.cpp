@@ -150,8 +150,8 @@ struct FileKind {
     Describe describe;
 };
 
-/// By what the file begins with. Where that is nothing known, its name has the right reader refuse
-/// it; meshes have no mark of their own, so they are what is left.
+/// Finds the reader by the file's first bytes. Where these are unknown, the reader that its name
+/// stands for refuses it. Meshes have no mark of their own, so they come last.
 Describe find_description(const fs::path& path) {
     constexpr std::array<FileKind, 6> kKinds = {{{{"\x76\x2f\x31\x01", 4}, ".exr", describe_exr},
                                                  {{"\x89PNG\r\n\x1a\n", 8}, ".png", describe_png},

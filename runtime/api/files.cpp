@@ -81,7 +81,7 @@ void add_notes(const std::vector<std::string>& notes, v1::VoxelizeReport& report
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
 }
 
-/// What is lost of voxels that aren't cubes in files that know cubes alone.
+/// What a file of cubes alone loses where voxels aren't cubes.
 std::string note_of_edges(const fs::path& output, const glm::dvec3& edge) {
     const std::string ending = ending_of(output);
     const bool has_edges = ending == ".vxm" || ending == ".vdb" || ending == ".nrrd";

@@ -7,8 +7,8 @@
 
 namespace voxelume::api {
 
-/// Has the inside of the library do what `configure` allowed, and nothing without it. Called by
-/// every function that might do it otherwise.
+/// Applies what `configure` allowed. Every function that could start a process or set a variable of
+/// the environment calls it first.
 void apply_process_options();
 
 /// The cache that a caller chose. Throws Error::usage for a wrong VOXELUME_CACHE_MB.

@@ -73,7 +73,7 @@ class ModelCache {
                               std::optional<uint64_t> megabytes);
 
     bool is_open() const { return is_open_; }
-    /// As those of DiskCache; the folder of a cache that isn't open is of no use.
+    /// See DiskCache. The folder of a cache that isn't open isn't to be used.
     std::string refusal() const { return is_open_ ? store_.refusal() : std::string(); }
     const std::filesystem::path& folder() const { return store_.folder(); }
     bool keeps_worlds() const { return is_open_ && keeps_worlds_; }
@@ -96,8 +96,8 @@ class ModelCache {
     /// the device.
     std::optional<Pyramid> world(const Device& device, const std::string& key) const;
     void keep(const std::string& key, const Pyramid& world, double seconds) const;
-    /// Whether a world that took `seconds` to make would be worth keeping, but takes so many bytes
-    /// that it isn't.
+    /// True if a world that took `seconds` to make is worth keeping for its time, but exceeds the
+    /// limit of size.
     bool is_too_large(uint64_t bytes, double seconds) const;
     uint64_t max_entry_bytes() const { return max_bytes_ / 8; }
 

@@ -32,7 +32,7 @@ struct BatchOptions {
     bool volume = false;            ///< the volumetric image of each frame's display
     bool overlap = true;  ///< on one device, two worlds at a time; false: needs less memory
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
-    bool is_part = false;  ///< other runs render other frames: what none shows isn't told
+    bool is_part = false;  ///< other runs render the other frames: nothing counts as never shown
     BatchProgress progress = {};
     BatchWarnings warn = {};    ///< without it nothing is looked for
     std::stop_token stop = {};  ///< cancels the run

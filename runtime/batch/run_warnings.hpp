@@ -14,7 +14,7 @@ namespace voxelume {
 /// The warnings of a run.
 class RunWarnings {
   public:
-    /// Tells `warn` of what is known before the first frame. The cache is for `end`.
+    /// Passes to `warn` what is known before the first frame. The cache is for `end`.
     RunWarnings(std::vector<Warning> before, ModelCache cache, BatchWarnings warn);
 
     /// Takes note of a rendered frame.

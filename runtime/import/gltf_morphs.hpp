@@ -18,7 +18,7 @@ struct GltfMorph {
     std::vector<double> weights;  ///< empty: the mesh has no targets, or none pulls
     const Keyframes* keys = nullptr;  ///< of a clip; times are seconds
     int skin = -1;                    ///< number in the file; -1: none
-    std::string clip;                 ///< that moves the skin's joints; empty: none does
+    std::string clip;                 ///< what moves the skin's joints; empty if nothing does
 };
 
 /// The morph of a node that shows a mesh. Throws Error::input where the file has more or fewer
@@ -31,8 +31,8 @@ std::string morph_member(const GltfMorph& morph);
 /// The track of the time by which a clip of so many seconds moves a model's skin.
 std::string skin_track(const std::string& model, double seconds);
 
-/// A box around a mesh in `box` and all that the keys' weights make of it, and a skin at each of so
-/// many frames.
+/// A box around a mesh that lies in `box`, under the weights of all keys and under its skin at each
+/// of `frames` frames.
 Bounds reach_of(const GltfMorph& morph, const GltfFile& file, int mesh, const Bounds& box,
                 int frames);
 

@@ -148,7 +148,7 @@ BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> o
     CountedWorld changed;  // smooth objects' new grids are there while they take the others' places
     if (world.fields.brick_count > 0)
         others = count_fields(device, objects, size_t(bricks.of_fields), changed);
-    // New lists take the place of those before, but pyramids still have the sources of these.
+    // New lists replace old ones, but pyramids keep the old lists' sources.
     BrickGrid sources;
     if (count_sources(device, others, sources))
         const Buffer<uint32_t> counts =

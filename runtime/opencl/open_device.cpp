@@ -38,8 +38,8 @@ std::vector<Candidate> find_tested_candidates(int lanes = 0) {
     return candidates;
 }
 
-/// What the self-test finds on a device of a new driver. A test that can't be made is a fault that
-/// isn't kept: its reason may pass.
+/// What the self-test finds on a device of a new driver. That a test couldn't run is a fault, too,
+/// but isn't kept: its cause may be temporary.
 std::string new_fault(const Device& device) {
     try {
         std::string fault = find_fault(device);

@@ -23,8 +23,8 @@ struct TileNoise {
     bool is_dark = false;  ///< surfaces, of which no light came yet; the error is 0
 };
 
-/// Makes the light of a tile's pixels the mean of that of two images with as many samples each, of
-/// which the first keeps it. The error of a pixel is half of what its two values differ by.
+/// Averages a tile's light over two images with equally many samples, in `image`. A pixel's error
+/// is half of the difference of its two values.
 TileNoise average_tile(uint32_t tile, const Image& other, Image& image);
 
 }  // namespace voxelume

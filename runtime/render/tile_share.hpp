@@ -29,8 +29,8 @@ class TileShare {
     explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
         : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
-    /// Hands out these tiles of another's, which ends both when it is closed. They are `weight` of
-    /// the work that the whole's callback is told of.
+    /// Hands out these tiles of another share, which ends both when it is closed. They are `weight`
+    /// of the work that the whole's callback hears of.
     TileShare(TileShare& whole, std::vector<TileRange> ranges, double weight)
         : tiles_(whole.tiles_),
           maximum_(UINT32_MAX),

@@ -24,7 +24,7 @@ struct Keyframes {
     std::vector<double>
         values;  ///< `width` numbers per frame; of slerp 3 angles in degrees, a turn
     size_t width = 1;
-    /// Of spline, as `values`: slopes a frame before and behind the keys.
+    /// Splines have slopes per frame before and after each key, laid out as `values` are.
     std::vector<double> in = {}, out = {};
     /// Rows are quaternions [x, y, z, w] of turns, for which values_at() gives three angles.
     bool has_quaternions = false;
@@ -33,7 +33,8 @@ struct Keyframes {
 /// Number of the last key at or before a frame; 0 before the first.
 size_t key_before(const std::vector<double>& frames, double frame);
 
-/// The row of numbers at a frame. Before the first key and after the last one theirs hold.
+/// The row of numbers at a frame. Frames before the first key have its row, and frames after the
+/// last key have the last one's.
 ///
 /// Cubic is a Hermite spline that is at rest at the first and the last key and wherever a number
 /// turns back; elsewhere its slope is the weighted harmonic mean of the slopes on both sides, which

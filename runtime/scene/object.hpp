@@ -30,7 +30,8 @@ struct Morph {
     glm::dvec3 center{0};        ///< metres in object space
     double radius = 1;           ///< metres, > 0
     double amount = 0;           ///< share of the way, 0..1
-    /// Of each target of a glTF file's mesh, instead: how far it pulls. Empty: the way above.
+    /// Instead, the weight of each target of a glTF file's mesh; empty where the values above
+    /// count.
     std::vector<double> weights{};
     int skin = 0;        ///< number of a skin of that file, from 1 on, which then moves it; 0: none
     std::string clip{};  ///< of that file, which moves the skin's joints; empty: they stand still

@@ -8,9 +8,9 @@
 
 namespace voxelume {
 
-/// 32 hexadecimal digits that differ wherever documents say something else about what a frame
-/// shows: the order of keys, the places of values, `$schema` and the number of frames don't matter.
-/// Nor do the image's size, samples and light, which are a scene's settings besides.
+/// 32 hexadecimal digits that differ where documents differ in what a frame shows. The order of
+/// keys, the places of values, `$schema` and the number of frames don't matter. The image's size,
+/// samples and light don't matter either, since they are settings of the scene.
 std::string document_hash(const JsonValue& document);
 
 }  // namespace voxelume

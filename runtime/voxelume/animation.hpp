@@ -17,7 +17,7 @@ template <class Value>
 struct Key {
     double frame = 1;  ///< 1 is the first; fractions are allowed
     Value value{};     ///< the track's value there
-    /// Of Interpolation::spline: the slope with which the value arrives, per second; 0 without it.
+    /// The slope with which Interpolation::spline arrives at the value, per second; 0 without it.
     std::optional<Value> in{};
     std::optional<Value> out{};  ///< likewise: with which it leaves
 };

@@ -109,7 +109,8 @@ TEST(DisplayOfInstances, ShowsTurnedAndStretchedOnesWhereTheyAre) {
     EXPECT_LT(lonely_part(instances, world), 0.001);
 }
 
-/// Of a pane before the instances opacities are made by a second scan, which finds instances, too.
+/// The opacities of a pane in front of instances come from a second scan, which finds instances,
+/// too.
 TEST(DisplayOfInstances, BehindAPaneIsThatOfTheWorld) {
     const Volume world = lattice_volume(lattice_scene("world", whole_maps(), "observer", 0.4f), 0);
     const Volume instances =

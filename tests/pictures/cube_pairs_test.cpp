@@ -105,9 +105,9 @@ CubePairErrors cube_pair_errors(const Scene& scene) {
     return errors;
 }
 
-/// Of a solid's cubes, the centre of a world voxel lies in a voxel of the model that its surface
-/// passes, or within the reach that closes gaps. So no point of a cube is farther from the surface
-/// than half a diagonal and, models being stretched by 1.2 at most, 1.2 whole ones.
+/// In a solid's cubes, the centre of a world voxel lies in a voxel of the model that the surface
+/// passes, or within the distance that closes gaps. So no point of a cube is farther from the
+/// surface than half a diagonal and, models being stretched by 1.2 at most, 1.2 whole ones.
 constexpr double kHalfDiagonal = 0.8661;
 constexpr double kFarthestCube = kHalfDiagonal + 2 * 1.2 * kHalfDiagonal;
 

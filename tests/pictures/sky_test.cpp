@@ -44,8 +44,8 @@ TEST_P(BothLights, AFloorUnderAGradientHasItsCosineWeightedMean) {
 }
 
 TEST_P(BothLights, AWallHidesHalfOfAConstantSky) {
-    // Of a floor in front of an endless wall the sky lights one half, and the wall's own light,
-    // none here, the other half. It is 0.5 m high and the floor is seen 0.2 mm in front of it.
+    // The sky lights half of a floor in front of an endless wall. The wall, which is black here,
+    // lights the other half. It is 0.5 m high and the floor is seen 0.2 mm in front of it.
     Json scene =
         floor_under({{"kind", "constant"}, {"color", {1, 1, 1}}, {"samples", 64}}, GetParam(), 16);
     scene["materials"]["soot"] = {{"color", {0, 0, 0}}};

@@ -3,9 +3,10 @@
 //
 // OpenCL lets a device miss x/y by 2.5 units in the last place, and NVIDIA's do. So kernels divide
 // by these functions alone, but for constants, and bounds of voxelization that only say which
-// voxels are looked at exactly; .ci/lint holds that. Markstein's correction by fma makes the result
-// correctly rounded from any such start, for results and residuals in the normal range;
-// VXL_NATIVE_DIVIDE = 1 says that the device's own operations already are (every CPU driver's).
+// voxels are looked at exactly; .ci/kernel_arithmetic holds that. Markstein's correction by fma
+// makes the result correctly rounded from any such start, for results and residuals in the normal
+// range; VXL_NATIVE_DIVIDE = 1 says that the device's own operations already are (every CPU
+// driver's).
 #ifndef VXL_EXACT_FLOAT_H
 #define VXL_EXACT_FLOAT_H
 

@@ -42,7 +42,8 @@ static inline lane_float width_at(const RayBatch* batch, uint first) {
                               hit * VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS) + VXL_PAINT_WIDTH);
 }
 
-/// How wide rays are that go straight on, at their origins; those `anew` begin at their surfaces.
+/// How wide rays that go straight on are at their origins. Those in the mask `anew` begin at their
+/// surfaces.
 /// Rays from an observer stay such.
 static inline lane_float width_straight(const RayBatch* batch, uint first, lane_int anew) {
     if (!VXL_WIDENS) return (lane_float)0.0f;
@@ -72,9 +73,9 @@ static inline lane_int are_of_instances(const RayBatch* batch, uint first) {
                      VXL_NO_INSTANCE);
 }
 
-/// Makes rays that go straight on, those `anew`, begin behind their surface. A ray that goes on
-/// from a surface of the world begins where it did before and skips what it has met already; from
-/// an instance's it can't, for no cell of the world is known in which to go on.
+/// Makes rays that go straight on and are in the mask `anew` begin behind their surface. A ray that
+/// goes on from a surface of the world begins where it did before and skips what it has met
+/// already; from an instance's it can't, for no cell of the world is known in which to go on.
 static inline void begin_behind(PyramidShape shape, const RayBatch* batch, uint first,
                                 lane_int anew, NewRays* r) {
     if (!VXL_INSTANCES) return;

@@ -75,7 +75,7 @@ static inline void scatter_physically(const PhysicalView* view, Vector normal, S
     }
 }
 
-/// The ways on which surfaces scatter light by a point of the square.
+/// The directions in which surfaces scatter light, chosen by a point of the unit square.
 static inline ScatteredWay scatter_by(const ScatterPoint* p, const RayBatch* batch, uint first,
                                       const PhysicalView* view, SquarePoint at, lane_float layer) {
     ScatteredWay s = no_scattered_way(p);

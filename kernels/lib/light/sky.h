@@ -63,7 +63,7 @@ typedef struct {
     SkyMap map;
 } SkyView;
 
-/// Of hidden skies, whether the rays come from an observer. A comma ends it.
+/// The parameter that says, for hidden skies, whether rays come from an observer, and a comma.
 #if VXL_SKY_HIDDEN
 #define VXL_SKY_DEPTH_PARAMETER uint from_observer,
 #define VXL_FROM_OBSERVER from_observer

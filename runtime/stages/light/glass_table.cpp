@@ -137,8 +137,8 @@ GlassTable make_glass_table(double width, double ior) {
     GlassTable table;
     set_side(width, 1 / ior, 0, table);
     set_side(width, ior, 1, table);
-    // Of later light as much gets through on either way, per square of the index: so both ways
-    // between two directions are equal. From outside it is the part that gets through at once.
+    // Light after the first scattering passes equally in both directions, per square of the index,
+    // so that paths are reversible. From outside, it is the part that passes at once.
     const double squared = second_power(ior);
     const double most = squared / table.missing[0];
     const double scale = std::min(part_through(width, ior) / table.missing[1], most);
