@@ -33,6 +33,11 @@ Model source_of(Model model) {
     return model;
 }
 
+/// Whether a model may be closed where a lattice ends, and isn't because light goes through it.
+bool stays_open(const Model& model, bool transmits) {
+    return transmits && model.solid && lists_primitives(model.surface);
+}
+
 /// The whole mesh of a model with cuts, as a set.
 Model whole_of(Model model, VoxelSet set) {
     model.cuts.clear();
@@ -50,15 +55,15 @@ std::vector<VoxelSet> body_sets(const Model& model) {
 }  // namespace
 
 SharedGrid GridCache::grid_of(const Object& object, const Model& model,
-                              const ObjectLattice& lattice) {
-    Source source{source_of(model), lattice.frame_from_object, {}};
+                              const ObjectLattice& lattice, bool transmits) {
+    Source source{source_of(model), lattice.frame_from_object, {}, stays_open(model, transmits)};
     if (!has_own_voxels(model)) source.frame = lattice.frame;
     if (lattice.lattice != Lattice::world) return find_or_make(model, source, model.where);
     return find_or_make(model, source, object.where, !object.moves);
 }
 
-SharedGrid GridCache::own_grid_of(const Model& model) {
-    Source source{source_of(model), glm::dmat4(1), {}};
+SharedGrid GridCache::own_grid_of(const Model& model, bool transmits) {
+    Source source{source_of(model), glm::dmat4(1), {}, stays_open(model, transmits)};
     if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.summary_of(model));
     return find_or_make(model, source, model.where);
 }
@@ -114,7 +119,7 @@ BrickGrid GridCache::read_or_make(const Model& model, const Source& source, bool
 BrickGrid GridCache::make(const Model& model, const Source& source) {
     if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
     const VoxelizeOptions options = options_of(model);
-    if (model.solid && lists_primitives(model.surface))
+    if (model.solid && lists_primitives(model.surface) && !source.is_open)
         return voxelize_solid(device_,
                               clipped_solid(*model.solid, source.frame_from_model, source.frame),
                               glm::dmat4(1), source.frame, options);

@@ -20,13 +20,15 @@ class GridCache {
     GridCache(const Device& device, AssetStore& meshes)
         : device_(device), meshes_(meshes), voxelizer_(device) {}
 
-    /// The grid that shows `object`, of which `model` is the model, on a lattice. Throws
-    /// Error::input and Error::limit as voxelizing does, with messages that begin with the place in
-    /// the scene.
-    SharedGrid grid_of(const Object& object, const Model& model, const ObjectLattice& lattice);
+    /// The grid that shows `object`, of which `model` is the model, on a lattice. An exact solid is
+    /// closed where the lattice ends, unless light goes through it: water that the world's sides
+    /// cut goes on beyond them. Throws Error::input and Error::limit as voxelizing does, with
+    /// messages that begin with the place in the scene.
+    SharedGrid grid_of(const Object& object, const Model& model, const ObjectLattice& lattice,
+                       bool transmits);
 
-    /// The grid of a model in its own space, as an instance uses it; of exact models, too.
-    SharedGrid own_grid_of(const Model& model);
+    /// The grid of a model in its own space, as instances use it; of exact models, too.
+    SharedGrid own_grid_of(const Model& model, bool transmits);
 
     /// Forgets the grids that weren't asked for since the last call. Grids of models that are
     /// `retained` and of which none was asked for stay as they are in `scene`: the first made that
@@ -47,6 +49,7 @@ class GridCache {
         Model model;  ///< without the values that only its frame and messages depend on
         glm::dmat4 frame_from_model{1};
         GridFrame frame;
+        bool is_open = false;  ///< a solid isn't closed where the frame ends
         friend bool operator==(const Source&, const Source&) = default;
     };
     struct Kept {

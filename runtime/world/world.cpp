@@ -157,8 +157,8 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     SourceMeshes sources;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        listed = list_instances(scene, meshes_, [&](const Object&, const Model& model) {
-            return grids_->own_grid_of(model);
+        listed = list_instances(scene, meshes_, [&](const Object& object, const Model& model) {
+            return grids_->own_grid_of(model, transmits(scene, object));
         });
         sources = sources_.meshes_of(scene, meshes_, listed);
         if (!keeps_) sources_.forget();
@@ -246,7 +246,7 @@ Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
         const PlacedGridSource grid_of = [&](const Object& object, const Model& model,
                                              const ObjectLattice& lattice) {
-            return grids_->grid_of(object, model, lattice);
+            return grids_->grid_of(object, model, lattice, transmits(task.scene, object));
         };
         objects =
             placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);

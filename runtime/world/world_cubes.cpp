@@ -13,6 +13,7 @@
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene/fitted.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/place/placed_world.hpp"
 #include "runtime/world/grid_cache.hpp"
 
@@ -60,7 +61,7 @@ VoxelModel cubes_of(const Device& device, const Scene& scene, AssetStore& meshes
     std::vector<SharedGrid> shown;
     const PlacedGridSource grid_of = [&](const Object& object, const Model& model,
                                          const ObjectLattice& lattice) {
-        return grids.grid_of(object, model, lattice);
+        return grids.grid_of(object, model, lattice, transmits(scene, object));
     };
     const std::vector<PlacedObject> objects =
         placed_objects(scene, meshes, object_boxes(scene, meshes), grid_of, shown);

@@ -169,7 +169,7 @@ TEST_F(CliCache, ProcessesShareAColdFolder) {
         EXPECT_FALSE(entry.path().filename().string().starts_with('.'));
         ++entries;
     }
-    EXPECT_EQ(entries, 3) << "summary, model and world";
+    EXPECT_EQ(entries, 4) << "summary, shape, model and world";
     render("warm");
     EXPECT_EQ(frame("warm")["world_from_cache"], true);
 }

@@ -50,6 +50,7 @@ TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
     expected.insert(
         {"VXL_RADIANCE", "VXL_POSITIONS", "VXL_NORMALS", "VXL_HIT_ATTRIBUTES"});  // asked for
     if (device.is_cpu()) expected.insert("VXL_NATIVE_DIVIDE");
+    expected.insert("VXL_SOLID_KINDS");  // those of solids, if there were any
     for (const auto& [name, value] : features.defines(device))
         EXPECT_EQ(value != 0, expected.contains(name)) << name;
     EXPECT_THAT(

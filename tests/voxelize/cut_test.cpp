@@ -52,7 +52,7 @@ class Cut : public FileTest {
         const Scene scene = cut_scene(folder, keys);
         AssetStore meshes;
         GridCache grids(shared_device(), meshes);
-        return ReadBricks(*grids.own_grid_of(scene.models[0]));
+        return ReadBricks(*grids.own_grid_of(scene.models[0], false));
     }
 };
 
