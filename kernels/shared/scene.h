@@ -81,7 +81,7 @@ typedef struct MaterialRecord {
     float checker_color[3];  // of every other block ...
     float checker_scale[3];  // ... that is 1 / scale voxels wide; all 0: no blocks
     float checker_shift[3];  // block coordinate of the world's origin
-    // Of physically based materials, in global light:
+    // For physically based materials, in global light:
     float metallic;
     float width;        // of their highlights: GGX's alpha; 0: the material is none of them
     float reflectance;  // straight on, of what isn't metal

@@ -75,7 +75,7 @@ class CliFaultsTest : public SceneProgramTest {
         ASSERT_EQ(render("").exit_code, 0);  // compiles
         const std::map<std::string, std::string> expected = files();
         ASSERT_FALSE(expected.empty());
-        // Of memory, of a dead queue, of an event, and one that no list has.
+        // Faults of memory, of a dead queue, of an event, and one that no list has.
         const std::vector statuses = {-5, -6, -4, -36, -14, -9999};
         for (const auto& [function, count] : counts()) {
             // By default each render has every other function fail, which differ by its turn.

@@ -257,7 +257,7 @@ TEST_F(ArrayCubesTest, AGzipBombEndsByTheSizesOfItsHeader) {
     const std::string bomb = gzipped(std::string(1 << 20, '\0'));
     EXPECT_THAT(refusal(put("b.nrrd", head + "sizes: 4096 4096 4096\n\n" + bomb)),
                 HasSubstr("truncated"));
-    // Of more data than the header says nothing is read.
+    // Data beyond the size in the header is not read.
     EXPECT_THAT(refusal(put("c.nrrd", head + "sizes: 2 2 2\n\n" + bomb)), HasSubstr("are 0"));
     EXPECT_THAT(refusal(put("d.nhdr", head + "sizes: 2 2 2\nbyte skip: 999999999\n"
                                              "data file: b.nrrd\n")),

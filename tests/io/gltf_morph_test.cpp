@@ -35,7 +35,7 @@ GltfWriter pulled_triangle(const std::vector<float>& weights) {
     return writer;
 }
 
-/// The same, with a clip that moves the weights.
+/// The triangle with a clip that moves its weights.
 GltfWriter waving_triangle(const std::vector<float>& times, const std::vector<float>& weights) {
     GltfWriter writer = pulled_triangle({});
     const int input = writer.accessor(times, "SCALAR", 1);

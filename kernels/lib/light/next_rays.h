@@ -30,7 +30,7 @@ static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch,
 typedef struct {
     Vector ahead;    // a unit vector
     lane_int moved;  // mask: up to the least cosine
-    // Of physically based surfaces alone:
+    // Only for physically based surfaces:
     lane_int is, lives;    // masks: such a surface; the way is above it, or through it
     lane_int through;      // mask: the latter
     lane_float density;    // of the direction, per solid angle
