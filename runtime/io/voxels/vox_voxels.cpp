@@ -55,7 +55,7 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
     for (const VoxStanding& standing : all) cells.add_box(box_of(standing));
     cells.allocate();
     VoxelModel model;
-    const std::future<void> memory = cells.take_memory(voxels_of(all), model);
+    std::future<void> memory = cells.take_memory(voxels_of(all), model);
     // Where objects overlap, the earlier one is seen, as in scenes.
     for (auto standing = all.rbegin(); standing != all.rend(); ++standing)
         cells.add_voxels(*standing);
@@ -76,6 +76,7 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
             model.groups.push_back(std::move(name));
         }
     }
+    if (memory.valid()) memory.get();
     cells.fill(colors, groups, !model.groups.empty(), model);
     if (model.coordinates.empty()) file.refuse("has no voxels to show");
     return model;

@@ -279,6 +279,7 @@ void DisplayScanStage::scan_covers(const VolumeFrame& frame, const Pyramid& worl
     for (int axis = 0; axis < 3; ++axis) {
         const int lines = cover_lines(axis);
         std::vector<Family> families;
+        families.reserve(size_t(lines));
         for (int i = 0; i < lines; ++i)
             families.push_back(family(axis, frame, world.frame, {1, 1}, cover_place(i, lines)));
         scan_families(world, families, batch, sink);
