@@ -40,6 +40,15 @@ void tell_end() {
         [] { tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted"); });
 }
 
+std::atomic<pid_t> ending_thread = 0;
+
+/// PoCL aborts where the files that it is about to compile or load were removed. The thread in
+/// which it does waits until the process ends, which another thread is about to do.
+void outlast_abort(int) {
+    if (gettid() == ending_thread) _exit(interrupted_code());
+    for (;;) pause();
+}
+
 /// Waits for one of the signals, which are blocked.
 void wait_for_signal(const sigset_t& signals) {
     int number = 0;
@@ -58,6 +67,8 @@ void wait_for_signal(const sigset_t& signals) {
         std::this_thread::sleep_for(grace.load() - kTogether);
     }
     tell_end();
+    ending_thread = gettid();
+    std::signal(SIGABRT, outlast_abort);
     remove_unfinished_files();
     _exit(interrupted_code());
 }
