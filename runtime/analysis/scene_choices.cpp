@@ -80,16 +80,21 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
 /// of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;
 
-/// The number of objects that show each model as `exact` meshes that light doesn't go through or
-/// come from; 0 where cubes are in the world, which hide what shares their voxels.
+/// True if light neither goes through an object nor comes from it.
+bool is_plain(const Scene& scene, const Object& object) {
+    return !transmits(scene, object) && !has_emission(scene, object);
+}
+
+/// The number of plain objects that show each model as `exact` meshes; 0 where cubes are in the
+/// world, which hide what shares their voxels.
 std::vector<uint32_t> count_copies(const Scene& scene) {
     std::vector<uint32_t> copies(scene.models.size());
     for (const Object& object : scene.objects) {
         const Model& model = scene.models[size_t(object.model)];
         if (!object.visible) continue;
         if (shows_voxels(model.surface)) return std::vector<uint32_t>(scene.models.size());
-        copies[size_t(object.model)] += !model.mesh.empty() && lists_primitives(model.surface) &&
-                                        !transmits(scene, object) && !has_emission(scene, object);
+        copies[size_t(object.model)] +=
+            !model.mesh.empty() && lists_primitives(model.surface) && is_plain(scene, object);
     }
     return copies;
 }
@@ -110,8 +115,7 @@ void choose_placements(Scene& scene, AssetStore& meshes) {
         if (!is_open || !can_be_instance(scene, object) ||
             (!is_finer_field(scene, object, meshes) &&
              !is_coarser_soft_cubes(scene, object, meshes) &&
-             (copies[size_t(object.model)] < kInstancedCopies || transmits(scene, object) ||
-              has_emission(scene, object))))
+             (copies[size_t(object.model)] < kInstancedCopies || !is_plain(scene, object))))
             continue;
         object.placement = Placement::instance;
         has_changed = true;

@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// As many compilers as the machine has cores for.
+/// A place for one compiler; the machine has as many as cores.
 class CompilerPlace {
   public:
     CompilerPlace() { places().acquire(); }
@@ -41,20 +41,21 @@ BuiltProgram build_part(const CompilerTarget& target, const std::string& label,
 
 }  // namespace
 
-std::shared_ptr<const KernelParts> KernelBuilds::parts_of(const std::string& key,
-                                                          const ProgramText& text) {
+std::shared_ptr<const ProgramParts> KernelBuilds::parts_of(const std::string& key,
+                                                           const std::string& source,
+                                                           const std::string& options) {
     const std::lock_guard lock(mutex_);
-    std::shared_ptr<const KernelParts>& known = parts_[key];
+    std::shared_ptr<const ProgramParts>& known = parts_[key];
     if (known) return known;
-    const std::string options = without_constants(text.options);
-    KernelParts parts;
-    for (KernelSlice& slice : slice_kernels(text.source, text.options)) {
-        const std::array<std::string_view, 2> contents = {slice.text, options};
-        KernelPart& part = parts[slice.kernel];
-        part.key = cache_key(contents);
-        part.text = {std::move(slice.text), options};
+    const std::string others = without_constants(options);
+    auto parts = std::make_shared<ProgramParts>();
+    parts->whole = {source, options};
+    for (KernelSlice& slice : slice_kernels(source, options)) {
+        const std::array<std::string_view, 2> contents = {slice.text, others};
+        const std::string part = cache_key(contents);
+        parts->kernels[slice.kernel] = {part, {std::move(slice.text), others}};
     }
-    return known = std::make_shared<const KernelParts>(std::move(parts));
+    return known = std::move(parts);
 }
 
 std::shared_future<BuiltProgram> KernelBuilds::start(const CompilerTarget& target,

@@ -3,8 +3,7 @@
 //
 // Their drivers compile a whole program at once, one kernel after another: 22 s for the image of
 // scenes/whitted.json on an H100, 13 s with its kernels side by side. Kernels that no scene
-// launches aren't compiled, and those that several scenes share only once. For sources of this
-// folder alone, as it includes CL/opencl.hpp.
+// launches aren't compiled, and those that several scenes share only once.
 #pragma once
 
 #include <future>
@@ -43,14 +42,18 @@ struct KernelPart {
     ProgramText text;
 };
 
-/// The kernels of a program by their names.
-using KernelParts = std::map<std::string, KernelPart>;
+/// A program, and its kernels by their names.
+struct ProgramParts {
+    ProgramText whole;
+    std::map<std::string, KernelPart> kernels;
+};
 
 /// The kernels of a context that are compiled, or were.
 class KernelBuilds {
   public:
-    /// The kernels of the program with this key and text.
-    std::shared_ptr<const KernelParts> parts_of(const std::string& key, const ProgramText& text);
+    /// The parts of the program with this key, a source and options.
+    std::shared_ptr<const ProgramParts> parts_of(const std::string& key, const std::string& source,
+                                                 const std::string& options);
 
     /// Compiles a kernel in another thread, unless that was begun before. Where it doesn't compile
     /// alone, its whole program is compiled, whose messages say where in the sources they belong.
@@ -59,7 +62,7 @@ class KernelBuilds {
 
   private:
     std::mutex mutex_;
-    std::map<std::string, std::shared_ptr<const KernelParts>> parts_;
+    std::map<std::string, std::shared_ptr<const ProgramParts>> parts_;
     std::map<std::string, std::shared_future<BuiltProgram>> builds_;
 };
 

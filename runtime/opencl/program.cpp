@@ -89,12 +89,6 @@ struct Kernel::Made {
     void make(const Device& device, const std::string& name);
 };
 
-/// The parts of a program whose kernels are compiled alone.
-struct Program::Parts {
-    ProgramText text;
-    std::shared_ptr<const KernelParts> kernels;
-};
-
 void Kernel::Made::wait(const Device& device, const std::string& name) {
     const auto start = std::chrono::steady_clock::now();
     if (build.wait_for(kUntoldWait) != std::future_status::ready) device.note_wait(name);
@@ -237,9 +231,7 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
     const std::string options = build_options(device, source, defines);
     const std::string key = program_key(source, options);
     if (compiles_kernels_alone(device.info())) {
-        ProgramText text{source.text(), options};
-        auto kernels = device.kernel_builds().parts_of(key, text);
-        parts_ = std::make_shared<const Parts>(std::move(text), std::move(kernels));
+        parts_ = device.kernel_builds().parts_of(key, source.text(), options);
         return;
     }
     const auto locked = device.lock();
@@ -262,8 +254,8 @@ Kernel Program::kernel(const std::string& name) const {
 }
 
 Kernel Program::kernel_of_parts(const std::string& name) const {
-    const auto found = parts_->kernels->find(name);
-    if (found == parts_->kernels->end())
+    const auto found = parts_->kernels.find(name);
+    if (found == parts_->kernels.end())
         throw Error(ErrorKind::build, "{} has no kernel {}", label_, name);
     const KernelPart& part = found->second;
     auto made = std::make_shared<Kernel::Made>();
@@ -275,7 +267,7 @@ Kernel Program::kernel_of_parts(const std::string& name) const {
     }
     if (!made->program())
         made->build =
-            device_.kernel_builds().start(compiler_target(device_), label_, part, parts_->text);
+            device_.kernel_builds().start(compiler_target(device_), label_, part, parts_->whole);
     return {device_, name, std::move(made)};
 }
 

@@ -20,6 +20,8 @@
 
 namespace voxelume {
 
+struct ProgramParts;
+
 /// The names and values of a program's -D constants, which change its machine code.
 using Defines = std::vector<std::pair<std::string, int>>;
 
@@ -174,7 +176,6 @@ class Program {
     Kernel kernel(const std::string& name) const;
 
   private:
-    struct Parts;
     Program(const Device& device, const std::string& label, const KernelSource& source,
             const Defines& defines);
     Kernel kernel_of_parts(const std::string& name) const;
@@ -182,7 +183,7 @@ class Program {
     Device device_;
     std::string label_;
     std::shared_ptr<cl::Program> program_;
-    std::shared_ptr<const Parts> parts_;  ///< instead, where kernels are compiled alone
+    std::shared_ptr<const ProgramParts> parts_;  ///< instead, where kernels are compiled alone
 };
 
 }  // namespace voxelume

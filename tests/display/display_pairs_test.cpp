@@ -46,7 +46,9 @@ TEST(Pairs, CoverAlongEachAxisWhatTheFlatPictureDoes) {
                 EXPECT_GT(d.pixels, 400);
                 EXPECT_LT(d.mean(), 0.004);
                 EXPECT_LT(d.largest_inside, 0.01);
-                // Outlines: the picture has 64 samples a pixel, the lattice 64 lines a voxel.
+                // Outlines: the picture has 64 samples a pixel, the lattice 64 lines a voxel, by
+                // which 3 to 4 % of the pixels are off by more than 0.02; 10 to 26 % are where
+                // surfaces that rays don't see count.
                 EXPECT_LT(d.far_share(), 0.05);
             }
 }

@@ -23,8 +23,8 @@ const ProgramText kTwo = {
 class KernelBuildsTest : public FileTest {
   protected:
     BuiltProgram built(KernelBuilds& builds, const std::string& kernel, const ProgramText& text) {
-        const auto parts = builds.parts_of(text.source + text.options, text);
-        return builds.start(target, "a test", parts->at(kernel), text).get();
+        const auto parts = builds.parts_of(text.source + text.options, text.source, text.options);
+        return builds.start(target, "a test", parts->kernels.at(kernel), parts->whole).get();
     }
 
     void SetUp() override {
@@ -39,15 +39,15 @@ class KernelBuildsTest : public FileTest {
 
 TEST_F(KernelBuildsTest, EachKernelHasWhatItConsistsOf) {
     KernelBuilds builds;
-    const auto parts = builds.parts_of("two", kTwo);
-    ASSERT_EQ(parts->size(), 2u);
-    EXPECT_THAT(parts->at("first").text.source, testing::HasSubstr("next"));
-    EXPECT_THAT(parts->at("second").text.source, testing::Not(testing::HasSubstr("next")));
-    EXPECT_EQ(builds.parts_of("two", kTwo), parts);
+    const auto parts = builds.parts_of("two", kTwo.source, kTwo.options);
+    ASSERT_EQ(parts->kernels.size(), 2u);
+    EXPECT_THAT(parts->kernels.at("first").text.source, testing::HasSubstr("next"));
+    EXPECT_THAT(parts->kernels.at("second").text.source, testing::Not(testing::HasSubstr("next")));
+    EXPECT_EQ(builds.parts_of("two", kTwo.source, kTwo.options), parts);
     // Another constant changes only the kernel that mentions it.
-    const auto others = builds.parts_of("other", {kTwo.source, "-cl-std=CL1.2 -w -DSTEP=4"});
-    EXPECT_NE(others->at("first").key, parts->at("first").key);
-    EXPECT_EQ(others->at("second").key, parts->at("second").key);
+    const auto others = builds.parts_of("other", kTwo.source, "-cl-std=CL1.2 -w -DSTEP=4");
+    EXPECT_NE(others->kernels.at("first").key, parts->kernels.at("first").key);
+    EXPECT_EQ(others->kernels.at("second").key, parts->kernels.at("second").key);
 }
 
 TEST_F(KernelBuildsTest, CompileAKernelOnceAndKeepIt) {
@@ -61,7 +61,7 @@ TEST_F(KernelBuildsTest, CompileAKernelOnceAndKeepIt) {
 
 TEST_F(KernelBuildsTest, TakeTheWholeProgramWhereAKernelDoesNotCompileAlone) {
     KernelBuilds builds;
-    KernelPart part = builds.parts_of("two", kTwo)->at("first");
+    KernelPart part = builds.parts_of("two", kTwo.source, kTwo.options)->kernels.at("first");
     part.key = "broken", part.text.source = "kernel void first(global int* x) { *x = next(*x); }\n";
     EXPECT_TRUE(builds.start(target, "a test", part, kTwo).get().program);
     part.key = "both";
