@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/bench_options.hpp"
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/progress.hpp"
-#include "cli/tell.hpp"
+#include "cli/devices/bench_options.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/progress.hpp"
+#include "cli/shared/tell.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {

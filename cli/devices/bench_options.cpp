@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/bench_options.hpp"
+#include "cli/devices/bench_options.hpp"
 
 #include <algorithm>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

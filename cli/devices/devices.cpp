@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.hpp"
+#include "cli/shared/commands.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

@@ -11,13 +11,13 @@
 #include <sstream>
 #include <thread>
 
-#include "cli/build_facts.hpp"
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/doctor_tests.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/report.hpp"
-#include "cli/warnings.hpp"
+#include "cli/devices/doctor_tests.hpp"
+#include "cli/shared/build_facts.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/report.hpp"
+#include "cli/shared/warnings.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

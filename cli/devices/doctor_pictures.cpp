@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/doctor_pictures.hpp"
+#include "cli/devices/doctor_pictures.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>

@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "cli/doctor_pictures.hpp"
+#include "cli/devices/doctor_pictures.hpp"
 
 namespace voxelume::cli {
 namespace {

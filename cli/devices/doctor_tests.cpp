@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/doctor_tests.hpp"
+#include "cli/devices/doctor_tests.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "cli/doctor_pictures.hpp"
+#include "cli/devices/doctor_pictures.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {

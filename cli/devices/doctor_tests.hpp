@@ -4,7 +4,7 @@
 
 #include <stop_token>
 
-#include "cli/report.hpp"
+#include "cli/shared/report.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

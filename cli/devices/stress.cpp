@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/progress.hpp"
-#include "cli/stress_again.hpp"
-#include "cli/tell.hpp"
+#include "cli/devices/stress_again.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/progress.hpp"
+#include "cli/shared/tell.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/stress_again.hpp"
+#include "cli/devices/stress_again.hpp"
 
 #include <fmt/format.h>
 

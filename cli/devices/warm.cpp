@@ -10,14 +10,14 @@
 #include <system_error>
 #include <vector>
 
-#include "cli/channels.hpp"
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/complaint.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/scene_options.hpp"
-#include "cli/tell.hpp"
-#include "cli/warnings.hpp"
+#include "cli/output/channels.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/complaint.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/scene_options.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {

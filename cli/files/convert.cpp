@@ -4,10 +4,10 @@
 #include <array>
 #include <string>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/slice_names.hpp"
-#include "cli/tell.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/slice_names.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/diff_files.hpp"
-#include "cli/diff_limits.hpp"
-#include "cli/report.hpp"
+#include "cli/files/diff_files.hpp"
+#include "cli/files/diff_limits.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/report.hpp"
 
 namespace voxelume::cli {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/diff_limits.hpp"
+#include "cli/files/diff_limits.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

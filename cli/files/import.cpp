@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/import_options.hpp"
-#include "cli/slice_names.hpp"
-#include "cli/tell.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/import_options.hpp"
+#include "cli/shared/slice_names.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 namespace {

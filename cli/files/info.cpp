@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "cli/commands.hpp"
-#include "cli/report.hpp"
-#include "cli/slice_names.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/report.hpp"
+#include "cli/shared/slice_names.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/complaint.hpp"
-#include "cli/shard_manifest.hpp"
-#include "cli/tell.hpp"
+#include "cli/output/shard_manifest.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/complaint.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 namespace {

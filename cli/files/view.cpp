@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/slice_names.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/slice_names.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/scene_options.hpp"
-#include "cli/slice_names.hpp"
-#include "cli/tell.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/scene_options.hpp"
+#include "cli/shared/slice_names.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/crop.hpp"
+#include "cli/output/crop.hpp"
 
 #include <array>
 #include <cstdio>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 

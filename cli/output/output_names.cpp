@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/output_names.hpp"
+#include "cli/output/output_names.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 

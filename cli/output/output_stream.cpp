@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/output_stream.hpp"
+#include "cli/output/output_stream.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/shard.hpp"
+#include "cli/output/shard.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 

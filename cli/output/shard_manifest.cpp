@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/shard_manifest.hpp"
+#include "cli/output/shard_manifest.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "cli/channels.hpp"
-#include "cli/view_transforms.hpp"
+#include "cli/output/channels.hpp"
+#include "cli/output/view_transforms.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/shard.hpp"
+#include "cli/output/shard.hpp"
 
 namespace voxelume::cli {
 

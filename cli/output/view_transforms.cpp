@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/view_transforms.hpp"
+#include "cli/output/view_transforms.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

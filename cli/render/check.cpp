@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/scene_options.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/scene_options.hpp"
 
 namespace voxelume::cli {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/finished_files.hpp"
+#include "cli/render/finished_files.hpp"
 
 #include <array>
 #include <filesystem>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cli/frame_files.hpp"
+#include "cli/render/frame_files.hpp"
 
 namespace voxelume::cli {
 

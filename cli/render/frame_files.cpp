@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/frame_files.hpp"
+#include "cli/render/frame_files.hpp"
 
 #include <unistd.h>
 
@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <numeric>
 
-#include "cli/checks.hpp"
-#include "cli/finished_files.hpp"
-#include "cli/output_stream.hpp"
-#include "cli/render_progress.hpp"
-#include "cli/shard.hpp"
+#include "cli/output/output_stream.hpp"
+#include "cli/output/shard.hpp"
+#include "cli/render/finished_files.hpp"
+#include "cli/render/render_progress.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

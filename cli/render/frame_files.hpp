@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/quilt.hpp"
-#include "cli/scene_options.hpp"
+#include "cli/render/quilt.hpp"
+#include "cli/shared/scene_options.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name
 namespace CLI {

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "cli/report.hpp"
-#include "cli/scene_options.hpp"
-#include "cli/warnings.hpp"
+#include "cli/shared/report.hpp"
+#include "cli/shared/scene_options.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/quilt.hpp"
+#include "cli/render/quilt.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "cli/checks.hpp"
-#include "cli/frame_files.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/render_progress.hpp"
-#include "cli/tell.hpp"
-#include "cli/warnings.hpp"
+#include "cli/render/frame_files.hpp"
+#include "cli/render/render_progress.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/complaint.hpp"
-#include "cli/render_job.hpp"
-#include "cli/render_jobs.hpp"
-#include "cli/render_tally.hpp"
-#include "cli/tell.hpp"
-#include "cli/warnings.hpp"
+#include "cli/render/render_job.hpp"
+#include "cli/render/render_jobs.hpp"
+#include "cli/render/render_tally.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/complaint.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {

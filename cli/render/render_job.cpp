@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // One job of `render`: a scene to its files.
-#include "cli/render_job.hpp"
+#include "cli/render/render_job.hpp"
 
 #include <chrono>
 #include <optional>
 
-#include "cli/channels.hpp"
-#include "cli/checks.hpp"
-#include "cli/crop.hpp"
-#include "cli/finished_files.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/output_stream.hpp"
-#include "cli/render_progress.hpp"
-#include "cli/render_report.hpp"
-#include "cli/shard_part.hpp"
-#include "cli/tell.hpp"
-#include "cli/view_transforms.hpp"
-#include "cli/warnings.hpp"
+#include "cli/output/channels.hpp"
+#include "cli/output/crop.hpp"
+#include "cli/output/output_stream.hpp"
+#include "cli/output/view_transforms.hpp"
+#include "cli/render/finished_files.hpp"
+#include "cli/render/render_progress.hpp"
+#include "cli/render/render_report.hpp"
+#include "cli/render/shard_part.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {

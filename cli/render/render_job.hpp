@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/frame_files.hpp"
+#include "cli/render/frame_files.hpp"
 
 namespace voxelume::cli {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render_jobs.hpp"
+#include "cli/render/render_jobs.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
-#include "cli/checks.hpp"
-#include "cli/output_names.hpp"
-#include "cli/output_stream.hpp"
-#include "cli/sweep.hpp"
+#include "cli/output/output_names.hpp"
+#include "cli/output/output_stream.hpp"
+#include "cli/render/sweep.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

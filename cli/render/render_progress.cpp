@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render_progress.hpp"
+#include "cli/render/render_progress.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "cli/checks.hpp"
-#include "cli/settings.hpp"
-#include "cli/tell.hpp"
-#include "cli/warnings.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/settings.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <string>
 
-#include "cli/progress.hpp"
-#include "cli/time_left.hpp"
+#include "cli/render/time_left.hpp"
+#include "cli/shared/progress.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render_report.hpp"
+#include "cli/render/render_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "cli/tell.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render_tally.hpp"
+#include "cli/render/render_tally.hpp"
 
-#include "cli/tell.hpp"
-#include "cli/warnings.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/shard_part.hpp"
+#include "cli/render/shard_part.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <utility>
 
-#include "cli/checks.hpp"
-#include "cli/crop.hpp"
-#include "cli/output_names.hpp"
-#include "cli/output_stream.hpp"
+#include "cli/output/crop.hpp"
+#include "cli/output/output_names.hpp"
+#include "cli/output/output_stream.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

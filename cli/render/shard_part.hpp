@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "cli/frame_files.hpp"
-#include "cli/shard_manifest.hpp"
+#include "cli/output/shard_manifest.hpp"
+#include "cli/render/frame_files.hpp"
 
 namespace voxelume::cli {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/sweep.hpp"
+#include "cli/render/sweep.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-#include "cli/checks.hpp"
-#include "cli/scene_options.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/scene_options.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/complaint.hpp"
+#include "cli/shared/complaint.hpp"
 
 #include <fmt/format.h>
 
 #include <sstream>
 #include <vector>
 
-#include "cli/tell.hpp"
-#include "cli/warnings.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
 
 namespace voxelume::cli {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/import_options.hpp"
+#include "cli/shared/import_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "cli/checks.hpp"
+#include "cli/shared/checks.hpp"
 
 namespace voxelume::cli {
 namespace {

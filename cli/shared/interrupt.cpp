@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/interrupt.hpp"
+#include "cli/shared/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "cli/tell.hpp"
+#include "cli/shared/tell.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

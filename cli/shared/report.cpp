@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/report.hpp"
+#include "cli/shared/report.hpp"
 
 #include <fmt/format.h>
 

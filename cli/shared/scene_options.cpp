@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/scene_options.hpp"
+#include "cli/shared/scene_options.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -11,9 +11,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "cli/checks.hpp"
-#include "cli/complaint.hpp"
-#include "cli/slice_names.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/complaint.hpp"
+#include "cli/shared/slice_names.hpp"
 
 namespace voxelume::cli {
 

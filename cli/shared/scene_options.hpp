@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/import_options.hpp"
+#include "cli/shared/import_options.hpp"
 #include "runtime/voxelume.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name

@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "cli/checks.hpp"
-#include "cli/settings.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/settings.hpp"
 
 namespace voxelume::cli {
 namespace {

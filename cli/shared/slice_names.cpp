@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/slice_names.hpp"
+#include "cli/shared/slice_names.hpp"
 
 #include <algorithm>
 #include <filesystem>

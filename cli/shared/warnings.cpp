@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/warnings.hpp"
+#include "cli/shared/warnings.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <utility>
 
-#include "cli/tell.hpp"
+#include "cli/shared/tell.hpp"
 
 namespace voxelume::cli {
 

@@ -41,7 +41,7 @@ from() {
     [ "$1" = debian:12 ] || fail "a stage is from $1 instead of debian:12"
     mkdir "$root"
     [ -n "$package" ] && [ "${3:-}" = build ] && return
-    tests/cli/bare_debian.sh "$root" "$cache" || fail "there is no bare Debian"
+    tests/scripts/bare_debian.sh "$root" "$cache" || fail "there is no bare Debian"
     touch "$root/etc/resolv.conf"
 }
 

@@ -20,7 +20,7 @@ fail() {
 if [ ! -f "$cache/bare.tar" ]; then
     made=$(mktemp -d)
     trap 'rm -rf --one-file-system "$made"' EXIT
-    "$source/tests/cli/bare_debian.sh" "$made" "$cache" || fail "there is no bare Debian"
+    "$source/tests/scripts/bare_debian.sh" "$made" "$cache" || fail "there is no bare Debian"
     needs=$(dpkg-deb -f "$package" Depends | tr ',' '\n' | sed -E 's/[|(].*//' | tr -d ' ' | sort -u)
     for one in g++ man-db pkg-config $needs; do
         case $one in libopencl*) ;; *) echo "$one" ;; esac

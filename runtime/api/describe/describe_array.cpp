@@ -2,7 +2,7 @@
 // What is in a file of an array, and what is assumed of it.
 #include <set>
 
-#include "runtime/api/describe.hpp"
+#include "runtime/api/describe/describe.hpp"
 
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is in a mesh file.
-#include "runtime/api/describe.hpp"
+#include "runtime/api/describe/describe.hpp"
 
 #include <fmt/format.h>
 

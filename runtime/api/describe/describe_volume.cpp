@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is in the file of a volumetric image.
-#include "runtime/api/describe.hpp"
+#include "runtime/api/describe/describe.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
 #include "runtime/io/volume/volume_kv6_read.hpp"

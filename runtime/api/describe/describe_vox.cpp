@@ -2,7 +2,7 @@
 // What is in a MagicaVoxel file, and what of it isn't shown.
 #include <algorithm>
 
-#include "runtime/api/describe.hpp"
+#include "runtime/api/describe/describe.hpp"
 #include "runtime/import/vox_sight.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/api/tree.hpp"
+#include "runtime/api/tree/tree.hpp"
 
 namespace voxelume::api {
 

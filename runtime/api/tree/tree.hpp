@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/scene_file/scene_document.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 #include "runtime/voxelume/scene.hpp"
 
 namespace voxelume::api {

@@ -2,7 +2,7 @@
 // Solids, models and objects as the scene format has them.
 #include <array>
 
-#include "runtime/api/tree.hpp"
+#include "runtime/api/tree/tree.hpp"
 
 namespace voxelume::api {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <set>
 
-#include "runtime/api/tree.hpp"
+#include "runtime/api/tree/tree.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 
 namespace voxelume::api {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The world of a description, its medium and its sky, as the scene format has them.
-#include "runtime/api/tree.hpp"
+#include "runtime/api/tree/tree.hpp"
 
 namespace voxelume::api {
 namespace {

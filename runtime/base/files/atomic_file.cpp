@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -13,8 +13,8 @@
 #include <string_view>
 #include <utility>
 
-#include "runtime/base/process_tag.hpp"
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/process_tag.hpp"
+#include "runtime/base/files/stamp.hpp"
 
 namespace voxelume {
 

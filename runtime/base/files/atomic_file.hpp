@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "runtime/base/byte_sink.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/base/temporary_files.hpp"
+#include "runtime/base/files/byte_sink.hpp"
+#include "runtime/base/files/temporary_files.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -16,8 +16,8 @@
 #include <ctime>
 #include <system_error>
 
-#include "runtime/base/private_folder.hpp"
-#include "runtime/base/process_tag.hpp"
+#include "runtime/base/files/private_folder.hpp"
+#include "runtime/base/files/process_tag.hpp"
 
 namespace voxelume {
 namespace {

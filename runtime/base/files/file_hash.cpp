@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/file_hash.hpp"
+#include "runtime/base/files/file_hash.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/private_folder.hpp"
+#include "runtime/base/files/private_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

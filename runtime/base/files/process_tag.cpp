@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/process_tag.hpp"
+#include "runtime/base/files/process_tag.hpp"
 
 #include <fmt/format.h>
 #include <limits.h>

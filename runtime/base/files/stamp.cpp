@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

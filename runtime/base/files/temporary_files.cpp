@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/temporary_files.hpp"
+#include "runtime/base/files/temporary_files.hpp"
 
 #include <unistd.h>
 

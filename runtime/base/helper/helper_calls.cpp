@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/helper_calls.hpp"
+#include "runtime/base/helper/helper_calls.hpp"
 
 #include <fcntl.h>
 #include <sched.h>

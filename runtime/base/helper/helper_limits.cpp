@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/helper_limits.hpp"
+#include "runtime/base/helper/helper_limits.hpp"
 
 #include <sys/prctl.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/helper_program.hpp"
+#include "runtime/base/helper/helper_program.hpp"
 
 #include <dlfcn.h>
 #include <link.h>

@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "runtime/base/helper_process.hpp"
+#include "runtime/base/helper/helper_process.hpp"
 
 namespace voxelume {
 

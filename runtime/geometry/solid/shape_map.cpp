@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/shape_map.hpp"
+#include "runtime/geometry/solid/shape_map.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

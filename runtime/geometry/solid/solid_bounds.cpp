@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 
 #include <cmath>
 #include <glm/common.hpp>

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "runtime/grid/grid_frame.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

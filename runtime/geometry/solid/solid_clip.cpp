@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/solid_clip.hpp"
+#include "runtime/geometry/solid/solid_clip.hpp"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/solid_inside.hpp"
+#include "runtime/geometry/solid/solid_inside.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "runtime/geometry/shape_map.hpp"
+#include "runtime/geometry/solid/shape_map.hpp"
 
 namespace voxelume {
 namespace {

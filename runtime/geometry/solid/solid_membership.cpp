@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/solid_membership.hpp"
+#include "runtime/geometry/solid/solid_membership.hpp"
 
 #include <algorithm>
 #include <array>

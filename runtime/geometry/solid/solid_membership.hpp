@@ -4,7 +4,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "runtime/geometry/solid_program.hpp"
+#include "runtime/geometry/solid/solid_program.hpp"
 
 namespace voxelume {
 

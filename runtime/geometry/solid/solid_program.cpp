@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/solid_program.hpp"
+#include "runtime/geometry/solid/solid_program.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "runtime/base/error.hpp"
-#include "runtime/geometry/shape_map.hpp"
+#include "runtime/geometry/solid/shape_map.hpp"
 
 namespace voxelume {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "kernels/shared/solid.h"
 #include "runtime/grid/grid.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

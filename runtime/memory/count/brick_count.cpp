@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/brick_count.hpp"
+#include "runtime/memory/count/brick_count.hpp"
 
 #include <algorithm>
 #include <array>

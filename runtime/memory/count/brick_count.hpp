@@ -7,7 +7,7 @@
 
 #include "runtime/geometry/surface_extent.hpp"
 #include "runtime/grid/grid.hpp"
-#include "runtime/memory/solid_field.hpp"
+#include "runtime/memory/count/solid_field.hpp"
 
 namespace voxelume {
 

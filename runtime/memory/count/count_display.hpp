@@ -2,8 +2,8 @@
 // scene + world on a counting device -> what rendering its volumetric image takes there.
 #pragma once
 
-#include "runtime/memory/count_image.hpp"
-#include "runtime/memory/object_counts.hpp"
+#include "runtime/memory/count/count_image.hpp"
+#include "runtime/memory/count/object_counts.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/count_grids.hpp"
+#include "runtime/memory/count/count_grids.hpp"
 
 #include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/count_image.hpp"
+#include "runtime/memory/count/count_image.hpp"
 
 #include <algorithm>
 #include <bit>

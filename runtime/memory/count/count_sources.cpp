@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/count_sources.hpp"
+#include "runtime/memory/count/count_sources.hpp"
 
 #include "runtime/analysis/source_objects.hpp"
 #include "runtime/stages/lookup/source_mesh.hpp"

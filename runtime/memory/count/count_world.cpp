@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/count_world.hpp"
+#include "runtime/memory/count/count_world.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/object_counts.hpp"
+#include "runtime/memory/count/object_counts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/grid/world_frame.hpp"
-#include "runtime/memory/voxel_bricks.hpp"
+#include "runtime/memory/count/plan_grid.hpp"
+#include "runtime/memory/count/voxel_bricks.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {

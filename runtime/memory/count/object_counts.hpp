@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "runtime/analysis/object_lattice.hpp"
-#include "runtime/memory/brick_count.hpp"
-#include "runtime/memory/count_grids.hpp"
-#include "runtime/memory/count_world.hpp"
-#include "runtime/memory/plan_extent.hpp"
-#include "runtime/memory/plan_object.hpp"
+#include "runtime/memory/count/brick_count.hpp"
+#include "runtime/memory/count/count_grids.hpp"
+#include "runtime/memory/count/count_world.hpp"
+#include "runtime/memory/count/plan_extent.hpp"
+#include "runtime/memory/count/plan_object.hpp"
 
 namespace voxelume {
 

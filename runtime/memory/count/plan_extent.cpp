@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/plan_extent.hpp"
+#include "runtime/memory/count/plan_extent.hpp"
 
 #include <algorithm>
 #include <functional>

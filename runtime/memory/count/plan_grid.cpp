@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/plan_grid.hpp"
+#include "runtime/memory/count/plan_grid.hpp"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/plan_object.hpp"
+#include "runtime/memory/count/plan_object.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/grid/world_frame.hpp"
-#include "runtime/memory/plan_grid.hpp"
+#include "runtime/memory/count/plan_grid.hpp"
 
 namespace voxelume {
 

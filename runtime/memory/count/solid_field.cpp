@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/solid_field.hpp"
+#include "runtime/memory/count/solid_field.hpp"
 
 #include <algorithm>
 #include <cmath>

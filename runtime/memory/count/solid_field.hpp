@@ -5,7 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <vector>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/memory/voxel_bricks.hpp"
+#include "runtime/memory/count/voxel_bricks.hpp"
 
 #include <algorithm>
 #include <array>

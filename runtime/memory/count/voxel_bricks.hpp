@@ -5,7 +5,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "runtime/geometry/voxel_model.hpp"
-#include "runtime/memory/brick_count.hpp"
+#include "runtime/memory/count/brick_count.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/known_answers.hpp"
+#include "runtime/opencl/self_test/known_answers.hpp"
 
 namespace voxelume {
 namespace {

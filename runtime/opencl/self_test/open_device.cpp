@@ -9,7 +9,7 @@
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/selector.hpp"
-#include "runtime/opencl/self_test.hpp"
+#include "runtime/opencl/self_test/self_test.hpp"
 
 namespace voxelume {
 namespace {

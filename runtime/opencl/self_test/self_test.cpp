@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/self_test.hpp"
+#include "runtime/opencl/self_test/self_test.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include "kernels/shared/self_test.h"
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/opencl/device_call.hpp"
-#include "runtime/opencl/known_answers.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/opencl/self_test/known_answers.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,11 +6,11 @@
 #include <mutex>
 #include <string_view>
 
-#include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/kernel_source.hpp"
-#include "runtime/opencl/known_answers.hpp"
-#include "runtime/opencl/self_test.hpp"
+#include "runtime/base/files/disk_cache.hpp"
+#include "runtime/opencl/self_test/known_answers.hpp"
+#include "runtime/opencl/self_test/self_test.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 
 namespace voxelume {
 namespace {

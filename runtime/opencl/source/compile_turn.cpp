@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/compile_turn.hpp"
+#include "runtime/opencl/source/compile_turn.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "runtime/base/disk_cache.hpp"
-#include "runtime/base/private_folder.hpp"
+#include "runtime/base/files/disk_cache.hpp"
+#include "runtime/base/files/private_folder.hpp"
 
 namespace voxelume {
 

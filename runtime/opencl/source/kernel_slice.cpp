@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/kernel_slice.hpp"
+#include "runtime/opencl/source/kernel_slice.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "runtime/opencl/source_parts.hpp"
+#include "runtime/opencl/source/source_parts.hpp"
 
 namespace voxelume {
 namespace {

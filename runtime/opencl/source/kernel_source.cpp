@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 
 #include <array>
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/pocl_folder.hpp"
+#include "runtime/opencl/source/pocl_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 #include <set>
 #include <system_error>
 
-#include "runtime/base/private_folder.hpp"
-#include "runtime/opencl/packed_files.hpp"
+#include "runtime/base/files/private_folder.hpp"
+#include "runtime/opencl/source/packed_files.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/base/disk_cache.hpp"
-#include "runtime/opencl/compile_turn.hpp"
+#include "runtime/base/files/disk_cache.hpp"
+#include "runtime/opencl/source/compile_turn.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/source_parts.hpp"
+#include "runtime/opencl/source/source_parts.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -12,8 +12,8 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/scene/bounds.hpp"
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/bounds.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/framing.hpp"
+#include "runtime/scene/parts/framing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 
 #include <array>
 #include <cmath>

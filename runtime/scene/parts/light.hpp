@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "runtime/base/source_place.hpp"
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

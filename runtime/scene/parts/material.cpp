@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/material.hpp"
+#include "runtime/scene/parts/material.hpp"
 
 #include <algorithm>
 #include <array>

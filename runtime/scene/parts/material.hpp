@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/object.hpp"
+#include "runtime/scene/parts/object.hpp"
 
 #include <array>
 

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "runtime/base/source_place.hpp"
-#include "runtime/scene/bounds.hpp"
-#include "runtime/scene/shading.hpp"
-#include "runtime/scene/solid.hpp"
-#include "runtime/scene/surface.hpp"
-#include "runtime/scene/value_row.hpp"
-#include "runtime/scene/voxel_values.hpp"
+#include "runtime/scene/parts/bounds.hpp"
+#include "runtime/scene/parts/shading.hpp"
+#include "runtime/scene/parts/solid.hpp"
+#include "runtime/scene/parts/surface.hpp"
+#include "runtime/scene/parts/value_row.hpp"
+#include "runtime/scene/parts/voxel_values.hpp"
 
 namespace voxelume {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/observer.hpp"
 
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 

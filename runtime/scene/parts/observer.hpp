@@ -8,8 +8,8 @@
 #include <span>
 
 #include "runtime/base/source_place.hpp"
-#include "runtime/scene/display_shape.hpp"
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/display_shape.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/reconstruction_filter.hpp"
+#include "runtime/scene/parts/reconstruction_filter.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,8 +11,8 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/scene/display_shape.hpp"
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/display_shape.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

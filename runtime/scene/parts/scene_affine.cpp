@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Affine maps from the factors that scene files give: positions, turns in degrees, scales.
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

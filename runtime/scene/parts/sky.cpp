@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/sky.hpp"
+#include "runtime/scene/parts/sky.hpp"
 
 #include <array>
 

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "runtime/base/source_place.hpp"
-#include "runtime/scene/sky_map.hpp"
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/sky_map.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 #include <algorithm>
 #include <array>

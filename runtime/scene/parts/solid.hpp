@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 #include <fmt/format.h>
 

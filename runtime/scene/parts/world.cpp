@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/world.hpp"
 
 #include <fmt/format.h>
 

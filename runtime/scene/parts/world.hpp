@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "runtime/base/source_place.hpp"
-#include "runtime/scene/bounds.hpp"
-#include "runtime/scene/sky.hpp"
-#include "runtime/scene/value_row.hpp"
+#include "runtime/scene/parts/bounds.hpp"
+#include "runtime/scene/parts/sky.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 
 namespace voxelume {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene_file/document_hash.hpp"
+#include "runtime/scene_file/document/document_hash.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "runtime/base/cache_key.hpp"
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/cache_key.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 
 namespace voxelume {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "runtime/scene_file/scene_document.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 
 namespace voxelume {
 

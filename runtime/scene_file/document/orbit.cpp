@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene_file/orbit.hpp"
+#include "runtime/scene_file/document/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 #include "runtime/scene/scene_motion.hpp"
 
 namespace voxelume {

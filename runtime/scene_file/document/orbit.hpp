@@ -3,7 +3,7 @@
 #pragma once
 
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_document.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 
 namespace voxelume {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene_file/scene_change.hpp"
+#include "runtime/scene_file/document/scene_change.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/utf8.hpp"
-#include "runtime/scene_file/scene_path.hpp"
+#include "runtime/scene_file/document/scene_path.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_document.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 
 namespace voxelume {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // JSON text -> a tree of values that know their line and column.
-#include "runtime/scene_file/scene_document.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 
 #include <nlohmann/json.hpp>
 #include <unordered_set>

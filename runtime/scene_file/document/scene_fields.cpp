@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Typed access to the values of a scene file, with messages that say where and what to do.
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,9 +13,9 @@
 
 #include "runtime/base/source_place.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/scene/value_row.hpp"
-#include "runtime/scene_file/scene_document.hpp"
-#include "runtime/scene_file/scene_keys.hpp"
+#include "runtime/scene/parts/value_row.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
+#include "runtime/scene_file/document/scene_keys.hpp"
 
 namespace voxelume {
 

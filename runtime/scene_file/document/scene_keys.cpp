@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of all keys of the scene format: the parser accepts these and no others.
-#include "runtime/scene_file/scene_keys.hpp"
+#include "runtime/scene_file/document/scene_keys.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "runtime/base/text.hpp"
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/material.hpp"
-#include "runtime/scene/observer.hpp"
-#include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid.hpp"
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/material.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
+#include "runtime/scene/parts/solid.hpp"
+#include "runtime/scene/parts/world.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene_file/scene_path.hpp"
+#include "runtime/scene_file/document/scene_path.hpp"
 
 #include <algorithm>
 #include <charconv>

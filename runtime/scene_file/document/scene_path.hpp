@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/scene_file/scene_document.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 
 namespace voxelume {
 

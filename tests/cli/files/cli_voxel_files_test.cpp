@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/io/image/exr.hpp"
-#include "tests/support/array_writer.hpp"
-#include "tests/support/png_writer.hpp"
 #include "tests/support/program_runner.hpp"
+#include "tests/support/writers/array_writer.hpp"
+#include "tests/support/writers/png_writer.hpp"
 
 namespace voxelume {
 

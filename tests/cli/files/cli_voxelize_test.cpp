@@ -4,7 +4,7 @@
 #include <set>
 
 #include "tests/cli/scene_program.hpp"
-#include "tests/support/array_writer.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 

@@ -11,7 +11,7 @@
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
-#include "tests/io/gltf_random_tree.hpp"
+#include "tests/io/gltf/gltf_random_tree.hpp"
 #include "tests/support/parsed_gltf.hpp"
 
 namespace voxelume {

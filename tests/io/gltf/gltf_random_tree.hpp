@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 

@@ -10,7 +10,7 @@
 #include "runtime/io/gltf/gltf_skin.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
-#include "tests/io/gltf_random_tree.hpp"
+#include "tests/io/gltf/gltf_random_tree.hpp"
 #include "tests/support/parsed_gltf.hpp"
 
 namespace voxelume {

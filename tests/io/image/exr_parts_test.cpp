@@ -15,7 +15,7 @@
 #include <numeric>
 #include <random>
 
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "tests/support/file_fixture.hpp"
 

@@ -3,7 +3,7 @@
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
 
-#include "tests/io/mesh_codec_sheet.hpp"
+#include "tests/io/mesh/mesh_codec_sheet.hpp"
 
 namespace voxelume {
 namespace {

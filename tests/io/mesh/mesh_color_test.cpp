@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of faces, strips of triangles, and the colours that two programs hide in STL.
-#include "tests/io/mesh_refusal.hpp"
-#include "tests/io/mesh_samples.hpp"
+#include "tests/io/mesh/mesh_refusal.hpp"
+#include "tests/io/mesh/mesh_samples.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/mesh_reader.hpp"
 
-#include "tests/io/mesh_refusal.hpp"
-#include "tests/io/mesh_samples.hpp"
+#include "tests/io/mesh/mesh_refusal.hpp"
+#include "tests/io/mesh/mesh_samples.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Damaged mesh files: each gives a valid Mesh or an error's sentence, never a crash.
 #include "runtime/base/error.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
-#include "tests/io/mesh_samples.hpp"
+#include "tests/io/mesh/mesh_samples.hpp"
 #include "tests/support/mesh_invariants.hpp"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "runtime/io/gltf/gltf_accessor.hpp"
 #include "runtime/io/mesh_codec/mesh_codec.hpp"
-#include "tests/io/mesh_codec_sheet.hpp"
+#include "tests/io/mesh/mesh_codec_sheet.hpp"
 
 namespace voxelume {
 namespace {

@@ -8,8 +8,8 @@
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
-#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 namespace {

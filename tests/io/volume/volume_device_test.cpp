@@ -8,7 +8,7 @@
 
 #include "runtime/io/volume/volume_dither.hpp"
 #include "tests/io/little_endian.hpp"
-#include "tests/io/volume_damage.hpp"
+#include "tests/io/volume/volume_damage.hpp"
 #include "tests/support/volume_samples.hpp"
 
 namespace voxelume {

@@ -4,7 +4,7 @@
 #include <ImfDeepScanLineInputFile.h>
 #include <gmock/gmock.h>
 
-#include "tests/io/volume_damage.hpp"
+#include "tests/io/volume/volume_damage.hpp"
 #include "tests/support/volume_samples.hpp"
 
 namespace voxelume {

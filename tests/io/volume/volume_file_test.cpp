@@ -9,7 +9,7 @@
 
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
-#include "tests/io/volume_damage.hpp"
+#include "tests/io/volume/volume_damage.hpp"
 #include "tests/support/volume_samples.hpp"
 
 namespace voxelume {

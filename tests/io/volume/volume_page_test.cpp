@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "runtime/image/volume_geometry.hpp"
-#include "tests/io/browser.hpp"
+#include "tests/io/volume/browser.hpp"
 #include "tests/support/volume_samples.hpp"
 
 namespace voxelume {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "tests/io/volume_damage.hpp"
+#include "tests/io/volume/volume_damage.hpp"
 #include "tests/support/volume_samples.hpp"
 
 namespace voxelume {

@@ -4,7 +4,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "tests/io/volume_damage.hpp"
+#include "tests/io/volume/volume_damage.hpp"
 #include "tests/support/volume_samples.hpp"
 
 namespace voxelume {

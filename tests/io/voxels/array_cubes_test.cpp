@@ -5,9 +5,9 @@
 #include <random>
 
 #include "runtime/assets/voxel_model_file.hpp"
-#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/voxel_cells.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 

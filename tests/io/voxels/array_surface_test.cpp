@@ -8,8 +8,8 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/arrays/cell_bits.hpp"
-#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,9 +9,9 @@
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
-#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/voxel_cells.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 

@@ -11,8 +11,8 @@
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/png_writer.hpp"
 #include "tests/support/voxel_cells.hpp"
+#include "tests/support/writers/png_writer.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,7 +7,7 @@
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/vox_writer.hpp"
+#include "tests/support/writers/vox_writer.hpp"
 
 namespace voxelume {
 

@@ -7,8 +7,8 @@
 
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
-#include "tests/support/lighthouse_vox.hpp"
 #include "tests/support/vox_fixture.hpp"
+#include "tests/support/writers/lighthouse_vox.hpp"
 
 namespace voxelume {
 

@@ -6,9 +6,9 @@
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/voxel_art/block_colors.hpp"
 #include "runtime/io/voxel_art/voxel_art.hpp"
-#include "tests/support/art_writer.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/voxel_cells.hpp"
+#include "tests/support/writers/art_writer.hpp"
 
 namespace voxelume {
 

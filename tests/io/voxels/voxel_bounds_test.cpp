@@ -6,9 +6,9 @@
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxel_art/cell_bricks.hpp"
 #include "runtime/io/voxel_file_table.hpp"
-#include "tests/support/array_writer.hpp"
-#include "tests/support/art_writer.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/writers/array_writer.hpp"
+#include "tests/support/writers/art_writer.hpp"
 
 namespace voxelume {
 

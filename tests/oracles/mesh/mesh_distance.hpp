@@ -2,7 +2,7 @@
 // The closest point of a mesh, in double.
 #pragma once
 
-#include "tests/oracles/mesh_tree.hpp"
+#include "tests/oracles/mesh/mesh_tree.hpp"
 
 namespace voxelume::oracle {
 

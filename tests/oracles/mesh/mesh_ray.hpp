@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "tests/oracles/mesh_tree.hpp"
+#include "tests/oracles/mesh/mesh_tree.hpp"
 
 namespace voxelume::oracle {
 

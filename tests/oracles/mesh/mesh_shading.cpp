@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/oracles/mesh_shading.hpp"
+#include "tests/oracles/mesh/mesh_shading.hpp"
 
 namespace voxelume::oracle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/oracles/mesh_tree.hpp"
+#include "tests/oracles/mesh/mesh_tree.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/oracles/triangle_overlap.hpp"
+#include "tests/oracles/mesh/triangle_overlap.hpp"
 
 #include <gmpxx.h>
 

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/global_light.hpp"
 #include "tests/pictures/golden_hash.hpp"
+#include "tests/pictures/light/global_light.hpp"
 
 namespace voxelume {
 namespace {

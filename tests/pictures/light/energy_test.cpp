@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/pictures/sensor_room.hpp"
+#include "tests/pictures/light/sensor_room.hpp"
 
 namespace voxelume {
 namespace {

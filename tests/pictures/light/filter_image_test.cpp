@@ -7,7 +7,7 @@
 #include "runtime/stages/light/footprint.hpp"
 #include "tests/oracles/filter_weights.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/box_scene.hpp"
+#include "tests/pictures/light/box_scene.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/pictures/sensor_room.hpp"
+#include "tests/pictures/light/sensor_room.hpp"
 
 namespace voxelume {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Global light against what is known exactly: furnaces, closed spheres, form factors.
-#include "tests/pictures/global_light.hpp"
+#include "tests/pictures/light/global_light.hpp"
 
 #include <gmock/gmock.h>
 

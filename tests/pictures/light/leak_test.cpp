@@ -6,7 +6,7 @@
 
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
-#include "tests/pictures/leaky_room.hpp"
+#include "tests/pictures/light/leaky_room.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

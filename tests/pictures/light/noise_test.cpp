@@ -2,7 +2,7 @@
 // Images whose samples are added until their noise is small enough.
 #include <gtest/gtest.h>
 
-#include "tests/pictures/global_light.hpp"
+#include "tests/pictures/light/global_light.hpp"
 
 namespace voxelume {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/global_light.hpp"
 #include "tests/pictures/golden_hash.hpp"
+#include "tests/pictures/light/global_light.hpp"
 
 namespace voxelume {
 namespace {

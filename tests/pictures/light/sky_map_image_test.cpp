@@ -7,7 +7,7 @@
 
 #include "runtime/io/image/exr.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/global_light.hpp"
+#include "tests/pictures/light/global_light.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {

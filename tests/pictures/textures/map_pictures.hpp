@@ -10,7 +10,7 @@
 #include <numeric>
 #include <optional>
 
-#include "tests/pictures/texture_image.hpp"
+#include "tests/pictures/textures/texture_image.hpp"
 #include "tests/support/instance_scenes.hpp"
 
 namespace voxelume {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "runtime/scene/scene.hpp"
-#include "tests/pictures/texture_image.hpp"
+#include "tests/pictures/textures/texture_image.hpp"
 
 namespace voxelume {
 

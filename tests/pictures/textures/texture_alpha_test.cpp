@@ -7,8 +7,8 @@
 
 #include "runtime/io/image/png.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
 #include "tests/support/instance_scenes.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

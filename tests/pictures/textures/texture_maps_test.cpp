@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "runtime/io/image/png.hpp"
-#include "tests/pictures/map_pictures.hpp"
+#include "tests/pictures/textures/map_pictures.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

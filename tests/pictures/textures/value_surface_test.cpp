@@ -6,10 +6,10 @@
 
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/scene_file/read_scene.hpp"
-#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
 #include "tests/support/solid_errors.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 

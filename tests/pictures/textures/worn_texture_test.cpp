@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/io/image/png.hpp"
-#include "tests/pictures/seen_sheet.hpp"
+#include "tests/pictures/textures/seen_sheet.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/array_writer.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "tests/support/vox_writer.hpp"
+#include "tests/support/writers/vox_writer.hpp"
 
 namespace voxelume {
 

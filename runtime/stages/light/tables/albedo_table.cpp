@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/stages/light/albedo_table.hpp"
+#include "runtime/stages/light/tables/albedo_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-#include "runtime/stages/light/facet_rings.hpp"
+#include "runtime/stages/light/tables/facet_rings.hpp"
 
 namespace voxelume {
 namespace {

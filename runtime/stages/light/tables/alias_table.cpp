@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/stages/light/alias_table.hpp"
+#include "runtime/stages/light/tables/alias_table.hpp"
 
 namespace voxelume {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "kernels/shared/scene.h"
-#include "runtime/stages/light/albedo_table.hpp"
+#include "runtime/stages/light/tables/albedo_table.hpp"
 
 namespace voxelume {
 

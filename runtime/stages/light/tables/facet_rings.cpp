@@ -2,7 +2,7 @@
 // The albedo of facets is the mean, over those that are seen, of the part that others don't hide:
 // Heitz 2014, "Understanding the Masking-Shadowing Function"; seen facets as Dupuy & Benyoub 2023
 // find them, by points of a spherical cap.
-#include "runtime/stages/light/facet_rings.hpp"
+#include "runtime/stages/light/tables/facet_rings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is returned at once is the mean over facets that are seen, by points of a spherical cap
 // (Dupuy & Benyoub 2023), of what each reflects and refracts that others don't hide.
-#include "runtime/stages/light/glass_table.hpp"
+#include "runtime/stages/light/tables/glass_table.hpp"
 
 #include <algorithm>
 #include <cmath>
