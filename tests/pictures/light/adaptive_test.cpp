@@ -38,13 +38,13 @@ Scene scene_with(int samples, double adaptive) {
     return scene;
 }
 
-struct Rendered {
+struct AdaptiveImage {
     Image image;
     RenderReport report;
 };
 
-Rendered rendered(const Scene& scene, int lanes = 0) {
-    Rendered r;
+AdaptiveImage adaptive_image(const Scene& scene, int lanes = 0) {
+    AdaptiveImage r;
     r.image = render(test_device(lanes), scene, r.report);
     return r;
 }
@@ -71,9 +71,9 @@ void expect_same_bits(const Image& a, const Image& b) {
 }
 
 TEST(Adaptive, GivesAllSamplesToPixelsThatContrastAndOneToOthers) {
-    const Image one = rendered(scene_with(1, 0)).image,
-                all = rendered(scene_with(kSamples, 0)).image;
-    const Rendered adaptive = rendered(scene_with(kSamples, 0.05));
+    const Image one = adaptive_image(scene_with(1, 0)).image,
+                all = adaptive_image(scene_with(kSamples, 0)).image;
+    const AdaptiveImage adaptive = adaptive_image(scene_with(kSamples, 0.05));
     const std::vector<uint32_t> list = contrasting_pixels(one, 0.05);
     const std::set<uint32_t> contrasting(list.begin(), list.end());
     EXPECT_EQ(adaptive.report.contrasting_pixels, contrasting.size());
@@ -93,33 +93,34 @@ TEST(Adaptive, GivesAllSamplesToPixelsThatContrastAndOneToOthers) {
 }
 
 TEST(Adaptive, IsAsBeforeWhereNothingIsAskedFor) {
-    const Rendered one = rendered(scene_with(1, 0)), adaptive = rendered(scene_with(1, 0.5));
+    const AdaptiveImage one = adaptive_image(scene_with(1, 0)),
+                        adaptive = adaptive_image(scene_with(1, 0.5));
     expect_same_bits(one.image, adaptive.image);
     EXPECT_EQ(adaptive.report.contrasting_pixels, 0u);
     Scene global = scene_with(2, 0);
     global.render.light = LightMode::global;
-    const Rendered all = rendered(global);
+    const AdaptiveImage all = adaptive_image(global);
     global.render.adaptive = 0.5;
-    expect_same_bits(all.image, rendered(global).image);
+    expect_same_bits(all.image, adaptive_image(global).image);
 }
 
 TEST(Adaptive, HasTheSameBitsWithEachNumberOfLanes) {
     if (!is_exhaustive()) GTEST_SKIP() << kOnlyWithAll;
-    const Image image = rendered(scene_with(kSamples, 0.05)).image;
+    const Image image = adaptive_image(scene_with(kSamples, 0.05)).image;
     for (const int lanes : lanes_with_all())
-        expect_same_bits(image, rendered(scene_with(kSamples, 0.05), lanes).image);
+        expect_same_bits(image, adaptive_image(scene_with(kSamples, 0.05), lanes).image);
 }
 
 TEST(Adaptive, HasInPartsOfAPictureTheBitsOfTheWhole) {
     Scene whole = scene_with(kSamples, 0.05);
     whole.render.filter = {FilterShape::blackman_harris, 4.5};
-    const Image image = rendered(whole).image;
+    const Image image = adaptive_image(whole).image;
     for (const auto& [first, size] : {std::pair{glm::ivec2(0, 0), glm::ivec2(31, 22)},
                                       {glm::ivec2(17, 21), glm::ivec2(33, 30)},
                                       {glm::ivec2(62, 1), glm::ivec2(31, 69)}}) {
         Scene part = whole;
         crop(part, first, size);
-        const Image cropped = rendered(part).image;
+        const Image cropped = adaptive_image(part).image;
         EXPECT_EQ(cropped.first, first);
         EXPECT_EQ(cropped.frame, glm::ivec2(93, 70));
         Image expected = part_of(image, first, size);
@@ -128,16 +129,16 @@ TEST(Adaptive, HasInPartsOfAPictureTheBitsOfTheWhole) {
 }
 
 TEST(Adaptive, HasTheChannelsThatAreAskedFor) {
-    const Image all = rendered(scene_with(kSamples, 0.05)).image;
+    const Image all = adaptive_image(scene_with(kSamples, 0.05)).image;
     Scene scene = scene_with(kSamples, 0.05);
     scene.render.channels = {
         .color = true, .depth = false, .position = true, .normal = false, .object = false};
-    const Image some = rendered(scene).image;
+    const Image some = adaptive_image(scene).image;
     EXPECT_EQ(some.planes.size(), 7u);
     EXPECT_TRUE(some.id_planes.empty());
     for (const auto& [name, plane] : some.planes) EXPECT_EQ(plane, all.planes.at(name)) << name;
     scene.render.channels.color = false;
-    const Image places = rendered(scene).image;
+    const Image places = adaptive_image(scene).image;
     EXPECT_EQ(places.planes.size(), 3u);
     for (const auto& [name, plane] : places.planes) EXPECT_EQ(plane, all.planes.at(name)) << name;
 }
@@ -146,8 +147,8 @@ TEST(Adaptive, PassesOfTheLightAddUp) {
     Scene scene = scene_with(kSamples, 0.05);
     scene.render.channels.direct = scene.render.channels.indirect = true;
     scene.render.channels.light_groups = true;
-    const Image image = rendered(scene).image;
-    expect_same_bits(rendered(scene_with(kSamples, 0.05)).image, [&] {
+    const Image image = adaptive_image(scene).image;
+    expect_same_bits(adaptive_image(scene_with(kSamples, 0.05)).image, [&] {
         Image plain = image;
         std::erase_if(plain.planes, [](const auto& plane) {
             return plane.first.find("ect.") != plane.first.npos ||
@@ -168,11 +169,11 @@ TEST(Adaptive, PassesOfTheLightAddUp) {
 TEST(Adaptive, MattesCoverWhatTheImageCovers) {
     Scene scene = scene_with(kSamples, 0.05);
     scene.render.channels.object_matte = true;
-    const Image image = rendered(scene).image;
+    const Image image = adaptive_image(scene).image;
     scene.render.adaptive = 0;
-    const Image all = rendered(scene).image;
+    const Image all = adaptive_image(scene).image;
     const std::vector<uint32_t> contrasting =
-        contrasting_pixels(rendered(scene_with(1, 0)).image, 0.05);
+        contrasting_pixels(adaptive_image(scene_with(1, 0)).image, 0.05);
     for (const uint32_t i : contrasting)
         for (const char* channel : {"CryptoObject00.R", "CryptoObject00.G", "CryptoObject00.A"}) {
             const float second = all.planes.at("CryptoObject00.A")[i];

@@ -25,13 +25,13 @@ Scene noisy_scene(double error, int samples) {
     return scene;
 }
 
-struct Rendered {
+struct NoisyImage {
     Image image;
     RenderReport report;
 };
 
-Rendered rendered_to(double error, int samples, int lanes = 0) {
-    Rendered r;
+NoisyImage rendered_to(double error, int samples, int lanes = 0) {
+    NoisyImage r;
     r.image = render(test_device(lanes), noisy_scene(error, samples), r.report);
     return r;
 }
@@ -59,10 +59,10 @@ double error_of(const Image& image, const Image& truth) {
 
 TEST(Noise, IsWhatWasAskedForWithFewerSamplesWhereLightIsSmooth) {
     const int samples = is_exhaustive() ? 4096 : 1024;
-    const Rendered truth = rendered_to(0, samples);
+    const NoisyImage truth = rendered_to(0, samples);
     std::vector<uint64_t> rays;
     for (const double target : {0.08, 0.02}) {
-        const Rendered r = rendered_to(target, samples);
+        const NoisyImage r = rendered_to(target, samples);
         const double error = error_of(r.image, truth.image);
         fmt::print("asked {}, said {:.4f}, is {:.4f}, {:.1f} samples a pixel\n", target,
                    r.report.noise.mean(), error, double(r.report.sight_rays) / 1024);
@@ -77,7 +77,7 @@ TEST(Noise, IsWhatWasAskedForWithFewerSamplesWhereLightIsSmooth) {
 }
 
 TEST(Noise, TakesNoMoreSamplesThanTheMaximum) {
-    const Rendered r = rendered_to(1e-6, 100);
+    const NoisyImage r = rendered_to(1e-6, 100);
     EXPECT_LE(r.report.sight_rays, 64u * 1024);  // doubled from 16 on, but for the sky
     EXPECT_GT(r.report.sight_rays, 40u * 1024);
     EXPECT_GT(r.report.noise.mean(), 1e-6);
@@ -91,7 +91,7 @@ TEST(Noise, TakesNoMoreSamplesThanTheMaximum) {
 
 TEST(Noise, AddsSamplesToThoseOfAShorterRun) {
     // The mean of both halves is the image of all samples but for rounding.
-    const Rendered both = rendered_to(1e-6, 32), once = rendered_to(0, 32);
+    const NoisyImage both = rendered_to(1e-6, 32), once = rendered_to(0, 32);
     for (const char* channel : {"R", "G", "B", "A"})
         for (size_t i = 0; i < 1024; ++i)
             ASSERT_NEAR(both.image.planes.at(channel)[i], once.image.planes.at(channel)[i], 1e-5f)
@@ -106,7 +106,7 @@ TEST(Noise, LeavesMattesAndNumbersAsTheFirstSamplesHaveThem) {
         return render(test_device(), scene, report);
     };
     // Buffers of the second image lie where those of the first one did, full of its light.
-    const Image first = rendered(0, 16), more = rendered(0.02, 1024);
+    const Image first = noisy_image(0, 16), more = noisy_image(0.02, 1024);
     for (const auto& [name, plane] : first.planes)
         EXPECT_EQ(more.planes.at(name) == plane, name.size() > 1 || name == "Z") << name;
     EXPECT_TRUE(more.id_planes == first.id_planes);
@@ -137,7 +137,7 @@ TEST(Noise, DoesNotTakeSurfacesForDarkByTheirFirstSamples) {
 }
 
 TEST(Noise, GivesPassesTheSamplesOfAllLight) {
-    const Rendered alone = rendered_to(0.05, 256);
+    const NoisyImage alone = rendered_to(0.05, 256);
     Scene scene = noisy_scene(0.05, 256);
     scene.render.channels.direct = scene.render.channels.light_groups = true;
     for (const bool has_color : {true, false}) {
@@ -157,9 +157,9 @@ TEST(Noise, GivesPassesTheSamplesOfAllLight) {
 }
 
 TEST(Noise, HasTheSameBitsOnAnyNumberOfLanesAndForEachTileAlone) {
-    const Rendered whole = rendered_to(0.05, 256, 0);
+    const NoisyImage whole = rendered_to(0.05, 256, 0);
     for (const int lanes : lanes_with_all()) {
-        const Rendered other = rendered_to(0.05, 256, lanes);
+        const NoisyImage other = rendered_to(0.05, 256, lanes);
         EXPECT_EQ(other.report.sight_rays, whole.report.sight_rays);
         EXPECT_TRUE(other.image.planes == whole.image.planes) << lanes;
     }
