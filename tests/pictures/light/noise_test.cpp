@@ -106,7 +106,7 @@ TEST(Noise, LeavesMattesAndNumbersAsTheFirstSamplesHaveThem) {
         return render(test_device(), scene, report);
     };
     // Buffers of the second image lie where those of the first one did, full of its light.
-    const Image first = noisy_image(0, 16), more = noisy_image(0.02, 1024);
+    const Image first = rendered(0, 16), more = rendered(0.02, 1024);
     for (const auto& [name, plane] : first.planes)
         EXPECT_EQ(more.planes.at(name) == plane, name.size() > 1 || name == "Z") << name;
     EXPECT_TRUE(more.id_planes == first.id_planes);
