@@ -7,6 +7,7 @@
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_behind.h"
 #include "lib/surface/cube_body.h"
+#include "lib/surface/field_chain.h"
 #include "lib/surface/smooth.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
@@ -184,15 +185,19 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     return tested & LANE_MASK(found->t <= exit_time(w));
 }
 
-/// Tests field `number` of each lane in `tested`; closer hits than found->t replace it.
+/// Tests the field of each lane in `tested`, which is that of records `number` to before `end`;
+/// closer hits than found->t replace it.
 static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                 lane_uint number, lane_int tested, lane_int beginning,
-                                 const RayState* ray_state, SurfaceHit* found) {
-    const Field field = read_field(s->fields, number);
+                                 lane_uint number, lane_uint end, lane_int tested,
+                                 lane_int beginning, const RayState* ray_state, SurfaceHit* found) {
     FieldApproach from = {(lane_int)0, ray_state->unsure & tested, beginning, (lane_int)0};
     const int any_unsure = lanes_any(from.unsure);
     if (VXL_FIELD_LISTS) {
-        from.beginning &= LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
+        lane_int here = LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
+        if (VXL_FIELD_CHAINS)
+            here = LANE_MASK(ray_state->source >= (number | VXL_FIELD_SOURCE)) &
+                   LANE_MASK(ray_state->source < (end | VXL_FIELD_SOURCE));
+        from.beginning &= here;
         from.here = beginning & ~from.beginning;
     }
     lane_uint packed = (lane_uint)s->constant_attribute;
@@ -203,7 +208,20 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
         from.within |= from.unsure & (is_medium(found->inside, packed) |
                                       (from.beginning & ray_state->within_source));
     lane_float t = (lane_float)INFINITY;
-    const lane_int met = hit_smooth(&field, w, p->plane_bound, tested, &from, &found->level, &t);
+    lane_int met = (lane_int)0, alone = tested;
+    const lane_int unsure = from.unsure;
+    const Field field = read_field(s->fields, number);
+    if (VXL_FIELD_CHAINS) {
+        const lane_int chained = tested & LANE_MASK(end - number > 1u);
+        const FieldChain chain = {s->fields, number, end};
+        if (lanes_any(chained))
+            met = hit_chain(&chain, w, p->plane_bound, chained, &from, &found->level, &t, &number);
+        alone &= ~chained;
+        from.unsure &= alone;
+    }
+    if (!VXL_FIELD_CHAINS || lanes_any(alone))
+        met |= hit_smooth(&field, w, p->plane_bound, alone, &from, &found->level, &t);
+    from.unsure = unsure;
     if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
     // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
     if (VXL_TRANSMISSION)
@@ -221,9 +239,10 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
                                   lane_uint voxel, lane_int tested, lane_int lists,
                                   lane_int beginning, const RayState* ray_state,
                                   SurfaceHit* found) {
-    if (!VXL_FIELD_LISTS || !lanes_any(lists & tested))
-        return hit_field(p, s, w, voxel & LANES_AS_UINT(tested), tested, beginning, ray_state,
-                         found);
+    if (!VXL_FIELD_LISTS || !lanes_any(lists & tested)) {
+        const lane_uint only = voxel & LANES_AS_UINT(tested);
+        return hit_field(p, s, w, only, only + 1u, tested, beginning, ray_state, found);
+    }
     lists &= tested;
     const lane_uint record = (voxel & LANES_AS_UINT(lists)) * VXL_FIELD_WORDS;
     lane_uint number = LANES_SELECT(lists, LANES_GATHER_UINT(s->fields, record), voxel);
@@ -232,9 +251,11 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
     lane_int met = (lane_int)0;
     tested &= LANE_MASK(number < end);
     while (lanes_any(tested)) {
-        met |=
-            hit_field(p, s, w, number & LANES_AS_UINT(tested), tested, beginning, ray_state, found);
-        number += 1u;
+        number &= LANES_AS_UINT(tested);
+        const lane_uint next =
+            VXL_FIELD_CHAINS ? chain_from(s->fields, number, end, lists & tested).end : number + 1u;
+        met |= hit_field(p, s, w, number, next, tested, beginning, ray_state, found);
+        number = next;
         tested &= LANE_MASK(number < end);
     }
     return met;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/geometry/solid_parts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace voxelume {
+namespace {
+
+using Parts = std::vector<SolidPart>;
+
+SolidPart whole(Solid solid, const glm::dmat4& frame_from_parent, bool is_complement) {
+    solid.parent_from_solid = frame_from_parent * solid.parent_from_solid;
+    return {std::move(solid), is_complement, FieldLink::none};
+}
+
+/// True if the parts may be joined to others by `link` in any order.
+bool joins_by(const Parts& parts, FieldLink link) {
+    return std::all_of(parts.begin() + 1, parts.end(),
+                       [&](const SolidPart& part) { return part.link == link; });
+}
+
+Parts divide(const Solid& solid, const glm::dmat4& frame_from_parent, bool is_complement) {
+    if (!is_combination(solid.kind)) return {whole(solid, frame_from_parent, is_complement)};
+    const glm::dmat4 map = frame_from_parent * solid.parent_from_solid;
+    // De Morgan: the complement of a union is the intersection of the complements.
+    const bool is_union = (solid.kind == SolidKind::union_of) != is_complement;
+    const FieldLink link = is_union ? FieldLink::least : FieldLink::largest;
+    Parts first, others;
+    for (size_t i = 0; i < solid.parts.size(); ++i) {
+        const bool is_taken_away = solid.kind == SolidKind::difference_of && i > 0;
+        const bool is_outside = is_complement != is_taken_away;
+        Parts divided = divide(solid.parts[i], map, is_outside);
+        if (!joins_by(divided, link) && first.empty()) {
+            first = std::move(divided);
+            continue;
+        }
+        if (!joins_by(divided, link)) divided = {whole(solid.parts[i], map, is_outside)};
+        for (SolidPart& part : divided) part.link = link;
+        others.insert(others.end(), divided.begin(), divided.end());
+    }
+    first.insert(first.end(), others.begin(), others.end());
+    first.front().link = FieldLink::none;
+    return first;
+}
+
+}  // namespace
+
+std::vector<SolidPart> parts_of(const Solid& solid) {
+    return divide(solid, glm::dmat4(1), false);
+}
+
+}  // namespace voxelume
