@@ -50,4 +50,10 @@ std::vector<SolidPart> parts_of(const Solid& solid) {
     return divide(solid, glm::dmat4(1), false);
 }
 
+uint32_t count_nodes(const Solid& solid) {
+    uint32_t count = 1;
+    for (const Solid& part : solid.parts) count += count_nodes(part);
+    return count;
+}
+
 }  // namespace voxelume

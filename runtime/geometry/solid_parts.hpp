@@ -22,4 +22,7 @@ struct SolidPart {
 /// divided, and the others stay whole.
 std::vector<SolidPart> parts_of(const Solid& solid);
 
+/// The nodes of a solid's tree.
+uint32_t count_nodes(const Solid& solid);
+
 }  // namespace voxelume

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "runtime/geometry/solid_parts.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -253,6 +255,25 @@ BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const V
     const SurfaceExtent quarter =
         count_bricks(field, coarse, {0.5 * box.low, 0.5 * box.high}, rule, apart).extent;
     return {{4 * quarter.voxels, 4 * quarter.bricks}, 4 * quarter.bricks};
+}
+
+BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
+                       const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
+                       TakenBricks& taken) {
+    BrickCount count = count_bricks(SolidField(solid, frame_from_solid), frame, box, rule, taken);
+    const std::vector<SolidPart> parts = parts_of(solid);
+    if (parts.size() == 1) return count;
+    SurfaceExtent sum;
+    for (const SolidPart& part : parts) {
+        TakenBricks own(frame);
+        const SurfaceExtent extent =
+            count_bricks(SolidField(part.solid, frame_from_solid), frame, box, rule, own).extent;
+        sum.voxels += extent.voxels, sum.bricks += extent.bricks;
+    }
+    constexpr double kFields = 2;  // on average at most, of voxels where parts meet
+    count.extent = {std::min(sum.voxels, kFields * count.extent.voxels),
+                    std::max(sum.bricks, count.extent.bricks)};
+    return count;
 }
 
 }  // namespace voxelume

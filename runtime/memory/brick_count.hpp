@@ -54,4 +54,10 @@ struct BrickCount {
 BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
                         const BrickRule& rule, TakenBricks& taken);
 
+/// Does so for a smooth solid: each of its parts has bricks of its own, and voxels in which parts
+/// meet have a field of each.
+BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
+                       const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
+                       TakenBricks& taken);
+
 }  // namespace voxelume
