@@ -5,7 +5,7 @@
 
 #include "lib/display/line_order.h"
 #include "lib/solid/solid_surface.h"
-#include "lib/surface/smooth.h"
+#include "lib/surface/field_chain.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/transformed_ray.h"
