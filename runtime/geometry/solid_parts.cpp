@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/geometry/flush_faces.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -44,10 +46,40 @@ Parts divide(const Solid& solid, const glm::dmat4& frame_from_parent, bool is_co
     return first;
 }
 
+Solid union_of(Solid a, Solid b) {
+    Solid both;
+    both.kind = SolidKind::union_of;
+    both.parts = {std::move(a), std::move(b)};
+    return both;
+}
+
+/// Makes one part of those of a union whose faces continue each other: such a face has no edge
+/// where one of them ends, but their own edges, which fields round, would show there.
+Parts with_flush_ones_joined(Parts parts) {
+    const bool is_union = joins_by(parts, FieldLink::least);
+    const auto is_open = [&](const SolidPart& part) {
+        const bool is_in_union =
+            part.link == FieldLink::least || (is_union && part.link == FieldLink::none);
+        return is_in_union && !part.is_complement;
+    };
+    for (size_t i = 0; i < parts.size(); ++i)
+        for (size_t j = i + 1; j < parts.size();) {
+            if (!is_open(parts[i]) || !is_open(parts[j]) ||
+                !have_flush_faces(parts[i].solid, parts[j].solid)) {
+                ++j;
+                continue;
+            }
+            parts[i].solid = union_of(std::move(parts[i].solid), std::move(parts[j].solid));
+            parts.erase(parts.begin() + std::ptrdiff_t(j));
+            j = i + 1;  // what is joined may continue others
+        }
+    return parts;
+}
+
 }  // namespace
 
 std::vector<SolidPart> parts_of(const Solid& solid) {
-    return divide(solid, glm::dmat4(1), false);
+    return with_flush_ones_joined(divide(solid, glm::dmat4(1), false));
 }
 
 uint32_t count_nodes(const Solid& solid) {

@@ -19,7 +19,8 @@ struct SolidPart {
 /// The parts that make up a solid when each is joined to those before it: all shapes of a tree
 /// without brackets, such as unions of unions, or a shape without others. Where several parts of a
 /// union are differences or intersections themselves (or the other way round), one of them is
-/// divided, and the others stay whole.
+/// divided, and the others stay whole. Parts of a union that have faces in one plane where they
+/// meet are one part.
 std::vector<SolidPart> parts_of(const Solid& solid);
 
 /// The nodes of a solid's tree.

@@ -60,6 +60,14 @@ const std::array kParts = {
               return common(ball(p, {-0.35, 0.1, 0}, glm::dvec3(0.9)),
                             ball(p, {0.4, 0.05, 0.2}, glm::dvec3(0.8)));
           }},
+    Parts{"bowl with a wall of a third of a voxel", R"("shape": "difference", "parts": [
+              {"shape": "sphere", "radius": 0.9}, {"shape": "sphere", "radius": 0.875},
+              {"shape": "sphere", "radius": 0.6, "position": [0.3, 0.7, 0.4]}])",
+          [](const glm::dvec3& p) {
+              const double hollow = std::min(ball(p, glm::dvec3(0), glm::dvec3(0.875)),
+                                             ball(p, {0.3, 0.7, 0.4}, glm::dvec3(0.6)));
+              return common(ball(p, glm::dvec3(0), glm::dvec3(0.9)), -hollow);
+          }},
     Parts{"bitten ball with a ring", R"("shape": "union", "parts": [
               {"shape": "torus", "radius": 0.7, "tube": 0.2},
               {"shape": "difference", "parts": [

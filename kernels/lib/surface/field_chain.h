@@ -155,11 +155,13 @@ static INLINED lane_int hit_chain(const FieldChain* c, const Walk* w, float plan
     *t_hit = LANES_SELECT(met, w->t, *t_hit);
     *record = LANES_SELECT(met, entry.record, *record);
     const lane_float shift = side * *level;
+    // Where surfaces of parts coincide, rounding doesn't decide which of them is met first.
+    const lane_float met_at_once = shift - side * (2.0f * VXL_FIELD_ROUNDING);
     lane_int searching = tested & ~met;
     for (int zero = 0; zero < VXL_CHAIN_ZEROS && lanes_any(searching); ++zero) {
         searching = next_zero(c, &ray, shift, u_exit, searching, &way);
         if (!lanes_any(searching)) break;
-        const ChainValue behind = chain_behind(c, &ray, &way, shift, searching);
+        const ChainValue behind = chain_behind(c, &ray, &way, met_at_once, searching);
         const lane_int ends = searching & LANE_MASK(side * behind.value < 0.0f);
         *t_hit = LANES_SELECT(ends, w->t + way.u, *t_hit);
         *record = LANES_SELECT(ends, way.record, *record);
