@@ -4,11 +4,11 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_motion.hpp"
-#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which parts of solids keep distances of their own.
-#include "runtime/geometry/solid_parts.hpp"
+#include "runtime/geometry/solid/solid_parts.hpp"
 
 #include <gtest/gtest.h>
 

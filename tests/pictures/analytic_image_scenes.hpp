@@ -2,17 +2,7 @@
 // Scenes of exact solids with all kinds of materials and lights, for comparisons of whole images.
 #pragma once
 
-#include "runtime/scene_file/read_scene.hpp"
-
 namespace voxelume {
-
-/// The scene with an image whose sizes aren't powers of two, so that no two strides are equal by
-/// chance.
-inline Scene analytic_scene(const char* text) {
-    Scene scene = parse_scene(text, "test.json", {});
-    resize(scene, {172, 133});
-    return scene;
-}
 
 /// A scene of a glass of water with a bubble of glass in it, nested by priority; all surfaces have
 /// Fresnel's reflectance.

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/placed_world.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <map>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_art/median_cut.hpp"
 
