@@ -21,67 +21,71 @@ namespace voxelume {
 namespace {
 
 /// The implicit function of a shape, negative inside.
-using Shape = double (*)(const glm::dvec3&);
+using ImplicitShape = double (*)(const glm::dvec3&);
 
-double ball(const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& radii) {
+double ball_value(const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& radii) {
     const glm::dvec3 q = (p - centre) / radii;
     return glm::dot(q, q) - 1;
 }
 
-double ring(const glm::dvec3& p) {
+double ring_value(const glm::dvec3& p) {
     return std::hypot(std::hypot(p.x, p.z) - 0.7, p.y) - 0.2;
 }
 
-double common(double a, double b) {
+double common_value(double a, double b) {
     return std::max(a, b);
 }
 
 /// A solid of rounded parts, and its function.
-struct Parts {
+struct CombinedSolid {
     const char* name;
     const char* keys;
-    Shape shape;
+    ImplicitShape shape;
 };
 
-const std::array kParts = {
-    Parts{"ring and balls", R"("shape": "union", "parts": [
+const std::array kCombinedSolids = {
+    CombinedSolid{"ring and balls", R"("shape": "union", "parts": [
               {"shape": "torus", "radius": 0.7, "tube": 0.2},
               {"shape": "union", "position": [0, 0.05, 0], "parts": [
                   {"shape": "sphere", "radius": 0.6, "position": [0.12, 0, 0.2]},
                   {"shape": "sphere", "radius": 0.4, "position": [-0.5, 0.2, 0.3]}]}])",
-          [](const glm::dvec3& p) {
-              return std::min({ring(p), ball(p, {0.12, 0.05, 0.2}, glm::dvec3(0.6)),
-                               ball(p, {-0.5, 0.25, 0.3}, glm::dvec3(0.4))});
-          }},
-    Parts{"lens", R"("shape": "intersection", "parts": [
+                  [](const glm::dvec3& p) {
+                      return std::min({ring_value(p),
+                                       ball_value(p, {0.12, 0.05, 0.2}, glm::dvec3(0.6)),
+                                       ball_value(p, {-0.5, 0.25, 0.3}, glm::dvec3(0.4))});
+                  }},
+    CombinedSolid{"lens", R"("shape": "intersection", "parts": [
               {"shape": "sphere", "radius": 0.9, "position": [-0.35, 0.1, 0]},
               {"shape": "sphere", "radius": 0.8, "position": [0.4, 0.05, 0.2]}])",
-          [](const glm::dvec3& p) {
-              return common(ball(p, {-0.35, 0.1, 0}, glm::dvec3(0.9)),
-                            ball(p, {0.4, 0.05, 0.2}, glm::dvec3(0.8)));
-          }},
-    Parts{"bowl with a wall of a third of a voxel", R"("shape": "difference", "parts": [
+                  [](const glm::dvec3& p) {
+                      return common_value(ball_value(p, {-0.35, 0.1, 0}, glm::dvec3(0.9)),
+                                          ball_value(p, {0.4, 0.05, 0.2}, glm::dvec3(0.8)));
+                  }},
+    CombinedSolid{"bowl with a wall of a third of a voxel", R"("shape": "difference", "parts": [
               {"shape": "sphere", "radius": 0.9}, {"shape": "sphere", "radius": 0.875},
               {"shape": "sphere", "radius": 0.6, "position": [0.3, 0.7, 0.4]}])",
-          [](const glm::dvec3& p) {
-              const double hollow = std::min(ball(p, glm::dvec3(0), glm::dvec3(0.875)),
-                                             ball(p, {0.3, 0.7, 0.4}, glm::dvec3(0.6)));
-              return common(ball(p, glm::dvec3(0), glm::dvec3(0.9)), -hollow);
-          }},
-    Parts{"bitten ball with a ring", R"("shape": "union", "parts": [
+                  [](const glm::dvec3& p) {
+                      const double hollow =
+                          std::min(ball_value(p, glm::dvec3(0), glm::dvec3(0.875)),
+                                   ball_value(p, {0.3, 0.7, 0.4}, glm::dvec3(0.6)));
+                      return common_value(ball_value(p, glm::dvec3(0), glm::dvec3(0.9)), -hollow);
+                  }},
+    CombinedSolid{
+        "bitten ball with a ring", R"("shape": "union", "parts": [
               {"shape": "torus", "radius": 0.7, "tube": 0.2},
               {"shape": "difference", "parts": [
                   {"shape": "ellipsoid", "radii": [0.7, 0.9, 0.6]},
                   {"shape": "sphere", "radius": 0.5, "position": [0.3, 0.7, 0.3]},
                   {"shape": "sphere", "radius": 0.4, "position": [-0.3, 0.6, 0.4]}]}])",
-          [](const glm::dvec3& p) {
-              const double left = common(-ball(p, {0.3, 0.7, 0.3}, glm::dvec3(0.5)),
-                                         -ball(p, {-0.3, 0.6, 0.4}, glm::dvec3(0.4)));
-              return std::min(ring(p), common(ball(p, glm::dvec3(0), {0.7, 0.9, 0.6}), left));
-          }}};
+        [](const glm::dvec3& p) {
+            const double left = common_value(-ball_value(p, {0.3, 0.7, 0.3}, glm::dvec3(0.5)),
+                                             -ball_value(p, {-0.3, 0.6, 0.4}, glm::dvec3(0.4)));
+            return std::min(ring_value(p),
+                            common_value(ball_value(p, glm::dvec3(0), {0.7, 0.9, 0.6}), left));
+        }}};
 
 /// `cells`: the world's voxels along an axis.
-std::string parts_scene(const Parts& parts, int cells, const char* placement) {
+std::string parts_scene(const CombinedSolid& parts, int cells, const char* placement) {
     return pair_scene(2.6 / cells,
                       fmt::format(R"("a": {{{}, "surface": "smooth", "resolution": {}}})",
                                   parts.keys, cells * 3 / 4),
@@ -96,28 +100,28 @@ struct EdgeErrors {
 };
 
 /// What a ray meets by the solid's function.
-struct Seen {
+struct SeenSolid {
     double t = INFINITY;
     glm::dvec3 normal{0};
     bool is_hit() const { return t < INFINITY; }
 };
 
-class Truth {
+class SolidTruth {
   public:
-    Truth(const Observer& observer, Shape shape) : observer_(observer), shape_(shape) {
+    SolidTruth(const Observer& observer, ImplicitShape shape) : observer_(observer), shape_(shape) {
         for (int y = -1; y <= kPairSize.y; ++y)
             for (int x = -1; x <= kPairSize.x; ++x) seen_.push_back(trace(direction(x, y)));
     }
 
     glm::dvec3 direction(int x, int y) const { return direction_at(observer_, {x + 0.5, y + 0.5}); }
-    const Seen& at(int x, int y) const {
+    const SeenSolid& at(int x, int y) const {
         return seen_[size_t(y + 1) * (kPairSize.x + 2) + size_t(x + 1)];
     }
 
     /// Whether a neighbour's surface is turned away from that at (x,y) by more than roundness does.
     bool is_at_edge(int x, int y) const {
         for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-            const Seen& beside = at(x + step.x, y + step.y);
+            const SeenSolid& beside = at(x + step.x, y + step.y);
             if (beside.is_hit() && glm::dot(beside.normal, at(x, y).normal) < 0.8) return true;
         }
         return false;
@@ -135,7 +139,7 @@ class Truth {
         return shape_(observer_.position + t * direction);
     }
 
-    Seen trace(const glm::dvec3& direction) const {
+    SeenSolid trace(const glm::dvec3& direction) const {
         constexpr double kFirst = 1, kLast = 6, kStep = 1 / 512.0;
         for (double t = kFirst; t < kLast; t += kStep) {
             if (value(direction, t + kStep) >= 0) continue;
@@ -158,20 +162,20 @@ class Truth {
     }
 
     Observer observer_;
-    Shape shape_;
-    std::vector<Seen> seen_;
+    ImplicitShape shape_;
+    std::vector<SeenSolid> seen_;
 };
 
-glm::dvec3 vector_at(const Image& image, const char* name, size_t i) {
+glm::dvec3 channel_vector(const Image& image, const char* name, size_t i) {
     const auto value = [&](const char* axis) {
         return double(image.planes.at(fmt::format("{}.{}", name, axis))[i]);
     };
     return {value("X"), value("Y"), value("Z")};
 }
 
-EdgeErrors errors_of(const Parts& parts, int cells, const char* placement) {
+EdgeErrors edge_errors_of(const CombinedSolid& parts, int cells, const char* placement) {
     const Scene scene = parse_scene(parts_scene(parts, cells, placement), "parts.json", {});
-    const Truth truth(scene.observer, parts.shape);
+    const SolidTruth truth(scene.observer, parts.shape);
     RenderReport report;
     const Image image = render(test_device(), scene, report);
     EdgeErrors errors;
@@ -180,7 +184,7 @@ EdgeErrors errors_of(const Parts& parts, int cells, const char* placement) {
     for (int y = 0; y < kPairSize.y; ++y)
         for (int x = 0; x < kPairSize.x; ++x) {
             const size_t i = size_t(y) * kPairSize.x + size_t(x);
-            const Seen& seen = truth.at(x, y);
+            const SeenSolid& seen = truth.at(x, y);
             const bool is_shown = image.id_planes.at("objectId")[i] != 0;
             if (is_shown != seen.is_hit()) {
                 errors.wrong += truth.is_at_outline(x, y) ? 0 : 1;
@@ -188,9 +192,9 @@ EdgeErrors errors_of(const Parts& parts, int cells, const char* placement) {
             }
             if (!is_shown || truth.is_at_outline(x, y)) continue;
             const glm::dvec3 d = truth.direction(x, y);
-            const double t = glm::dot(vector_at(image, "P", i) - scene.observer.position, d);
-            const double off =
-                (t - seen.t) * glm::dot(vector_at(image, "N", i), d) / scene.world.voxel_size.x;
+            const double t = glm::dot(channel_vector(image, "P", i) - scene.observer.position, d);
+            const double off = (t - seen.t) * glm::dot(channel_vector(image, "N", i), d) /
+                               scene.world.voxel_size.x;
             const bool is_edge = truth.is_at_edge(x, y);
             errors.edge += is_edge;
             (is_edge ? at_edge : elsewhere) += off * off;
@@ -202,11 +206,11 @@ EdgeErrors errors_of(const Parts& parts, int cells, const char* placement) {
 }
 
 TEST(SolidParts, MeetInSharpEdges) {
-    for (const Parts& parts : kParts)
+    for (const CombinedSolid& parts : kCombinedSolids)
         for (const char* placement : {"world", "instance"})
             for (const int cells : {16, 32, 64, 128}) {
                 if (cells > 32 && !is_exhaustive()) continue;
-                const EdgeErrors e = errors_of(parts, cells, placement);
+                const EdgeErrors e = edge_errors_of(parts, cells, placement);
                 const std::string what = fmt::format(
                     "{} as {}, {} voxels: {} pixels at edges, rms {:.2e} voxel, elsewhere {:.2e}; "
                     "{} wrong",

@@ -77,10 +77,10 @@ class Cells {
         std::vector<bool>(size_t(kCells.x) * size_t(kCells.y) * size_t(kCells.z));
 };
 
-using Shape = double (*)(const glm::dvec3&);
+using ComponentShape = double (*)(const glm::dvec3&);
 
 /// The cells through which a function changes its sign, as 5 x 5 x 5 points of each tell.
-Cells cells_of(Shape shape) {
+Cells cells_of(ComponentShape shape) {
     constexpr int kPoints = 5;
     const GridFrame frame = world_of_cells();
     Cells cells;
@@ -138,14 +138,14 @@ double to_ring(const glm::dvec3& p) {
 }
 
 /// Solids of several objects, and the function of all.
-struct Case {
+struct ComponentCase {
     const char* name;
     std::vector<Solid> objects;
-    Shape shape;
+    ComponentShape shape;
     int components;
 };
 
-std::vector<Case> cases() {
+std::vector<ComponentCase> component_cases() {
     const glm::dvec3 o(0);
     return {
         {"two balls apart",
@@ -193,7 +193,7 @@ std::vector<Case> cases() {
          1}};
 }
 
-Pyramid pyramid_of(const std::vector<Solid>& solids) {
+Pyramid pyramid_of_solids(const std::vector<Solid>& solids) {
     const Device& device = shared_device();
     const GridFrame frame = world_of_cells();
     std::vector<BrickGrid> grids;
@@ -206,17 +206,17 @@ Pyramid pyramid_of(const std::vector<Solid>& solids) {
 }
 
 TEST(Components, OfSmoothSurfacesAreThoseOfTheirSolids) {
-    for (const Case& c : cases()) {
-        const Cells expected = cells_of(c.shape), found = cells_of(pyramid_of(c.objects));
+    for (const ComponentCase& c : component_cases()) {
+        const Cells expected = cells_of(c.shape), found = cells_of(pyramid_of_solids(c.objects));
         EXPECT_EQ(expected.components(), c.components) << c.name;
         EXPECT_EQ(found.components(), c.components) << c.name;
         size_t missing = 0, floating = 0;
         Cells::for_each([&](const glm::ivec3& cell) {
             missing += expected.has(cell) && !found.has(cell);
-            bool is_near = false;
-            Cells::for_neighbours(cell,
-                                  [&](const glm::ivec3& next) { is_near |= expected.has(next); });
-            floating += found.has(cell) && !is_near;
+            // A voxel may hold surfaces of two parts beside the edge that they meet in.
+            const glm::dvec3 middle =
+                world_of_cells().origin + world_of_cells().voxel_edge * (glm::dvec3(cell) + 0.5);
+            floating += found.has(cell) && std::abs(c.shape(middle)) > 0.1 * std::sqrt(3.0);
         });
         EXPECT_EQ(missing, 0u) << c.name;
         EXPECT_EQ(floating, 0u) << c.name;
