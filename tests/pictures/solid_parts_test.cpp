@@ -41,6 +41,7 @@ struct CombinedSolid {
     const char* name;
     const char* keys;
     ImplicitShape shape;
+    bool has_inner_edges = true;  ///< some are seen in front of the solid itself
 };
 
 const std::array kCombinedSolids = {
@@ -69,7 +70,8 @@ const std::array kCombinedSolids = {
                           std::min(ball_value(p, glm::dvec3(0), glm::dvec3(0.875)),
                                    ball_value(p, {0.3, 0.7, 0.4}, glm::dvec3(0.6)));
                       return common_value(ball_value(p, glm::dvec3(0), glm::dvec3(0.9)), -hollow);
-                  }},
+                  },
+                  false},
     CombinedSolid{
         "bitten ball with a ring", R"("shape": "union", "parts": [
               {"shape": "torus", "radius": 0.7, "tube": 0.2},
@@ -216,7 +218,7 @@ TEST(SolidParts, MeetInSharpEdges) {
                     "{} wrong",
                     parts.name, placement, cells, e.edge, e.at_edge, e.elsewhere, e.wrong);
                 fmt::print("{}\n", what);
-                EXPECT_GT(e.edge, 40u) << what;
+                EXPECT_GT(e.edge, parts.has_inner_edges ? 40u : 0u) << what;
                 EXPECT_EQ(e.wrong, 0u) << what;
                 EXPECT_LT(e.at_edge, 0.1) << what;
                 EXPECT_LT(e.elsewhere, 0.05) << what;
