@@ -92,6 +92,8 @@ std::vector<PlacedObject> count_fields(const Device& device, std::span<const Pla
     const auto own = [](const PlacedObject& object) { return !object.grid->attributes.empty(); };
     const auto colored = [](const PlacedObject& object) { return !object.grid->colors.empty(); };
     world.fields.brick_count = uint32_t(bricks);
+    for (const PlacedObject& object : smooth)
+        if (has_parts(object)) world.fields.parts = object.grid->parts;
     world.fields.distance = allocate_distances(device, "world distances", bricks);
     if (std::ranges::any_of(smooth, own))
         world.fields.attributes = allocate_words(device, "world attributes", bricks);
@@ -186,6 +188,8 @@ Pyramid count_uniting(const Device& device, const CountedWorld& world, const Wor
     const size_t bricks = world.fields.brick_count;
     { const MarkArrays marks = allocate_marks(device, bricks); }
     const Buffer<uint64_t> joined = allocate_masks(device, "field masks", bricks);
+    if (!world.fields.parts.empty())
+        const Buffer<uint64_t> inside = allocate_masks(device, "inside masks", bricks);
     const Buffer<uint64_t> united = allocate_masks(device, "united masks", counts.bricks);
     const Buffer<uint64_t> listing = allocate_masks(device, "list masks", counts.bricks);
     const Buffer<uint64_t> of_base =
@@ -230,6 +234,7 @@ Pyramid count_model_index(const Device& device, const BrickGrid& grid, const Wor
     world.parts = {.attributes = true, .fields = true};
     world.grid.frame = grid.frame;
     world.fields.brick_count = grid.brick_count;
+    world.fields.parts = grid.parts;
     return count_index(device, world, counts).pyramid;
 }
 
