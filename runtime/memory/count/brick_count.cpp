@@ -275,15 +275,19 @@ BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const V
 BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
                        const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
                        TakenBricks& taken) {
+    // What lies outside of a part is closed where the box around the solid ends.
+    constexpr double kComplementMargin = 1.25;
+    const std::vector<SolidPart> divided = parts_of(solid);
     std::vector<SolidField> parts;
-    for (const SolidPart& part : parts_of(solid)) parts.emplace_back(part.solid, frame_from_solid);
+    for (const SolidPart& part : divided) parts.emplace_back(part.solid, frame_from_solid);
     const SolidField whole(solid, frame_from_solid);
     if (parts.size() == 1) return count_bricks(whole, frame, box, rule, taken);
     BrickCount count = count_bricks(whole, frame, box, rule, taken, parts);
     double bricks = 0;
-    for (const SolidField& part : parts) {
+    for (size_t i = 0; i < parts.size(); ++i) {
         TakenBricks own(frame);
-        bricks += count_bricks(part, frame, box, rule, own).extent.bricks;
+        bricks += (divided[i].is_complement ? kComplementMargin : 1) *
+                  count_bricks(parts[i], frame, box, rule, own).extent.bricks;
     }
     count.extent.bricks = std::max(bricks, count.extent.bricks);
     return count;

@@ -79,12 +79,13 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
                      const SurfaceExtent& extent) {
     GridCounts counts{.frame = frame, .surface = model.surface, .set = model.set};
     const glm::dvec3 table(frame.bricks());
-    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, table.x * table.y * table.z));
+    if (model.solid && stores_distances(model.surface))
+        counts.parts = parts_of(*model.solid).size();
+    const double all = table.x * table.y * table.z * double(counts.parts);
+    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, all));
     counts.voxels = size_t(std::max(extent.voxels, 1.0));
     counts.cube_normals = shows_voxels(model.surface) && model.normals == CubeNormals::surface;
     if (model.solid) counts.shapes = count_nodes(*model.solid);
-    if (model.solid && stores_distances(model.surface))
-        counts.parts = parts_of(*model.solid).size();
     if (!mesh) return counts;
     counts.words = mesh->group_names.size() > 1;
     counts.paint = mesh->paint;
