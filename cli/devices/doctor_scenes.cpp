@@ -58,6 +58,11 @@ constexpr const char* kLocal = R"({"voxelume": 1,
 "render": {"size": [28, 18], "samples": 2, "depth": 2, "bounces": 3, "shadow": "filtered",
            "light": "LIGHT"}})";
 
+// A medium that scatters light, and a light without an area, in place of their first words.
+constexpr const char* kMist = R"("medium": {"scattering": [0.5, 0.6, 0.7], "anisotropy": 0.3, )";
+constexpr const char* kPoint =
+    R"("lights": [{"type": "point", "position": [0.3, 0.9, 0.2], "intensity": 0.5}, )";
+
 // What a display of voxels shows from all around.
 constexpr const char* kLattice = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
@@ -169,7 +174,9 @@ std::vector<KnownPicture> known_pictures() {
     return {
         {"matt", kMatt, false, "567757ad1547fd83"},
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
-        {"global light", with(kLocal, {{"LIGHT", "global"}}), false, "1580ec99b3ef267d"},
+        {"global light",
+         with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
+         false, "b5f160171e4c5af8"},
         {"meshes", kMeshes, false, "d0f5f6be5e68e8f8"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},

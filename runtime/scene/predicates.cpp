@@ -84,6 +84,10 @@ bool is_emissive(const Scene& scene, const Object& object) {
     return object.visible && object.light_samples.value_or(1) > 0 && has_emission(scene, object);
 }
 
+bool has_scattering(const Scene& scene) {
+    return scene.render.light == LightMode::global && scene.world.medium.scattering != glm::vec3(0);
+}
+
 bool shines(const Light& light) {
     return light.intensity != glm::vec3(0);
 }

@@ -46,6 +46,9 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
     ray_state->on_surface = (lane_int)-1;
     const lane_uint target =
         VXL_RAY_UINTS(q->targets, packet->ray, VXL_REFILLS_SHADOWS) & LANES_AS_UINT(fresh);
+    if (VXL_SCATTERING)  // points in the medium have met nothing
+        ray_state->on_surface = LANE_MASK(
+            LANES_GATHER_UINT(batch->hits + VXL_HIT_VOXEL * stride, target) != VXL_NO_VOXEL);
     if (VXL_SOURCES)
         ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
     if (VXL_INSTANCES)
@@ -77,6 +80,8 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
     if (VXL_EXACT)
         ray_state->within_source =
             LANES_SELECT(fresh, ray_state->within_source, was->within_source);
+    if (VXL_SCATTERING)
+        ray_state->on_surface = LANES_SELECT(fresh, ray_state->on_surface, was->on_surface);
     if (!VXL_FILTER) return;
     ray_state->goes_on = LANES_SELECT(fresh, ray_state->goes_on, was->goes_on);
     if (VXL_SOURCES) ray_state->source = LANES_SELECT(fresh, ray_state->source, was->source);

@@ -50,6 +50,8 @@ JsonValue tree_of_medium(const v1::Medium& medium) {
     if (!grid || grid->transfer.empty() || medium.absorption != v1::Color{})
         object.add("absorption", medium.absorption);
     object.add("color", medium.color);
+    if (medium.scattering != v1::Color{}) object.add("scattering", medium.scattering);
+    if (medium.anisotropy != 0) object.add("anisotropy", medium.anisotropy);
     std::visit(
         [&object](const auto& density) {
             if constexpr (!std::is_same_v<std::decay_t<decltype(density)>, std::monostate>)

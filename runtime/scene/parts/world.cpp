@@ -9,6 +9,14 @@
 
 namespace voxelume {
 
+namespace {
+
+/// The mean cosine beyond which a phase function is so narrow that floats don't tell directions in
+/// it apart.
+constexpr double kMaxAnisotropy = 0.99;
+
+}  // namespace
+
 std::span<const DensityKind> density_kinds() {
     static constexpr KindKey height[] = {{"base", true}, {"scale_height", true}};
     static constexpr KindKey ball[] = {{"center", true}, {"radius", true}, {"falloff"}};
@@ -28,9 +36,11 @@ std::span<const ValueRow<World>> world_rows() {
 }
 
 std::span<const ValueRow<Medium>> medium_rows() {
-    static constexpr std::array<ValueRow<Medium>, 2> rows = {
+    static constexpr std::array<ValueRow<Medium>, 4> rows = {
         {{"absorption", &Medium::absorption, kNotNegative},
-         {"color", &Medium::color, kNotNegative}}};
+         {"color", &Medium::color, kNotNegative},
+         {"scattering", &Medium::scattering, kNotNegative},
+         {"anisotropy", &Medium::anisotropy, {-kMaxAnisotropy, kMaxAnisotropy}}}};
     return rows;
 }
 

@@ -71,6 +71,8 @@ using Density = std::variant<std::monostate, HeightDensity, BallDensity, GridDen
 struct Medium {
     glm::vec3 absorption{0};  ///< per metre at density 1, >= 0
     glm::vec3 color{0};       ///< radiance that an infinitely deep medium shows, >= 0
+    glm::vec3 scattering{0};  ///< per metre at density 1, >= 0; only in global light
+    double anisotropy = 0;    ///< mean cosine of the angle by which light is scattered, -1..1
     Density density;
 
     friend bool operator==(const Medium&, const Medium&) = default;
