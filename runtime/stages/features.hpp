@@ -16,6 +16,7 @@ struct Features {
     bool solids = false;          ///< some voxel lists analytic solids
     int solid_kinds = 0xFF;       ///< 1 << VXL_SOLID_* of those that there may be beside spheres
     bool field_lists = false;     ///< some voxel lists the distance fields in it
+    bool field_chains = false;    ///< ... and some of them are of a solid's parts
     bool attributes = false;      ///< voxels differ in object, material or kind
     bool colors = false;          ///< voxels have colours of their own
     bool worn_triangles = false;  ///< some exact triangle wears a texture
@@ -88,6 +89,7 @@ struct Features {
                 {"VXL_SOLIDS", solids},
                 {"VXL_SOLID_KINDS", solid_kinds},
                 {"VXL_FIELD_LISTS", field_lists},
+                {"VXL_FIELD_CHAINS", field_chains},
                 {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
