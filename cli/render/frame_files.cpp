@@ -80,7 +80,8 @@ void check_stream(const RenderCommand& options) {
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
                    "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl "
-                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see scenes/README.md")
+                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see "
+                   "scenes/manual/model_files.md")
         ->required();
     add_scene_options(app, command.scene);
     app.add_option("-o,--output", command.outputs,

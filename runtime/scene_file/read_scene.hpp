@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// Reads and checks a scene. The format is described in scenes/README.md. What the scene leaves out
+/// Reads and checks a scene. scenes/README.md leads to the format. What the scene leaves out
 /// is fitted to its objects, for which `boxes` tells how large the contents of files are; scenes
 /// that leave out nothing need none.
 ///
