@@ -49,7 +49,7 @@ static inline void return_physically(const ScatterPoint* p, const PhysicalView* 
                                      lane_int* above) {
     lane_float value[3], density;
     const lane_int reached = physical_value(view, direction, value, &density) &
-                             LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
+                             LANE_MASK(dot_product(p->normal, direction) > min_cosine(p));
     *above = LANES_SELECT(view->is, reached, *above);
     *likely = LANES_SELECT(view->is, density, *likely);
     for (int c = 0; c < 3; ++c) {

@@ -20,7 +20,8 @@ class FrameHashes {
     /// 32 hexadecimal digits: of the version, the scene, its settings, and the bytes of all files
     /// that the frame shows, with those that they lead to. Throws Error::scene as `scene_at` does.
     std::string of(int frame) { return hash(frame, false); }
-    /// The same for the frame's volumetric image, in which a crop of the picture doesn't count.
+    /// Hashes what the frame's volumetric image shows, in which a crop of the picture doesn't
+    /// count.
     std::string of_volume(int frame) { return hash(frame, true); }
 
   private:

@@ -14,7 +14,7 @@ namespace voxelume {
 /// An entry of Mesh::group_textures for a group without a texture.
 inline constexpr uint32_t kNoTexture = 0xFFFFFFFFu;
 
-/// What lies beside a texture; the numbers are those of the kernel.
+/// What lies outside of a texture; the numbers are those of the kernel.
 enum class TextureWrap : uint8_t { repeat, mirror, clamp };
 
 /// An image and its levels for distant looks, each of half the size of the one before.

@@ -142,8 +142,8 @@ void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size);
 /// Throws Error::usage for a part of a picture that cuts tiles whose noise is to be measured.
 void check_tiles(const RenderSettings& render);
 
-/// Sets where each model can be seen: the world's box carried into the space of every object that
-/// shows it.
+/// Sets where each model can be seen: the world's box transformed into the space of every object
+/// that shows it.
 void find_extents(Scene& scene);
 
 /// What the scene holds, in lines for people: world, models, objects, lights, observer.
