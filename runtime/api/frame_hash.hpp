@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/io/image/image_format_table.hpp"
 #include "runtime/voxelume/image.hpp"
 #include "runtime/voxelume/scene.hpp"
 
@@ -32,8 +33,8 @@ class FrameHashes {
 };
 
 /// The hash of a frame's image file: of the frame's hash and the options that change a file of that
-/// ending, ".png" or ".exr".
-std::string hash_for_image(const std::string& hash, std::string_view ending,
+/// format.
+std::string hash_for_image(const std::string& hash, const ImageFormatEntry& format,
                            const v1::ImageFileOptions& options);
 
 }  // namespace voxelume::api
