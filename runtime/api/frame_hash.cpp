@@ -7,6 +7,7 @@
 
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
+#include "runtime/api/image_files.hpp"
 #include "runtime/assets/model_cache.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/cache_key.hpp"
