@@ -86,7 +86,7 @@ struct NoiseTarget {
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
     ImageCrop crop;             ///< not in scene files
-    int samples = 1;            ///< per pixel, 1..4096; at most so many where `noise` is given
+    int samples = 1;            ///< per pixel, 1..4096; the most that `noise` may take
     /// In local light, pixels whose neighbours differ by more than this contrast get all samples,
     /// others one, 0..1; 0: all pixels get all.
     double adaptive = 0;
