@@ -7,6 +7,7 @@
 #include "lib/solid/solid.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/field.h"
+#include "shared/scene.h"
 #include "shared/trace.h"
 
 #define VXL_PROJECT_STEPS 6
