@@ -127,7 +127,13 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
         const lane_float tau = per_metre * depth;
         lane_float weight = exact_exp(-tau), added = shown * exact_rise(tau);
         if (VXL_MEDIUM_COLORS) {
-            weight = LANES_SELECT(in_object, weight, veil.passed[channel]);
+            lane_float left = veil.passed[channel];
+            if (VXL_SCATTERING && VXL_LOOKS) {
+                const lane_float turned =
+                    exact_exp(-scattered.per_metre[channel] * (veil.depth - veil.lost));
+                left *= LANES_SELECT(looks, turned, (lane_float)1.0f);
+            }
+            weight = LANES_SELECT(in_object, weight, left);
             added = LANES_SELECT(in_object, added, veil.emitted[channel] * shows);
         }
         const lane_float behind = LANES_LOAD(radiance, place);

@@ -32,7 +32,7 @@ std::string scene_text(const std::string& light) {
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.5, -1.1, -2.4], "max": [1.5, 1.3, 1.6]},
           "sky": {"kind": "map", "file": "around.hdr", "samples": 2, "visible": false}, "ambient": [0.2, 0.2, 0.2],
-          "medium": {"absorption": [0.1, 0.2, 0.3],
+          "medium": {"absorption": [0.1, 0.2, 0.3], "scattering": [0.5, 0.4, 0.3], "anisotropy": 0.25,
                      "density": {"kind": "grid", "file": "fog.vdb", "lit": [1, 0, 0],
                                  "transfer": [{"value": 0, "absorption": 0.2},
                                               {"value": 1, "absorption": 2, "color": [1, 0, 0]}]}}},
@@ -125,7 +125,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     const std::set<std::string> of_global = {"VXL_GLOBAL",     "VXL_EMITTERS",    "VXL_PHYSICAL",
                                              "VXL_SKY_RAYS",   "VXL_ROUGH_GLASS", "VXL_COAT",
-                                             "VXL_WEAK_FACETS"};
+                                             "VXL_SCATTERING", "VXL_WEAK_FACETS"};
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device)) {
         const bool is_absent =
             is_global ? name == std::string("VXL_TINTED") : of_global.contains(name);
@@ -149,7 +149,8 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     for (const char* kernel : {"add_light", "pass_layer", "scatter_rays", "gather_light",
                                "add_sky_light", "mean_emission_maps"})
         EXPECT_EQ(counters.launches[kernel] > 0, !is_global) << kernel;
-    for (const char* kernel : {"add_area_light", "extend_paths"})
+    for (const char* kernel : {"add_area_light", "extend_paths", "scatter_in_medium",
+                               "add_area_light_to_medium", "extend_in_medium"})
         EXPECT_EQ(counters.launches[kernel] > 0, is_global) << kernel;
     EXPECT_EQ(report.not_finite, 0u);
     const Plane<float>& red = image.planes.at("R");

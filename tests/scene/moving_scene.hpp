@@ -14,7 +14,7 @@ inline nlohmann::json full_scene() {
     return nlohmann::json::parse(R"({"voxelume": 1,
         "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -0.7, -1.2], "max": [1, 0.7, 1.2]},
                   "background": [0.1, 0.2, 0.3], "ambient": [0.4, 0.5, 0.6],
-                  "medium": {"absorption": [0.1, 0.2, 0.3], "color": [0.5, 0.4, 0.7],
+                  "medium": {"absorption": [0.1, 0.2, 0.3], "color": [0.5, 0.4, 0.7], "scattering": [0.3, 0.2, 0.1], "anisotropy": 0.4,
                              "density": {"kind": "height", "base": -0.5, "scale_height": 0.4}}},
         "materials": {"red": {"color": [0.8, 0.1, 0.2], "diffuse": 0.9, "specular": 0.3,
             "shininess": 40, "reflection": 0.2, "refraction": 0.3, "ior": 1.4, "opacity": 0.7,
