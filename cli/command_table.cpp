@@ -7,7 +7,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// In the order in which a user meets them.
+/// All commands, in the order in which a user meets them.
 constexpr std::array kCommands = {
     Command{"devices", "list the devices that can render, and say why others can't", add_devices},
     Command{"render", "render a scene or a model file: images, volumetric images, animations",

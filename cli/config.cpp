@@ -67,8 +67,8 @@ std::string shown_value(const Report& row) {
     return "not set";
 }
 
-void print_rows(const Report& rows, const char* first, const char* last, size_t least) {
-    size_t width = least, names = 0;
+void print_rows(const Report& rows, const char* first, const char* last, size_t min) {
+    size_t width = min, names = 0;
     for (const Report& row : rows) {
         width = std::max(width, shown_value(row).size());
         names = std::max(names, row[first].get_ref<const std::string&>().size());

@@ -49,7 +49,7 @@ static inline void return_physically(const ScatterPoint* p, const PhysicalView* 
                                      lane_int* above) {
     lane_float value[3], density;
     const lane_int reached = physical_value(view, direction, value, &density) &
-                             LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
+                             LANE_MASK(dot_product(p->normal, direction) > min_cosine(p));
     *above = LANES_SELECT(view->is, reached, *above);
     *likely = LANES_SELECT(view->is, density, *likely);
     for (int c = 0; c < 3; ++c) {
@@ -112,6 +112,45 @@ static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_
     return met_after(state) | LANES_SELECT(scattered, next, state & ~(lane_uint)VXL_STATE_MET);
 }
 
+/// Chooses directions for paths that matt and physically based surfaces scatter. Of `way`, clears
+/// `diffuse` for those that a surface swallows, and makes refracted those that go through glass.
+static inline ScatteredWay scatter_diffusely(const ScatterPoint* p, const RayBatch* batch,
+                                             uint first, const PhysicalView* view,
+                                             const PathSamples* samples, Choice* way) {
+    ScatteredWay matt = no_scattered_way(p);
+    if (!lanes_any(way->diffuse)) return matt;
+    lane_float layer = (lane_float)0.0f;
+    if (VXL_PHYSICAL) layer = path_point(samples, VXL_DECISION_LAYER).x;
+    matt = scatter_by(p, batch, first, view, path_point(samples, VXL_DECISION_DIRECTION), layer);
+    if (VXL_PHYSICAL) way->diffuse &= ~matt.is | matt.lives;
+    if (VXL_ROUGH_GLASS) {
+        matt.through &= way->diffuse;
+        way->refracted |= matt.through;
+        way->diffuse &= ~matt.through;
+    }
+    return matt;
+}
+
+/// Puts the next rays of the paths that scatter or go straight into the queue.
+static inline void send_on(PyramidShape shape, const Surroundings* around, const ScatterPoint* p,
+                           const RayBatch* batch, uint first, const Choice* way,
+                           const ScatteredWay* matt, lane_uint target, lane_uint state,
+                           lane_float clear, const RayQueue* queue, global uint* counters) {
+    const lane_int scattered = way->diffuse | way->reflected | way->refracted;
+    const lane_int goes_on = scattered | way->straight;
+    if (!lanes_any(goes_on)) return;
+    NewRays ray = next_rays_of(shape, around, p, batch, first, way, matt);
+    ray.target = target;
+    ray.clear = LANES_SELECT(way->straight, clear * way->clear, (lane_float)0.0f);
+    ray.state = state_after(way, scattered, state);
+    if (VXL_LOOKS)
+        ray.emitter =
+            LANES_SELECT(scattered, ray.emitter,
+                         LANES_LOAD(batch->paths, VXL_PATH_EMITTER * batch->stride + first));
+    const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
+    put_rays(queue, &ray, &slots);
+}
+
 /// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
 /// and sends each path on along one way, unless it ends, and a ray to an emitter. `entries` of the
 /// batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
@@ -171,29 +210,6 @@ kernel void extend_paths(
         send_to_emitters(&sent, wanted, target, state, sampling.bounces, &ray, counters);
     }
 
-    ScatteredWay matt = no_scattered_way(&p);
-    if (lanes_any(way.diffuse)) {
-        lane_float layer = (lane_float)0.0f;
-        if (VXL_PHYSICAL) layer = path_point(&samples, VXL_DECISION_LAYER).x;
-        matt = scatter_by(&p, &batch, first, &view, path_point(&samples, VXL_DECISION_DIRECTION),
-                          layer);
-        if (VXL_PHYSICAL) way.diffuse &= ~matt.is | matt.lives;
-        if (VXL_ROUGH_GLASS) {
-            matt.through &= way.diffuse;
-            way.refracted |= matt.through;
-            way.diffuse &= ~matt.through;
-        }
-    }
-    const lane_int scattered = way.diffuse | way.reflected | way.refracted;
-    const lane_int goes_on = scattered | way.straight;
-    if (!lanes_any(goes_on)) return;
-    NewRays ray = next_rays_of(shape, &around, &p, &batch, first, &way, &matt);
-    ray.target = target;
-    ray.clear = LANES_SELECT(way.straight, clear * way.clear, (lane_float)0.0f);
-    ray.state = state_after(&way, scattered, state);
-    if (VXL_LOOKS)
-        ray.emitter = LANES_SELECT(scattered, ray.emitter,
-                                   LANES_LOAD(paths, VXL_PATH_EMITTER * stride + first));
-    const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
-    put_rays(&queue, &ray, &slots);
+    const ScatteredWay matt = scatter_diffusely(&p, &batch, first, &view, &samples, &way);
+    send_on(shape, &around, &p, &batch, first, &way, &matt, target, state, clear, &queue, counters);
 }

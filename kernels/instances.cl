@@ -49,7 +49,7 @@ kernel void append_bricks(const uint count, const uint start, const uint first_l
     vstore4(record, start + i, to);
 }
 
-// Copies an entry of a list of primitives and numbers it anew.
+// Copies an entry of a list of primitives and gives it its number in the whole scene.
 kernel void append_instance_primitives(const uint count, const uint start,
                                        const uint first_triangle, const uint first_solid,
                                        global const uint* restrict from, global uint* restrict to) {

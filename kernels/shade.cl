@@ -179,13 +179,13 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
     return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
 }
 
-/// Starts the radiance of the rays. Maps multiply emission by `glow`.
+/// Starts the radiance of the rays. Maps multiply emission by `emission_factors`.
 static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    Environment environment, const SkyView* sky, uint from_observer,
                                    const Emitters* emitters, Vector position, lane_float opacity,
                                    lane_uint material, global const float* restrict materials,
-                                   Colors colors, const lane_float* glow, const RayBatch* batch,
-                                   uint first) {
+                                   Colors colors, const lane_float* emission_factors,
+                                   const RayBatch* batch, uint first) {
     const lane_float diffuse = surface_diffuse(materials, material, colors);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
     lane_float around[3] = {(lane_float)environment.background.x,
@@ -208,7 +208,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
         const lane_float color = surface_color(materials, place, colors, channel);
         lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
-        if (VXL_TEXTURE_MAPS) emission *= glow[channel];
+        if (VXL_TEXTURE_MAPS) emission *= emission_factors[channel];
         if (VXL_EMITTERS) emission *= counts;
         if (VXL_SKY_RAYS) emission = LANES_SELECT(to_sky, (lane_float)0.0f, emission);
         if (VXL_LOOKS)
@@ -241,16 +241,16 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     if (VXL_NORMALS && VXL_SHADING_NORMALS) {
         const ShadingPoint s = shading_point(&world, &h, p.place, p.normal, behind);
         store_vector(s.normal, shading, stride, first);
-        store_vector(s.lift, shading + VXL_SHADING_LIFT * stride, stride, first);
+        store_vector(s.offset, shading + VXL_SHADING_OFFSET * stride, stride, first);
     }
     if (VXL_HIT_ATTRIBUTES) LANES_STORE(h.packed, hit_attributes, first);
     if (!VXL_RADIANCE) return;
     const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
-    lane_float glow[3];  // what maps multiply emission by
+    lane_float emission_factors[3];  // what maps multiply emission by
 #if VXL_TEXTURES
     const SourceMeshes sources = VXL_SOURCE_VIEW;
     paint_hits(&world, &sources, &h, &footprint, position, p.normal, materials, material, &batch,
-               first, glow);
+               first, emission_factors);
 #endif
     // What paint_hits wrote is read by the pointer that wrote it, since both are `restrict`.
     const Colors own = colors_of_hits(colors, h.voxel, batch.paint, first);
@@ -264,5 +264,5 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyView around = VXL_SKY_VIEW;
     store_own_light(&world, &h, environment, &around, VXL_FROM_OBSERVER, &table, position, opacity,
-                    material, materials, own, glow, &batch, first);
+                    material, materials, own, emission_factors, &batch, first);
 }

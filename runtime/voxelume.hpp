@@ -5,7 +5,7 @@
 // its subject. A program finds it with CMake by `find_package(voxelume)` and links the target
 // `voxelume::voxelume`, or by `pkg-config --cflags --libs voxelume`. C++20 is needed.
 //
-// Example: a ball hovers over a box, in the light of one lamp; ten frames as PNG files.
+// Example: a ball hovers over a box, in the light of one point light; ten frames as PNG files.
 //
 //     #include <voxelume.hpp>
 //

@@ -47,7 +47,7 @@ void warm_up(const WarmCommand& command, const std::string& input) {
     int compiled = 0;
     render.compiling = [&](int, int) { ++compiled; };
     if (!command.quiet) render.warn = warning_printer(false, [] {});
-    // Pictures have kernels of their own, which compute colour alone. A device that is opened anew
+    // Pictures have kernels of their own, which compute colour alone. A newly opened device
     // builds the programs that a new process will look for, and keeps them when it is closed.
     const Channels channels = parse_channels(command.channels, "warm: --channels");
     for (const Channels& wanted : {channels, kColorAlone}) {

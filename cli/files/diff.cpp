@@ -162,7 +162,7 @@ int run(DiffCommand command) {
     if (!limits.flip && !command.names.flip.empty()) limits.flip = 1;  // a picture needs one, too
     check_colors(limits, options.channels);
     for (const std::string& picture : {command.names.output, command.names.flip})
-        if (!picture.empty()) check_output(picture, {".exr", ".png"}, "diff");
+        if (!picture.empty()) check_image_output(picture, "diff");
     const std::vector<DiffFiles> list = diff_files(command.names);
     check_outputs(list);
     Findings findings;

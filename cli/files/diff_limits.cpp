@@ -9,7 +9,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// For an option's text: "12" or "0.5%".
+/// Checks an option's text, a number of pixels or a share of them: "12" or "0.5%".
 std::string check_above(const std::string& text) {
     const bool is_share = text.ends_with('%');
     const std::string number = is_share ? text.substr(0, text.size() - 1) : text;

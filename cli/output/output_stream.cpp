@@ -10,21 +10,34 @@
 
 namespace voxelume::cli {
 
+namespace {
+
+/// The format of standard output: that of the ending behind the "-", or else the first for screens.
+/// Null for outputs that are files.
+const ImageFormat* format_of_stream(const std::string& output) {
+    for (const ImageFormat& format : image_formats())
+        if (output == "-" ? !format.holds_channels : output == fmt::format("-{}", format.ending))
+            return &format;
+    return nullptr;
+}
+
+}  // namespace
+
 bool is_stream(const std::string& output) {
-    return output == "-" || output == "-.png" || output == "-.exr";
+    return format_of_stream(output) != nullptr;
 }
 
 OutputStream::OutputStream(const std::vector<std::string>& outputs) {
     const auto found = std::ranges::find_if(outputs, is_stream);
-    if (found != outputs.end()) ending_ = *found == "-.exr" ? ".exr" : ".png";
+    if (found != outputs.end()) format_ = format_of_stream(*found);
 }
 
 Channels OutputStream::channels(const ImageFileOptions& options) const {
-    return ending_ == ".exr" ? options.channels : kColorAlone;
+    return format_->holds_channels ? options.channels : kColorAlone;
 }
 
 void OutputStream::write(const Image& image, const ImageFileOptions& options) const {
-    const std::string bytes = image.encode(ending_, options);
+    const std::string bytes = image.encode(format_->ending, options);
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
         std::fflush(stdout) != 0)
         throw Error(ErrorKind::output,

@@ -17,14 +17,14 @@ class OutputStream {
   public:
     explicit OutputStream(const std::vector<std::string>& outputs);
 
-    bool is_wanted() const { return !ending_.empty(); }
+    bool is_wanted() const { return format_ != nullptr; }
     /// What the image has to have.
     Channels channels(const ImageFileOptions& options) const;
     /// Throws Error::output.
     void write(const Image& image, const ImageFileOptions& options) const;
 
   private:
-    std::string ending_;
+    const ImageFormat* format_ = nullptr;  ///< null: no output is
 };
 
 }  // namespace voxelume::cli

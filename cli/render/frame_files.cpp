@@ -60,10 +60,6 @@ std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
     return frames;
 }
 
-}  // namespace
-
-namespace {
-
 /// Standard output has one image, and nothing else.
 void check_stream(const RenderCommand& options) {
     const auto count = std::ranges::count_if(options.outputs, is_stream);
@@ -75,12 +71,12 @@ void check_stream(const RenderCommand& options) {
             "render: -o -: standard output is a terminal; write the image to a file or pipe");
 }
 
-}  // namespace
-
-const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
+/// What is rendered, and which files that makes.
+void add_input_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
                    "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl "
-                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see scenes/README.md")
+                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see "
+                   "scenes/manual/model_files.md")
         ->required();
     add_scene_options(app, command.scene);
     app.add_option("-o,--output", command.outputs,
@@ -90,6 +86,10 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
                    "or a display's own format; may be given again")
         ->allow_extra_args(false);
+}
+
+/// Options for several images in one run. Returns --frames.
+const CLI::Option* add_frame_options(CLI::App& app, RenderCommand& command) {
     const CLI::Option* frames = app.add_option("--frames", command.frames,
                                                "frames to render, like 1-10,20,30-60x5; #### in an "
                                                "output's name becomes the number")
@@ -105,6 +105,11 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "or its number; may be given again, for all combinations")
         ->type_name("PATH=V1,V2")
         ->allow_extra_args(false);
+    return frames;
+}
+
+/// What image files hold.
+void add_image_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--exposure", command.exposure, "exposure of .png files, in stops")
         ->check(in_range(-64, 64));
     app.add_option("--view-transform", command.view_transform,
@@ -123,6 +128,10 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
                    "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "
                    "motion; without RGBA and light's parts nothing is lit")
         ->type_name("CHANNELS");
+}
+
+/// How much is rendered, and where.
+void add_run_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--stats-json", command.stats,
                    "write counts, times and memory to this file, JSON (see cli/STATISTICS.md)");
     app.add_flag("--dry-run", command.plan_only,
@@ -141,6 +150,10 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--fallback", command.fallback,
                    "device, as for --device, that takes over a run whose device fails")
         ->type_name("DEVICES");
+}
+
+/// Files that are there already, and what is told meanwhile.
+void add_progress_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "
                    "changed: those that are damaged, or made from something else")
@@ -156,6 +169,16 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_flag("-v,--verbose", command.verbose,
                  "print more: times of kernels, memory, a line for each frame");
     app.add_flag("-q,--quiet", command.quiet, "print errors only");
+}
+
+}  // namespace
+
+const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
+    add_input_options(app, command);
+    const CLI::Option* frames = add_frame_options(app, command);
+    add_image_options(app, command);
+    add_run_options(app, command);
+    add_progress_options(app, command);
     return frames;
 }
 
@@ -195,7 +218,7 @@ void check_options(const RenderCommand& options) {
     check_stream(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))
-            check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
+            check_image_output(frame_path(pattern, first, animation), "render");
     if (options.stats == "-")
         fail_usage("render: --stats-json -: statistics go to a file, not to standard output");
     if (!options.stats.empty()) check_output(options.stats, {}, "render");

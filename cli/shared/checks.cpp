@@ -18,16 +18,20 @@ std::string ending_of(const std::filesystem::path& file) {
     return ending;
 }
 
-void check_output(const std::string& path, std::initializer_list<const char*> extensions,
+void check_output(const std::string& path, const std::vector<std::string>& extensions,
                   const char* command) {
     const std::string extension = ending_of(path);
-    if (extensions.size() > 0 && std::ranges::find(extensions, extension) == extensions.end()) {
-        std::string list;
-        for (const char* known : extensions)
-            list += (list.empty() ? "" : " or ") + std::string(known);
-        fail_usage("{}: {}: the name of an output ends in {}", command, path, list);
+    if (!extensions.empty() && std::ranges::find(extensions, extension) == extensions.end()) {
+        fail_usage("{}: {}: the name of an output ends in {}", command, path,
+                   fmt::join(extensions, " or "));
     }
     check_output_file(path);
+}
+
+void check_image_output(const std::string& path, const char* command) {
+    std::vector<std::string> endings;
+    for (const ImageFormat& format : image_formats()) endings.emplace_back(format.ending);
+    check_output(path, endings, command);
 }
 
 std::vector<std::string> chosen_names(const std::vector<std::string>& texts,

@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,8 +27,11 @@ std::string ending_of(const std::filesystem::path& file);
 
 /// Throws Error::usage when the name has none of the extensions (any will do if there are none),
 /// Error::output when no file can be made there. `command` opens the message about the name.
-void check_output(const std::string& path, std::initializer_list<const char*> extensions,
+void check_output(const std::string& path, const std::vector<std::string>& extensions,
                   const char* command);
+
+/// Throws likewise when the name has none of the endings of images.
+void check_image_output(const std::string& path, const char* command);
 
 /// Throws Error::usage when two outputs are one file, however it is spelled; empty names are none.
 void check_distinct(const std::vector<std::string>& paths, const char* command);

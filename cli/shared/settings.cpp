@@ -84,7 +84,7 @@ std::map<std::string, FileValue> read_file(const fs::path& file) {
     return values;
 }
 
-/// As in the environment: a variable that is set, perhaps to nothing.
+/// The value of a variable of the environment, perhaps empty; null if it is not set.
 const char* environment(const char* name) {
     return std::getenv(name);
 }

@@ -22,15 +22,15 @@ typedef struct InstanceRecord {
     float center[3];             // world voxels, whole
     float image[3];              // of center, object voxels
     float low[3], high[3];       // the box that holds the model's voxels, object voxels, whole
-    float near_squared;          // world voxels: rays that begin closer to center are carried from
-                                 // their origin on
-    float plane_bound;           // these and the next as in PyramidShape: of the walk in the object
+    float near_squared;  // world voxels: rays that begin closer to center are transformed from
+                         // their origin on
+    float plane_bound;   // these and the next as in PyramidShape: of the walk in the object
     float fixed_point;
     int size[3];  // of the model's grid, voxels
     int sectors_x, sectors_y;
     unsigned int first_sector;    // where the model's table starts
     unsigned int aligned;         // 1: the map only turns by quarters, mirrors and moves by whole
-                                  // voxels of the world's size, so rays are carried exactly
+                                  // voxels of the world's size, so rays are transformed exactly
     float bounds_rounding;        // world voxels: how far rounding moves its faces
     unsigned int object;          // its number in the scene
     unsigned int first_material;  // where the materials of its groups start, the last of them for

@@ -53,12 +53,13 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 //   of other rays, float: the probability of their direction, per solid angle; 0 if no ray to an
 //   emitter could have had it, as behind mirrors
 // VXL_PATH_TRAVELLED: float, as the ray's t: how far before its origin the path was scattered last.
-// Rays that go straight on begin anew behind surfaces of instances.
+// Rays that go straight on restart behind surfaces of instances.
 
-// The decisions at a surface that a path meets, or where the medium scatters it, each with a point of the unit square.
+// The decisions at a surface that a path meets, or where the medium scatters it, each with a point
+// of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of diffuse light
-#define VXL_DECISION_FLIGHT 0xFFFAu             // how far light comes in a scattering medium
+#define VXL_DECISION_FLIGHT 0xFFFAu         // how far light comes in a scattering medium
 #define VXL_DECISION_SKY 0xFFFBu            // whether a ray is sent to the sky or to an emitter
 #define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter
 #define VXL_DECISION_LENS 0xFFFDu           // where on the lens a sight ray starts

@@ -8,7 +8,7 @@
 //   kind  | material       | object
 // kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel lists
 // primitives, which have attributes of their own, and fields, below. 3: an exact voxel that is a
-// cube besides, whose object, material and colour the voxel's own are: rays that meet nothing that
+// cube as well, whose object, material and colour the voxel's own are: rays that meet nothing that
 // it lists meet the cube.
 // `material` and `object` index the scene's lists; in an object's own grid, before placement,
 // `material` is the mesh's face group.

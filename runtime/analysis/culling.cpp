@@ -60,7 +60,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
 /// The hull that no ray leaves, and the distance from it at which a box is culled.
 class RayHull {
   public:
-    RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects, double lift) {
+    RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects, double offset) {
         const GridFrame world = world_frame(scene.world);
         Observer observer = scene.observer;
         observer.display =
@@ -75,7 +75,7 @@ class RayHull {
         };
         include(eye);
         for (const glm::dvec3& point : hull_) include(point);
-        gap_ = 1 + lift + kRounding * largest;
+        gap_ = 1 + offset + kRounding * largest;
     }
 
     bool meets(const VoxelBox& box) const {
@@ -116,9 +116,9 @@ bool gives_cubes_normals(const Model& model, AssetStore& meshes, bool reads) {
     return !reads || !meshes.voxels(model).normals.empty();
 }
 
-/// The same as lift_of of cubes with normals: rays begin at most |g|_max + |g|_1 above a face,
+/// The origin offset of cubes with normals: rays begin at most |g|_max + |g|_1 above a face,
 /// where g is a gradient of length 1, and that is below 2.75 voxels.
-double lift_of_cubes(const Scene& scene, const Object& object, const Model& model) {
+double origin_offset_of_cubes(const Scene& scene, const Object& object, const Model& model) {
     constexpr double kMaxVoxels = 2.75;
     glm::dvec3 edge = world_frame(scene.world).voxel_edge;
     double per_metre = 1 / std::min({edge.x, edge.y, edge.z});
@@ -131,12 +131,12 @@ double lift_of_cubes(const Scene& scene, const Object& object, const Model& mode
 }
 
 /// The longest way, in voxels, from a surface of an object to where its rays to lights begin: the
-/// shadow terminator's fix lifts them by less than the longest edge of a triangle. A file that
+/// shadow terminator's fix moves them by less than the longest edge of a triangle. A file that
 /// isn't read (`reads` is false) may have triangles of any size.
-double lift_of(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
+double origin_offset(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     const Model& model = scene.models[size_t(object.model)];
     if (object.visible && gives_cubes_normals(model, meshes, reads))
-        return lift_of_cubes(scene, object, model);
+        return origin_offset_of_cubes(scene, object, model);
     if (!object.visible || !lists_primitives(model.surface) || model.solid) return 0;
     if (model.shading.kind == ShadingKind::flat) return 0;
     if (!reads) return INFINITY;
@@ -146,12 +146,12 @@ double lift_of(const Scene& scene, const Object& object, AssetStore& meshes, boo
 }
 
 /// The largest of all objects; those `unread` have files that aren't read.
-double max_lift(const Scene& scene, AssetStore& meshes, const std::vector<bool>& unread) {
-    double lift = 0;
+double max_origin_offset(const Scene& scene, AssetStore& meshes, const std::vector<bool>& unread) {
+    double offset = 0;
     if (scene.render.shadows && traces_light(scene))
         for (size_t i = 0; i < scene.objects.size(); ++i)
-            lift = std::max(lift, lift_of(scene, scene.objects[i], meshes, !unread[i]));
-    return lift;
+            offset = std::max(offset, origin_offset(scene, scene.objects[i], meshes, !unread[i]));
+    return offset;
 }
 
 /// Adds the objects that rays may reach in a frame to those of earlier frames, whose boxes no
@@ -159,8 +159,8 @@ double max_lift(const Scene& scene, AssetStore& meshes, const std::vector<bool>&
 void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<bool>& unread,
                              std::vector<bool>& potentially_visible) {
     const std::vector<Object> objects = scene.objects;
-    const double lift = max_lift(scene, meshes, unread);
-    const bool is_bounded = std::isfinite(lift);
+    const double offset = max_origin_offset(scene, meshes, unread);
+    const bool is_bounded = std::isfinite(offset);
     for (size_t i = 0; i < objects.size(); ++i)
         if (potentially_visible[i] && !is_emissive(scene, objects[i]))
             scene.objects[i].visible = false;
@@ -170,7 +170,7 @@ void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<
     for (size_t i = 0; i < objects.size(); ++i)
         if (traces_light(scene) && is_emissive(scene, objects[i]) && !is_empty(boxes[i]))
             emissive_objects.push_back(boxes[i]);
-    const RayHull hull(scene, emissive_objects, is_bounded ? lift : 0);
+    const RayHull hull(scene, emissive_objects, is_bounded ? offset : 0);
     std::vector<bool> met = potentially_visible;
     // A lens sees past the sides of the observer's pyramid.
     bool all = scene.observer.display.layout == VolumeLayout::lattice || !is_bounded ||

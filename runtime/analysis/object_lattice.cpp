@@ -32,8 +32,8 @@ bool has_own_voxels(const Model& model) {
 }
 
 bool is_cube(const glm::dvec3& edges) {
-    const double least = std::min({edges.x, edges.y, edges.z});
-    return std::max({edges.x, edges.y, edges.z}) <= least * (1 + kSameSize);
+    const double min = std::min({edges.x, edges.y, edges.z});
+    return std::max({edges.x, edges.y, edges.z}) <= min * (1 + kSameSize);
 }
 
 bool is_similarity(const Stretch& stretch) {

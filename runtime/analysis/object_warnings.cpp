@@ -21,7 +21,7 @@
 namespace voxelume {
 namespace {
 
-/// By how much voxels of a model and the world may differ.
+/// The ratio by which voxels of a model and the world may differ.
 constexpr double kMaxRatio = 4;
 
 /// How far rounding may take sizes that are meant to be equal apart, as a share of them: turned

@@ -75,7 +75,7 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
     return own > kCoarser * longest(scene.world.voxel_size);
 }
 
-/// Copies of a mesh from which on they are instances: in the world, each is voxelized anew. The
+/// Copies of a mesh from which on they are instances: in the world, each is voxelized again. The
 /// pictures differ in rounding alone, and a first frame takes less time and memory, but for meshes
 /// of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;

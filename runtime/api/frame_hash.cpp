@@ -7,6 +7,7 @@
 
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
+#include "runtime/api/image_files.hpp"
 #include "runtime/assets/model_cache.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/cache_key.hpp"
@@ -125,20 +126,20 @@ std::string FrameHashes::hash(int frame, bool is_of_volume) {
     return cache_key(parts);
 }
 
-std::string hash_for_image(const std::string& hash, std::string_view ending,
+std::string hash_for_image(const std::string& hash, const ImageFormatEntry& format,
                            const v1::ImageFileOptions& options) {
     CacheKey key;
     key.add_text(hash);
     const v1::Channels& c = options.channels;
-    if (ending == ".png")
+    if (!format.holds_channels) {
         key.add(options.exposure).add(int(options.view_transform)).add(options.png_bits);
-    if (ending == ".exr") {
+    } else {
         key.add(options.float_color);
         if (options.multi_part) key.add_text("multi-part");
         for (const v1::ChannelRow& row : v1::channel_table())
             if (c.*row.member) key.add_text(row.name);
     }
-    const std::array<std::string_view, 2> parts = {ending, key.bytes()};
+    const std::array<std::string_view, 2> parts = {format.ending, key.bytes()};
     return cache_key(parts);
 }
 
@@ -171,7 +172,7 @@ std::vector<std::string> volume_hashes(const Scene& scene, const std::vector<int
 FrameFileState image_file_state(const std::filesystem::path& file, const std::string& hash,
                                 const ImageFileOptions& options) {
     return api::guarded([&] {
-        const std::string own = api::hash_for_image(hash, ending_of(file), options);
+        const std::string own = api::hash_for_image(hash, api::format_of_image(file), options);
         return static_cast<FrameFileState>(check_stamp(file, own));
     });
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/io/image/image_format_table.hpp"
 #include "runtime/voxelume/image.hpp"
 #include "runtime/voxelume/scene.hpp"
 
@@ -20,7 +21,8 @@ class FrameHashes {
     /// 32 hexadecimal digits: of the version, the scene, its settings, and the bytes of all files
     /// that the frame shows, with those that they lead to. Throws Error::scene as `scene_at` does.
     std::string of(int frame) { return hash(frame, false); }
-    /// The same for the frame's volumetric image, in which a crop of the picture doesn't count.
+    /// Hashes what the frame's volumetric image shows, in which a crop of the picture doesn't
+    /// count.
     std::string of_volume(int frame) { return hash(frame, true); }
 
   private:
@@ -31,8 +33,8 @@ class FrameHashes {
 };
 
 /// The hash of a frame's image file: of the frame's hash and the options that change a file of that
-/// ending, ".png" or ".exr".
-std::string hash_for_image(const std::string& hash, std::string_view ending,
+/// format.
+std::string hash_for_image(const std::string& hash, const ImageFormatEntry& format,
                            const v1::ImageFileOptions& options);
 
 }  // namespace voxelume::api

@@ -9,6 +9,7 @@
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
+#include "runtime/api/image_files.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
@@ -29,8 +30,10 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool is_exr(const std::filesystem::path& file) {
-    return ending_of(file) == ".exr";
+/// True for names of formats that hold every channel.
+bool holds_channels(const std::filesystem::path& file) {
+    const ImageFormatEntry* format = image_format_of(ending_of(file));
+    return format != nullptr && format->holds_channels;
 }
 
 /// The texts that files of a frame have in their headers.
@@ -52,7 +55,8 @@ void add(const v1::Channels& more, v1::Channels& channels) {
     for (const v1::ChannelRow& row : v1::channel_table()) channels.*row.member |= more.*row.member;
 }
 
-/// PNG files and volumetric images show colour, OpenEXR files and memory what their options say.
+/// Files for screens and volumetric images show colour, files that hold channels and memory what
+/// their options say.
 Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
     Wanted wanted{job.deliver_images, job.deliver_volumes, v1::kNoChannels};
     if (job.deliver_images) add(options.channels, wanted.channels);
@@ -60,7 +64,7 @@ Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
         wanted.images |= !frame.images.empty();
         wanted.volumes |= !frame.volumes.empty();
         for (const std::filesystem::path& file : frame.images)
-            add(is_exr(file) ? job.image_files.channels : v1::kColorAlone, wanted.channels);
+            add(holds_channels(file) ? job.image_files.channels : v1::kColorAlone, wanted.channels);
     }
     if (!wanted.images && !wanted.volumes) add(job.image_files.channels, wanted.channels);
     if (wanted.volumes) add(wanted.images ? v1::kColorAlone : v1::Channels(), wanted.channels);
@@ -70,10 +74,7 @@ Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
 /// Throws Error::usage for names of files that can't be written, before a frame is rendered.
 void check_names(const v1::FrameJob& job) {
     for (const v1::FrameFiles& frame : job.frames) {
-        for (const std::filesystem::path& image : frame.images)
-            if (!is_exr(image) && ending_of(image) != ".png")
-                throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
-                            SourcePlace(image.string()));
+        for (const std::filesystem::path& image : frame.images) api::format_of_image(image);
         for (const std::filesystem::path& volume : frame.volumes) volume_format_of(volume);
     }
 }

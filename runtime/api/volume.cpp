@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kLeastViewSide = 64;
+constexpr int kMinViewSide = 64;
 
 v1::VolumeFrame frame_for_callers(const VolumeFrame& frame) {
     v1::VolumeFrame result;
@@ -136,10 +136,10 @@ void Volume::write(const std::filesystem::path& file, const VolumeFileOptions& o
 
 Image Volume::view(ViewPoint from, Size size) const {
     return api::guarded([&] {
-        if (size[0] < kLeastViewSide || size[1] < kLeastViewSide)
+        if (size[0] < kMinViewSide || size[1] < kMinViewSide)
             throw voxelume::Error(voxelume::ErrorKind::usage,
                                   "a sheet of views has at least {} pixels a side, not {}x{}",
-                                  kLeastViewSide, size[0], size[1]);
+                                  kMinViewSide, size[0], size[1]);
         return api::handle_of(std::make_shared<const voxelume::Image>(
             view_sheet(api::inside(*this), view_inside(from), api::vector_of(size))));
     });

@@ -14,7 +14,7 @@ void advise_huge_pages(void* data, size_t bytes);
 /// Takes the memory of whole pages at once, where the system can: what is stored there stays.
 void populate_pages(void* data, size_t bytes);
 
-/// Reserves memory for so many elements, in large pages where there are any.
+/// Reserves memory for `count` elements, in large pages where there are any.
 template <class Element>
 void reserve_in_huge_pages(std::vector<Element>& elements, size_t count) {
     elements.reserve(count);

@@ -30,11 +30,11 @@ uint64_t limit_in(const fs::path& file) {
 /// The least limit of a group and of those that it is in. Containers often see their own group as
 /// the root, and its path as it is outside: folders that aren't there limit nothing.
 uint64_t limit_of_group(const fs::path& root, const fs::path& group, const char* file) {
-    uint64_t least = limit_in(root / file);
+    uint64_t min = limit_in(root / file);
     fs::path folder = root;
     for (const fs::path& part : group.relative_path())
-        least = std::min(least, limit_in((folder /= part) / file));
-    return least;
+        min = std::min(min, limit_in((folder /= part) / file));
+    return min;
 }
 
 uint64_t process_limit(int resource) {
@@ -67,7 +67,7 @@ uint64_t chosen_memory_limit() {
 
 uint64_t control_group_memory(const fs::path& groups, const fs::path& mount) {
     std::ifstream stream(groups);
-    uint64_t least = kNoLimit;
+    uint64_t min = kNoLimit;
     // "4:memory:/job" of version 1, "0::/job" of version 2.
     for (std::string line; std::getline(stream, line);) {
         const size_t first = line.find(':'), second = line.find(':', first + 1);
@@ -76,12 +76,11 @@ uint64_t control_group_memory(const fs::path& groups, const fs::path& mount) {
             fmt::format(",{},", line.substr(first + 1, second - first - 1));
         const fs::path group = line.substr(second + 1);
         if (controllers == ",,")
-            least = std::min(least, limit_of_group(mount, group, "memory.max"));
+            min = std::min(min, limit_of_group(mount, group, "memory.max"));
         else if (controllers.find(",memory,") != std::string::npos)
-            least =
-                std::min(least, limit_of_group(mount / "memory", group, "memory.limit_in_bytes"));
+            min = std::min(min, limit_of_group(mount / "memory", group, "memory.limit_in_bytes"));
     }
-    return least;
+    return min;
 }
 
 }  // namespace voxelume

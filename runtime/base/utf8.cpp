@@ -15,10 +15,10 @@ int bytes_after(uint8_t first) {
     return first >= 0xF0 && first < 0xF5 ? 3 : -1;
 }
 
-/// The least and the greatest code of characters of so many further bytes.
+/// True if a code is in the range of characters with this number of `further` bytes.
 bool is_code(uint32_t code, int further) {
-    constexpr uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
-    return code >= kLeast[further] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+    constexpr uint32_t kMin[] = {0, 0x80, 0x800, 0x10000};
+    return code >= kMin[further] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
 }
 
 void add_character(uint32_t code, std::string& out) {

@@ -57,7 +57,7 @@ std::string view_advice(const Observer& observer, const Bounds& objects) {
         middle.x, middle.y, middle.z);
 }
 
-/// Whether a material returns light of lamps.
+/// True if a material returns the light of emissive objects.
 bool returns_light(const Material& material) {
     if (is_physical(material)) return true;
     const bool is_black = material.color == glm::vec3(0) && !material.checker;

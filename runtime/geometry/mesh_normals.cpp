@@ -73,13 +73,13 @@ Wedge wedge_of(const Mesh& mesh, uint32_t corner) {
 }
 
 /// Sets the normals of the corners around one vertex.
-void average_around(const std::vector<Wedge>& wedges, double least_cosine,
+void average_around(const std::vector<Wedge>& wedges, double min_cosine,
                     std::vector<glm::vec3>& normals) {
     for (const Wedge& own : wedges) {
         glm::dvec3 sum(0);
         if (wedges.size() <= kMaxFacesAround)
             for (const Wedge& other : wedges)
-                if (glm::dot(own.normal, other.normal) >= least_cosine)
+                if (glm::dot(own.normal, other.normal) >= min_cosine)
                     sum += other.normal * other.angle;
         const glm::dvec3 mean = unit_or_zero(sum);
         normals[own.corner] = glm::vec3(mean == glm::dvec3(0) ? own.normal : mean);
@@ -89,14 +89,14 @@ void average_around(const std::vector<Wedge>& wedges, double least_cosine,
 /// The normals of a mesh that has none.
 std::vector<glm::vec3> averaged_normals(const Mesh& mesh, double crease_angle) {
     constexpr double kRounding = 1e-9;  // faces of one plane are within an angle of 0
-    const double least_cosine = std::cos(glm::radians(crease_angle)) - kRounding;
+    const double min_cosine = std::cos(glm::radians(crease_angle)) - kRounding;
     std::vector<glm::vec3> normals(3 * mesh.triangles.size());
     const std::vector<CornerPlace> places = corners_by_position(mesh);
     std::vector<Wedge> wedges;
     for (size_t i = 0; i < places.size(); ++i) {
         wedges.push_back(wedge_of(mesh, places[i].corner));
         if (i + 1 < places.size() && places[i + 1].position == places[i].position) continue;
-        average_around(wedges, least_cosine, normals);
+        average_around(wedges, min_cosine, normals);
         wedges.clear();
     }
     return normals;

@@ -30,7 +30,7 @@ struct MeshShape {
 
 MeshShape shape_of(const Mesh& mesh);
 
-/// Whether so many of its edges are sharp that chords beside them say nothing of thin parts.
+/// True if so many of its edges are sharp that chords next to them say nothing of thin parts.
 bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
 
 /// A surface with the reason for it, as the second half of a sentence.

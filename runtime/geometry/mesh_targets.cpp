@@ -36,12 +36,12 @@ Bounds box_of_targets(const Bounds& box, std::span<const MorphTarget> targets,
                       std::span<const double> weights) {
     Bounds reached = box;
     for (size_t k = 0; k < std::min(targets.size(), weights.size()); ++k) {
-        glm::dvec3 least(0), most(0);
+        glm::dvec3 min(0), max(0);
         for (const glm::vec3& offset : targets[k].positions) {
-            least = glm::min(least, glm::dvec3(offset) * weights[k]);
-            most = glm::max(most, glm::dvec3(offset) * weights[k]);
+            min = glm::min(min, glm::dvec3(offset) * weights[k]);
+            max = glm::max(max, glm::dvec3(offset) * weights[k]);
         }
-        reached = {reached.min + least, reached.max + most};
+        reached = {reached.min + min, reached.max + max};
     }
     return reached;
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLines = 64;
 
-/// How many crossings an axis may have: 1,024 for each line. A mesh of so many layers has no
+/// How many crossings an axis may have: 1,024 for each line. A mesh with more layers has no
 /// inside.
 constexpr size_t kMaxCrossings = size_t{1} << 22;
 
@@ -93,7 +93,7 @@ class AxisLines {
                 cross(corners, p, {x, y}, crossing);
     }
 
-    /// Whether there are so many crossings that they tell nothing.
+    /// True if there are too many crossings to tell anything.
     bool is_full() const { return crossings_.size() >= kMaxCrossings; }
 
     void add_chords(std::vector<Chord>& chords) {

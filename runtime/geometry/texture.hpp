@@ -14,7 +14,7 @@ namespace voxelume {
 /// An entry of Mesh::group_textures for a group without a texture.
 inline constexpr uint32_t kNoTexture = 0xFFFFFFFFu;
 
-/// What lies beside a texture; the numbers are those of the kernel.
+/// What lies outside of a texture; the numbers are those of the kernel.
 enum class TextureWrap : uint8_t { repeat, mirror, clamp };
 
 /// An image and its levels for distant looks, each of half the size of the one before.
@@ -44,8 +44,8 @@ inline uint64_t texel_count(const TextureImage& image) {
     return count;
 }
 
-/// Values of Texture::alpha; between them, a texture isn't there where its alpha is below so many
-/// 255ths. The numbers are those of the kernel.
+/// Values of Texture::alpha; between them, a texture isn't there where its alpha in 255ths is
+/// below the value. The numbers are those of the kernel.
 inline constexpr uint32_t kAlphaOpaque = 0, kAlphaBlend = 256;
 
 /// The maps of a texture, in the order of the kernel's numbers: roughness (green) and metalness

@@ -48,7 +48,7 @@ class CountedGrids {
 
     const std::vector<CountedGrid>& all() const { return grids_; }
 
-    /// Makes those grids again for which `is_changed` is true, beside the old ones.
+    /// Makes those grids again for which `is_changed` is true, while the old ones still stand.
     std::vector<BrickGrid> make_again(const std::function<bool(const CountedGrid&)>& is_changed);
 
     /// Frees the grids for which `is_old` is true; what they take is still known.

@@ -34,7 +34,7 @@ struct ScenePlan {
         0;               ///< of the grid that beams of rays are sent through, part of image_bytes
     RayBytes rays;       ///< their maximum is part of image_bytes
     DensityPlan medium;  ///< part of image_bytes
-    double host_bytes = 0;  ///< tables, meshes, lamps and the image in main memory
+    double host_bytes = 0;  ///< tables, meshes, emissive objects and the image in main memory
 
     /// The minimum that all stages need, and the world's buffers except those of its tables and
     /// medium: the bytes of objects that can't lie in each other's bricks. Only a frame that needs

@@ -99,14 +99,14 @@ struct Device::Queue {
     }
 };
 
-Device Device::open(const cl::Device& device, DeviceInfo info, const Device* beside) {
+Device Device::open(const cl::Device& device, DeviceInfo info, const Device* sibling) {
     auto opened = std::make_shared<Opened>();
     opened->info = std::move(info);
     try {
         opened->device = part_of(device);
-        const bool shares = beside && beside->handle()() == opened->device();
-        opened->context = shares ? beside->context() : cl::Context(opened->device);
-        if (shares) opened->of_context = beside->queue_->opened->of_context;
+        const bool shares = sibling && sibling->handle()() == opened->device();
+        opened->context = shares ? sibling->context() : cl::Context(opened->device);
+        if (shares) opened->of_context = sibling->queue_->opened->of_context;
     } catch (const cl::Error& error) {
         throw_device_error(error, opened->info, "opening it");
     }

@@ -99,11 +99,11 @@ class Device {
     /// A device whose driver is new is asked first what is known, see self_test.hpp. If it answers
     /// wrong, it is refused as one that can't render: another that matches is opened in its place.
     ///
-    /// If the device is that of `beside`, both share an OpenCL context and the programs made for
+    /// If the device is that of `sibling`, both share an OpenCL context and the programs made for
     /// it: PoCL reads its library of functions, 0.7 s, once for each context. Throws Error::device
     /// if nothing matches; the message names the devices that exist or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0,
-                       const Device* beside = nullptr);
+                       const Device* sibling = nullptr);
 
     /// Opens all devices that share the work. For the selector `all` these are every GPU and the
     /// best CPU; for `all/N` the CPU is divided into N equal devices (one for each memory node of a
@@ -170,10 +170,10 @@ class Device {
   private:
     struct Opened;
     struct Queue;
-    static Device open(const cl::Device& device, DeviceInfo info, const Device* beside);
+    static Device open(const cl::Device& device, DeviceInfo info, const Device* sibling);
     /// Nothing if the driver's self-test found a fault.
     static std::optional<Device> open_tested(const Candidate& chosen, int lanes,
-                                             const Device* beside, std::string& fault);
+                                             const Device* sibling, std::string& fault);
     void tell_compiling(const std::string& kernel) const;
     explicit Device(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
     std::shared_ptr<Queue> queue_;

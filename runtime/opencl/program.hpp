@@ -162,7 +162,7 @@ class Program {
     static void build_together(const Device& device, std::span<const char* const> files,
                                const Defines& defines);
 
-    /// The same for files with constants of their own, whose programs compile sooner as one: each
+    /// Compiles files with constants of their own, whose programs compile sooner as one: each
     /// takes PoCL some 13 ms, whatever its size. Does nothing where a constant of one file
     /// would change another's.
     static void build_together(const Device& device, std::span<const ProgramFile> files);

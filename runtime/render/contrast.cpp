@@ -75,7 +75,7 @@ auto ranks_of(const std::string& layer, AnyImage& image) {
     return ranks;
 }
 
-/// Adds the shares of what covers a pixel to those of another one, and ranks them anew.
+/// Adds the shares of what covers a pixel to those of another one, and ranks them again.
 void add_ranks(const std::vector<RankPlanes<const Plane<float>>>& more, size_t from, double weight,
                const std::vector<RankPlanes<Plane<float>>>& ranks, size_t to) {
     std::vector<std::pair<float, double>> covering;  // id and share

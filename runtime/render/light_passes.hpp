@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene -> scenes that show parts of its light: what channels beside the colour are made of.
+// scene -> scenes that show parts of its light: what channels other than the colour are made of.
 #pragma once
 
 #include <string>

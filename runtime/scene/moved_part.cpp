@@ -14,9 +14,9 @@ namespace {
 /// What a track's scale passes on its way through 0: a sheet of a ten-thousandth of its longest
 /// side, on the side of 0 where it is.
 glm::dvec3 without_flatness(glm::dvec3 scale) {
-    const double least = 1e-4 * std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
+    const double min = 1e-4 * std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(scale[axis]) < least) scale[axis] = std::copysign(least, scale[axis]);
+        if (std::abs(scale[axis]) < min) scale[axis] = std::copysign(min, scale[axis]);
     return scale;
 }
 

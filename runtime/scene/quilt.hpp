@@ -18,7 +18,7 @@ struct ViewRow {
 /// whole pixel, the place is moved by at most half of a pixel in the window.
 ///
 /// Throws Error::usage for an observer without a pyramid, a part of an image, and a window that
-/// isn't in front of the observer; Error::limit for views beside the widest image.
+/// isn't in front of the observer; Error::limit for views together wider than an image can be.
 Scene view_of_row(const Scene& scene, const ViewRow& row, int number);
 
 }  // namespace voxelume

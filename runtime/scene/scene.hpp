@@ -86,7 +86,7 @@ struct NoiseTarget {
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
     ImageCrop crop;             ///< not in scene files
-    int samples = 1;            ///< per pixel, 1..4096; at most so many where `noise` is given
+    int samples = 1;            ///< per pixel, 1..4096; the most that `noise` may take
     /// In local light, pixels whose neighbours differ by more than this contrast get all samples,
     /// others one, 0..1; 0: all pixels get all.
     double adaptive = 0;
@@ -142,8 +142,8 @@ void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size);
 /// Throws Error::usage for a part of a picture that cuts tiles whose noise is to be measured.
 void check_tiles(const RenderSettings& render);
 
-/// Sets where each model can be seen: the world's box carried into the space of every object that
-/// shows it.
+/// Sets where each model can be seen: the world's box transformed into the space of every object
+/// that shows it.
 void find_extents(Scene& scene);
 
 /// What the scene holds, in lines for people: world, models, objects, lights, observer.

@@ -85,7 +85,7 @@ struct MovingPart {
     std::vector<FileSequence> sequences;
     /// What the tracks change of that which the scene has only the outcome of.
     std::vector<MovingPlacement> placements;
-    /// Of an object: the maps of its parents, the outermost first, and its own, before tracks
+    /// The maps of an object's parents, the outermost first, and its own, before tracks
     /// change them.
     std::vector<glm::dmat4> links;
     std::variant<std::monostate, LightParameters, ObserverParameters> parameters;

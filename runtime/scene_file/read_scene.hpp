@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// Reads and checks a scene. The format is described in scenes/README.md. What the scene leaves out
+/// Reads and checks a scene. scenes/README.md leads to the format. What the scene leaves out
 /// is fitted to its objects, for which `boxes` tells how large the contents of files are; scenes
 /// that leave out nothing need none.
 ///
@@ -21,8 +21,8 @@ namespace voxelume {
 Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets,
                  const FileBoxes& boxes = {});
 
-/// The same for text that is at hand; `file` names it in messages and gives the folder of its
-/// assets.
+/// Reads and checks a scene whose text is at hand; `file` names it in messages and gives the folder
+/// of its assets.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const AssetFolders& assets, const FileBoxes& boxes = {});
 
@@ -30,8 +30,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 /// that is missing, Error::limit for one of more than 64 MiB.
 JsonValue read_document(const std::filesystem::path& file);
 
-/// The same for a tree of values, whichever way it was made: all scenes are checked here. Nothing
-/// of the tree is kept. Models whose "voxels" has a name of `given` show those.
+/// Reads and checks a tree of values, whichever way it was made: all scenes are checked here.
+/// Nothing of the tree is kept. Models whose "voxels" has a name of `given` show those.
 Scene read_scene(const JsonValue& root, const std::filesystem::path& file,
                  const AssetFolders& assets, const FileBoxes& boxes = {},
                  const GivenVoxels& given = {});

@@ -38,8 +38,8 @@ enum class Interpolation {
 /// One value of the scene over time. Before the first key its value holds, after the last one the
 /// last one's.
 ///
-/// `target` is the path to the value by the keys of the scene format (scenes/README.md), which are
-/// the names of these structs' members: "objects.ball.position", "lights.lamp.intensity",
+/// `target` is the path to the value by the keys of the scene format, which are the names of these
+/// structs' members (scenes/manual/animation.md): "objects.ball.position", "lights.lamp.intensity",
 /// "materials.glass.color", "models.block.parts[1].position", "observer.display.angle",
 /// "world.medium.density.base". Objects and lights without a name have their place in brackets:
 /// "lights[0].color". Names with dots or brackets in them stand in quotes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files beside images and volumes: voxelized models, what is in a file, names of frames' files.
+// Files other than images and volumes: voxelized models, what is in a file, names of frames' files.
 #pragma once
 
 #include <cstdint>

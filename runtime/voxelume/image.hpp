@@ -133,6 +133,15 @@ class Image {
     std::shared_ptr<const Implementation> implementation_;
 };
 
+/// A format of image files.
+struct ImageFormat {
+    std::string_view ending;      ///< of names: ".exr"
+    bool holds_channels = false;  ///< every channel as it is; otherwise colours for a screen
+};
+
+/// The formats that Image::write writes.
+std::span<const ImageFormat> image_formats();
+
 /// How far a channel is from that of a reference.
 struct ChannelDifference {
     std::string channel{};   ///< its name

@@ -104,7 +104,7 @@ enum class LightMode {
 /// How paths of global light find emissive surfaces. The light is the same on average.
 enum class LampSearch {
     both,   ///< by rays to them and by running into them: the least noise
-    paths,  ///< by running into them: for large lamps
+    paths,  ///< by running into them: for large emissive objects
     rays    ///< by rays to them, but for what mirrors and glass show
 };
 

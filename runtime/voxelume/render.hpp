@@ -119,7 +119,7 @@ Channels needed_channels(const FrameJob& job, const RenderOptions& options = {})
 /// .nrrd, .vdb, .ply), with a hash of all their bytes.
 std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames);
 
-/// The same for the frames' volumetric images, which are whole where the scene has a crop.
+/// The hashes of the frames' volumetric images, which are whole where the scene has a crop.
 std::vector<std::string> volume_hashes(const Scene& scene, const std::vector<int>& frames);
 
 /// What is known of a frame's file that was written before.

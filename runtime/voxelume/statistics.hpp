@@ -69,7 +69,7 @@ struct InstanceCounts {
     double seconds = 0;      ///< making them ready
 };
 
-/// What one frame made anew.
+/// What one frame made again.
 struct FrameStatistics {
     int frame = 1;                          ///< its number
     size_t device = 0;                      ///< its place in Statistics::devices

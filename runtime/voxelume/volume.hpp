@@ -59,7 +59,7 @@ enum class Axis { x, y, z };
 struct VolumeFileOptions {
     std::optional<VolumeFormat> format{};  ///< without it the name's ending says it
     bool compress = true;                  ///< NRRD: gzip instead of raw
-    bool all_values = false;               ///< NRRD: depth, object and kind beside RGBA
+    bool all_values = false;               ///< NRRD: depth, object and kind, with RGBA
     // The options of displays' own formats:
     double exposure = 0;             ///< stops: colours are multiplied by 2^exposure
     Dither dither = Dither::bayer8;  ///< of displays' formats

@@ -146,7 +146,8 @@ struct Material {
     Color emission{};       ///< radiance that the surface sends out, at least 0
     std::optional<Checker> checker{};  ///< a second colour in every other block
     /// One of these makes the material physically based: then `color`, `diffuse`, `shininess`,
-    /// `reflection`, `refraction` and `fresnel` say nothing. scenes/README.md tells what is shown.
+    /// `reflection`, `refraction` and `fresnel` say nothing. scenes/manual/materials.md tells what
+    /// is shown.
     std::optional<Color> base_color{};       ///< 0..1; otherwise `color`
     std::optional<double> metallic{};        ///< share of metal, 0..1; otherwise 0
     std::optional<double> roughness{};       ///< 0 polished to 1 dull; otherwise 0.5

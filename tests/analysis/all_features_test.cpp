@@ -141,15 +141,16 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const Program lists(device, "light_samples.cl",
                         features_of(scene, world.pyramid).defines(device));
     // So is the one that finds how bright its map is there.
-    if (!is_global) Program(device, "glow.cl", features_of(scene, world.pyramid).defines(device));
+    if (!is_global)
+        Program(device, "emission_maps.cl", features_of(scene, world.pyramid).defines(device));
     const uint64_t before = counters.programs_built;
     const Image image = Renderer(device, false).new_image(scene, world, report);
     EXPECT_EQ(counters.programs_built - before, 1u);
     for (const char* kernel : {"cast_sight", "begin_paths", "begin_inside", "trace_closest",
                                "shade_surface", "trace_shadows", "absorb_sight", "list_emissive"})
         EXPECT_GT(counters.launches[kernel], 0u) << kernel;
-    for (const char* kernel :
-         {"add_light", "pass_layer", "scatter_rays", "gather_light", "add_sky_light", "find_glow"})
+    for (const char* kernel : {"add_light", "pass_layer", "scatter_rays", "gather_light",
+                               "add_sky_light", "mean_emission_maps"})
         EXPECT_EQ(counters.launches[kernel] > 0, !is_global) << kernel;
     for (const char* kernel : {"add_area_light", "extend_paths", "scatter_in_medium",
                                "add_area_light_to_medium", "extend_in_medium"})

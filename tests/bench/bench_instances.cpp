@@ -4,10 +4,10 @@
 //   bench_instances MESH [instances, 1000] [voxels along the model's longest side, 256]
 //                   [surface ...]
 //
-// The instances stand on a square lattice 1 m apart, each 0.85 m long and turned anew for each
-// frame; the observer looks down on them at 55 degrees and sees nothing but the field, 1024 x 1024
-// pixels. Times are the
-// process's CPU time over all threads, so rays are per core; moving is the host's own.
+// The instances stand on a square lattice 1 m apart, each 0.85 m long and turned to another side in
+// each frame; the observer looks down on them at 55 degrees and sees nothing but the field, 1024 x
+// 1024 pixels. Times are the process's CPU time over all threads, so rays are per core; moving is
+// the host's own.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -165,11 +165,11 @@ TEST_F(CliMatteTest, AFileIsTheSameWhicheverOthersAreWritten) {
     const std::string alone = bytes_of(folder / "m.exr");
     ASSERT_EQ(run(line + "-o m.png").exit_code, 0);
     EXPECT_EQ(bytes_of(folder / "m.exr"), alone);
-    float most = 0;
+    float max = 0;
     const Image image = read_exr(folder / "m.exr");
-    for (const float share : image.planes.at("CryptoObject00.G")) most = std::max(most, share);
-    EXPECT_GT(most, 0.2f);
-    EXPECT_LT(most, 0.9f);
+    for (const float share : image.planes.at("CryptoObject00.G")) max = std::max(max, share);
+    EXPECT_GT(max, 0.2f);
+    EXPECT_LT(max, 0.9f);
 }
 
 TEST_F(CliMatteTest, AGroupsNameIsThatOfAChannel) {

@@ -80,11 +80,11 @@ class GlassInstances : public FileTest {
         size_t other = 0;
         const size_t pixels = world.planes.at("R").size();
         for (size_t i = 0; i < pixels; ++i) {
-            double most = 0;
+            double max = 0;
             for (const char* c : {"R", "G", "B"})
-                most = std::max(most, std::abs(double(world.planes.at(c)[i]) -
-                                               double(instances.planes.at(c)[i])));
-            other += most > by;
+                max = std::max(max, std::abs(double(world.planes.at(c)[i]) -
+                                             double(instances.planes.at(c)[i])));
+            other += max > by;
         }
         return double(other) / double(pixels);
     }

@@ -90,8 +90,8 @@ TEST_F(TexturePromise, IsKeptForCopiesInTheWorldAndAsInstances) {
             EXPECT_GE(promise, fact) << placement << count;
             EXPECT_LE(promise, 1.5 * fact) << placement << count;
             if (count == 1) one = fact;
-            const double most = placement == std::string("instance") ? 1.3 * one : INFINITY;
-            EXPECT_LT(fact, most) << count;
+            const double max = placement == std::string("instance") ? 1.3 * one : INFINITY;
+            EXPECT_LT(fact, max) << count;
         }
     }
 }

@@ -99,14 +99,14 @@ glm::dvec3 shares_of_closest(const std::array<glm::dvec3, 3>& t, const glm::dvec
                             glm::dot(glm::cross(ab, p - t[0]), n) / whole};
     if (glm::all(glm::greaterThanEqual(inside, glm::dvec3(0)))) return inside;
     glm::dvec3 best(0);
-    double least = INFINITY;
+    double min = INFINITY;
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 edge = t[size_t((i + 1) % 3)] - t[size_t(i)];
         const double s =
             glm::clamp(glm::dot(p - t[size_t(i)], edge) / glm::dot(edge, edge), 0.0, 1.0);
         const double distance = glm::length(p - t[size_t(i)] - edge * s);
-        if (distance >= least) continue;
-        least = distance;
+        if (distance >= min) continue;
+        min = distance;
         best = glm::dvec3(0);
         best[i] = 1 - s;
         best[(i + 1) % 3] = s;
@@ -117,7 +117,7 @@ glm::dvec3 shares_of_closest(const std::array<glm::dvec3, 3>& t, const glm::dvec
 /// The normal of the point of a mesh that is closest to p, by its corners' normals or, `flat`, its
 /// triangles'; nothing where other points are nearly as close.
 std::optional<glm::dvec3> closest_normal(const Mesh& mesh, const glm::dvec3& p, bool flat) {
-    double least = INFINITY, next = INFINITY;
+    double min = INFINITY, next = INFINITY;
     glm::dvec3 normal(0);
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
         std::array<glm::dvec3, 3> corners, normals;
@@ -132,14 +132,14 @@ std::optional<glm::dvec3> closest_normal(const Mesh& mesh, const glm::dvec3& p, 
         const double distance =
             glm::length(corners[0] * w.x + corners[1] * w.y + corners[2] * w.z - p);
         const glm::dvec3 own = flat ? face : normals[0] * w.x + normals[1] * w.y + normals[2] * w.z;
-        if (distance < least) {
-            if (degrees_apart(own, normal) > 0.1 || normal == glm::dvec3(0)) next = least;
-            least = distance, normal = own;
+        if (distance < min) {
+            if (degrees_apart(own, normal) > 0.1 || normal == glm::dvec3(0)) next = min;
+            min = distance, normal = own;
         } else if (degrees_apart(own, normal) > 0.1) {
             next = std::min(next, distance);
         }
     }
-    if (next - least < 1e-3) return std::nullopt;
+    if (next - min < 1e-3) return std::nullopt;
     return normal;
 }
 

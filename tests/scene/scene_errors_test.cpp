@@ -3,12 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
-#include <random>
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/scene/small_scene.hpp"
 
@@ -246,44 +243,6 @@ TEST(SceneErrors, RefuseALensWithoutFocusOrForAnotherShape) {
                 HasSubstr("at most 1,000 times"));
     EXPECT_EQ(refused(R"("pyramid")", R"("aperture": 1, "focus": 0.0011)"), "no error");
 }
-
-class SceneText : public testing::TestWithParam<const char*> {};
-
-TEST_P(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
-    std::ifstream stream(std::filesystem::path(VXL_SOURCE_DIR) / "scenes" / GetParam());
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
-    ASSERT_FALSE(text.empty());
-    const unsigned seed = 1980;
-    std::mt19937 random(seed);
-    int refused = 0;
-    for (int i = 0; i < 3000; ++i) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
-        std::string damaged = text;
-        for (int change = 0; change < 3; ++change) {
-            const size_t at = random() % damaged.size();
-            switch (random() % 3) {
-                case 0:
-                    damaged[at] = static_cast<char>(random());
-                    break;
-                case 1:
-                    damaged.erase(at, random() % 40);
-                    break;
-                default:
-                    damaged.insert(at, text, random() % text.size(), random() % 40);
-            }
-        }
-        try {
-            scene_at(parse_scene(damaged, "damaged.json", {}), 7.5);
-        } catch (const Error& error) {
-            ++refused;
-            EXPECT_THAT(error.what(), StartsWith("damaged.json:"));
-        }
-    }
-    EXPECT_GT(refused, 2500);
-}
-
-INSTANTIATE_TEST_SUITE_P(Shipped, SceneText, testing::Values("solids.json", "drill.json"),
-                         [](const auto& file) { return std::string(file.param).substr(0, 5); });
 
 TEST(SceneErrors, OfLightsWithAnArea) {
     EXPECT_THAT(message(scene_with(R"("lights": [{"type": "disk", "position": [0, 1, 2],

@@ -58,7 +58,7 @@ TEST(SceneKeys, AreExactlyThoseOfTheSchema) {
 }
 
 TEST(SceneKeys, AreAllInTheManual) {
-    const std::string manual = bytes_of(kScenes / "README.md");
+    const std::string manual = manual_of_scenes();
     for (const KeyTable& table : scene_key_tables()) {
         for (const std::string_view key : table.keys) {
             const std::string quoted = fmt::format("`{}`", key);

@@ -109,7 +109,7 @@ class SceneRows : public testing::Test {
     }
 
     const json definitions = json::parse(bytes_of(kScenes / "voxelume.schema.json"))["definitions"];
-    const std::string manual = bytes_of(kScenes / "README.md");
+    const std::string manual = manual_of_scenes();
 };
 
 /// Rows that replace the display's rows, because those have different limits for each shape.

@@ -2,12 +2,22 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 namespace voxelume {
 
 /// The folder with the shipped scenes, their schema and their manual.
 inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+
+/// The pages of the scenes' manual, one after another.
+inline std::string manual_of_scenes() {
+    std::ostringstream pages;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes / "manual"))
+        pages << std::ifstream(entry.path()).rdbuf();
+    return pages.str();
+}
 
 /// A scene with the given members, on lines of their own from line 5 on.
 inline std::string scene_with(const std::string& members) {

@@ -29,13 +29,13 @@ auto row(const Rows& rows, std::string_view key) {
 
 TEST(TrackValues, OfSplinesStayInTheValuesRange) {
     const Track color = spline_of(row(material_rows(), "color"), 0.25, 0.75);
-    double least = 1, most = 0;
+    double min = 1, max = 0;
     for (double frame = 1; frame <= 9; frame += 0.125) {
         const double value = values_of(color, frame)[0];
-        least = std::min(least, value), most = std::max(most, value);
+        min = std::min(min, value), max = std::max(max, value);
     }
-    EXPECT_EQ(least, 0);
-    EXPECT_EQ(most, 1);
+    EXPECT_EQ(min, 0);
+    EXPECT_EQ(max, 1);
     EXPECT_EQ(values_of(color, 5)[0], 0.75);
 }
 

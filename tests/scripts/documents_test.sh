@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks the documents: no line of more than 100 columns, no relative link that leads nowhere, a
-# README of at most 60 lines in each folder of code, and tests for what SECURITY.md promises.
+# Checks the documents: no line of more than 100 columns, no relative link to a file or heading that
+# isn't there, a README of at most 60 lines in each folder of code, and tests for what SECURITY.md
+# promises.
 # Usage: documents_test.sh SOURCE_FOLDER
 set -euo pipefail
 export LC_ALL=C.UTF-8
@@ -12,14 +13,27 @@ complain() {
     failed=1
 }
 
+# anchors_of PAGE: the anchors that GitHub gives the page's headings.
+anchors_of() {
+    sed '/^```/,/^```/d' "$1" | sed -n 's/^##* *//p' | sed -E 's/\]\([^)]*\)//g' |
+        tr '[:upper:]' '[:lower:]' | sed 's/[^[:alnum:] _-]//g; s/ /-/g'
+}
+
 pages=$(find . -name '*.md' -not -path './build*' -not -path './out/*' -not -path './.*' | sort)
 while read -r page; do
     long=$(grep -nE '^.{101}' "$page" | cut -c 1-60) || true
     [ -z "$long" ] || complain "$page has lines over 100 columns: $long"
-    # The links are [text](target) without a scheme; a heading after # is cut off.
+    # The links are [text](target) without a scheme; what follows # is a heading of the target.
     while read -r target; do
-        [ -e "$(dirname "$page")/${target%%#*}" ] || complain "$page links to $target, which isn't there"
-    done < <(sed '/^```/,/^```/d' "$page" | tr '\n' ' ' | grep -oE '\]\([^)# ]+[^) ]*\)' |
+        file=$(dirname "$page")/${target%%#*}
+        [ -n "${target%%#*}" ] || file=$page
+        if [ ! -e "$file" ]; then
+            complain "$page links to $target, which isn't there"
+        elif [[ $target == *.md#* || $target == '#'* ]]; then
+            grep -qxF -- "${target#*#}" <<<"$(anchors_of "$file")" ||
+                complain "$page links to $target, a heading that isn't there"
+        fi
+    done < <(sed '/^```/,/^```/d' "$page" | tr '\n' ' ' | grep -oE '\]\([^) ]+\)' |
         sed -E 's/^\]\((.*)\)$/\1/' | grep -vE '^[a-z]+:' || true)
 done <<<"$pages"
 
@@ -32,7 +46,7 @@ while read -r folder; do
     readme=$folder/README.md
     if [ ! -f "$readme" ]; then
         complain "$folder has no README.md"
-    elif [ "$folder" != scenes ] && [ "$(wc -l <"$readme")" -gt 60 ]; then
+    elif [ "$(wc -l <"$readme")" -gt 60 ]; then
         complain "$readme is longer than a screen"
     fi
 done < <(find cli kernels runtime scenes tests -type f -not -name README.md -printf '%h\n' | sort -u)

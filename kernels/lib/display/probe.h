@@ -44,7 +44,7 @@ typedef struct {
     lane_int aimed;   // mask
 } ProbeWay;
 
-/// From E.
+/// The way from E to a point.
 static inline ProbeWay way_from_eye(const Camera* camera, float4 edge, Vector point) {
     const Vector eye = from_eye(camera, point);
     const Vector metres = scaled(eye, edge);

@@ -19,8 +19,9 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// Functions that most kernels' deepest calls pass. PoCL 3.1 copies a kernel's functions anew along
-// each chain of calls, of which these would make millions. Its optimizer resolves them by itself.
+// Functions that most kernels' deepest calls pass. PoCL 3.1 copies a kernel's functions once more
+// along each chain of calls, of which these would make millions. Its optimizer resolves them by
+// itself.
 #if defined(__clang__) && !defined(__OPTIMIZE__) && !defined(OCLGRIND)
 #define INLINED inline __attribute__((always_inline))
 #else

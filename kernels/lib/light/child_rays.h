@@ -42,14 +42,13 @@ static inline lane_float width_at(const RayBatch* batch, uint first) {
                               hit * VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS) + VXL_PAINT_WIDTH);
 }
 
-/// How wide rays that go straight on are at their origins. Those in the mask `anew` begin at their
-/// surfaces.
-/// Rays from an observer stay such.
-static inline lane_float width_straight(const RayBatch* batch, uint first, lane_int anew) {
+/// How wide rays that go straight on are at their origins. Those in the mask `restarted` begin at
+/// their surfaces. Rays from an observer stay such.
+static inline lane_float width_straight(const RayBatch* batch, uint first, lane_int restarted) {
     if (!VXL_WIDENS) return (lane_float)0.0f;
     const lane_float before =
         LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
-    return LANES_SELECT(anew & LANE_MASK(before > 0.0f), width_at(batch, first), before);
+    return LANES_SELECT(restarted & LANE_MASK(before > 0.0f), width_at(batch, first), before);
 }
 
 /// What all rays that leave the points have in common. Each begins a node of its own.
@@ -73,16 +72,16 @@ static inline lane_int are_of_instances(const RayBatch* batch, uint first) {
                      VXL_NO_INSTANCE);
 }
 
-/// Makes rays that go straight on and are in the mask `anew` begin behind their surface. A ray that
-/// goes on from a surface of the world begins where it did before and skips what it has met
+/// Makes rays that go straight on and are in the mask `restarted` begin behind their surface. A ray
+/// that goes on from a surface of the world begins where it did before and skips what it has met
 /// already; from an instance's it can't, for no cell of the world is known in which to go on.
 static inline void begin_behind(PyramidShape shape, const RayBatch* batch, uint first,
-                                lane_int anew, NewRays* r) {
+                                lane_int restarted, NewRays* r) {
     if (!VXL_INSTANCES) return;
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     const lane_float t = LANES_SELECT(
-        anew, LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first)), (lane_float)0.0f);
+        restarted, LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first)), (lane_float)0.0f);
     Vector into = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     if (VXL_NORMALS) into = opposite(load_vector(batch->normals, stride, first));
     const Vector at =
@@ -91,10 +90,10 @@ static inline void begin_behind(PyramidShape shape, const RayBatch* batch, uint 
     const Vector begin = {clamp(snap_position(at.x, into.x, one), 0.0f, (float)shape.size_x),
                           clamp(snap_position(at.y, into.y, one), 0.0f, (float)shape.size_y),
                           clamp(snap_position(at.z, into.z, one), 0.0f, (float)shape.size_z)};
-    r->origin = select_vector(anew, begin, r->origin);
-    r->t_end = LANES_SELECT(anew, r->t_end - t, r->t_end);
-    r->start = LANES_SELECT(anew, (lane_float)0.0f, r->start);
-    r->flags &= ~(LANES_AS_UINT(anew) & (VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
+    r->origin = select_vector(restarted, begin, r->origin);
+    r->t_end = LANES_SELECT(restarted, r->t_end - t, r->t_end);
+    r->start = LANES_SELECT(restarted, (lane_float)0.0f, r->start);
+    r->flags &= ~(LANES_AS_UINT(restarted) & (VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
 }
 
 /// Sets what all rays have in common that stay on the side of the surfaces from which they were

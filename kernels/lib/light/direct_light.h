@@ -207,9 +207,10 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
     lane_int behind = (lane_int)0;
     if (VXL_SHADING_NORMALS) {
         behind = LANE_MASK(dot_product(p->normal, incidence->l) <= 0.0f);
-        const Vector lift = load_vector(batch->shading + VXL_SHADING_LIFT * stride, stride, first);
-        p->lit &= ~behind | LANE_MASK(dot_product(lift, p->normal) > 0.0f);
-        const Vector up = scaled(lift, world->shape.inverse_edge);
+        const Vector offset =
+            load_vector(batch->shading + VXL_SHADING_OFFSET * stride, stride, first);
+        p->lit &= ~behind | LANE_MASK(dot_product(offset, p->normal) > 0.0f);
+        const Vector up = scaled(offset, world->shape.inverse_edge);
         p->start = add_scaled(p->start, up, (lane_float)1.0f);
         if (light.kind != VXL_LIGHT_DIRECTIONAL)
             incidence->to_light = difference(incidence->to_light, up);

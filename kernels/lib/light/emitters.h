@@ -158,7 +158,7 @@ static inline lane_float spread_again(lane_float x, lane_float share, lane_int y
 }
 
 /// How far away the last points of boxes can be, to which `way` in the world's voxels leads, which
-/// is so many `metres` long. No point of a box is farther from another than its diagonal, and rays
+/// is `metres` long. No point of a box is farther from another than its diagonal, and rays
 /// begin less than a voxel away from where they are aimed.
 static inline lane_float farthest_point(const Emitters* e, const BoxView* b, Vector way,
                                         lane_float metres, lane_int found) {

@@ -125,17 +125,18 @@ static inline void tint_light(const Surroundings* around, const Walk* w, lane_fl
     }
 }
 
-/// Makes rays begin anew that go on from the surfaces of instances, those `anew`.
-static inline void leave_instances(const PyramidView* p, lane_int anew, Packet* f, Filter* filter) {
+/// Restarts the walks of rays in the mask `restarted`, which go on from the surfaces of instances.
+static inline void leave_instances(const PyramidView* p, lane_int restarted, Packet* f,
+                                   Filter* filter) {
     RayState* ray_state = &f->ray_state;
     const lane_float zero = (lane_float)0.0f;
-    const lane_float t = LANES_SELECT(anew, f->found.t, zero);
-    begin_anew(p, &f->walk, t, anew);
+    const lane_float t = LANES_SELECT(restarted, f->found.t, zero);
+    restart_walks(p, &f->walk, t, restarted);
     f->t_end -= t;
     filter->t_out -= t;
-    ray_state->goes_on &= ~anew;
-    ray_state->asks_side &= ~anew;
-    ray_state->t_first = LANES_SELECT(anew, zero, ray_state->t_first);
+    ray_state->goes_on &= ~restarted;
+    ray_state->asks_side &= ~restarted;
+    ray_state->t_first = LANES_SELECT(restarted, zero, ray_state->t_first);
 }
 
 /// Lets the `passing` rays go on from the surface that they have found, of these attributes.

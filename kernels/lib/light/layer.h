@@ -91,9 +91,9 @@ static inline void go_straight(PyramidShape shape, const Layer* l, const Surroun
         load_medium_set(batch->paths, stride, first, l->valid), l->packed, l->leaving,
         goes_on & bodies_of(around, batch, first, l->packed, l->hit), around->medium_overflows);
     if (VXL_CUBE_BODIES) on->flags |= joined_flag(&on->media, around->materials);
-    const lane_int anew = goes_on & are_of_instances(batch, first);
-    begin_behind(shape, batch, first, anew, on);
-    on->width = width_straight(batch, first, anew);
+    const lane_int restarted = goes_on & are_of_instances(batch, first);
+    begin_behind(shape, batch, first, restarted, on);
+    on->width = width_straight(batch, first, restarted);
     on->medium = medium_inside(&on->media, around->ranks);
 }
 

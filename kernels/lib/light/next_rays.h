@@ -9,7 +9,7 @@
 
 /// The least cosine with its surface of a way on which a matt one scatters light: where normals
 /// are smoothed, ways that come closer to the surface are moved up to there.
-static inline lane_float least_cosine(const ScatterPoint* p) {
+static inline lane_float min_cosine(const ScatterPoint* p) {
     const lane_float zero = (lane_float)0.0f;
     if (!VXL_SHADING_NORMALS) return zero;
     return LANES_SELECT(p->curved, (lane_float)(1.0f / 4096.0f), zero);
@@ -22,7 +22,7 @@ static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch,
     if (VXL_SHADING_NORMALS) normal = load_vector(batch->shading, batch->stride, first);
     const lane_float cosine = dot_product(normal, direction);
     *above =
-        LANE_MASK(cosine > 0.0f) & LANE_MASK(dot_product(p->normal, direction) > least_cosine(p));
+        LANE_MASK(cosine > 0.0f) & LANE_MASK(dot_product(p->normal, direction) > min_cosine(p));
     return fmax(cosine, 0.0f);
 }
 
@@ -84,9 +84,9 @@ static inline ScatteredWay scatter_by(const ScatterPoint* p, const RayBatch* bat
     s.ahead = cosine_direction(normal, at);
     if (VXL_PHYSICAL && lanes_any(view->is)) scatter_physically(view, p->normal, at, layer, &s);
     if (VXL_SHADING_NORMALS) {
-        const lane_float least = least_cosine(p);
-        s.moved = p->curved & ~s.through & LANE_MASK(dot_product(s.ahead, p->normal) < least);
-        s.ahead = select_vector(s.moved, keep_on_side(s.ahead, p->normal, least), s.ahead);
+        const lane_float lowest = min_cosine(p);
+        s.moved = p->curved & ~s.through & LANE_MASK(dot_product(s.ahead, p->normal) < lowest);
+        s.ahead = select_vector(s.moved, keep_on_side(s.ahead, p->normal, lowest), s.ahead);
     }
     return s;
 }

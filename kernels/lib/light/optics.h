@@ -16,7 +16,7 @@ typedef struct {
 /// cos^2 of the angle of refraction: 1 - eta^2 (1 - c^2) = (eta c)^2 - (eta^2 - 1).
 ///
 /// Below 1 that is a sum. Above 1, eta c - sqrt(eta^2 - 1) is what decides: eta^2 - 1 = (eta - 1)
-/// (eta + 1) and its root are carried in two floats each, also for indices almost equal, so that
+/// (eta + 1) and its root are held in two floats each, also for indices almost equal, so that
 /// the sign is right within 1e-7 of the critical angle. Source: accuracy notes on Snell's law;
 /// Kahan.
 static inline lane_float squared_cosine(lane_float eta, lane_float c) {

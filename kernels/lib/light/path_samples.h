@@ -31,7 +31,7 @@ static inline SquarePoint path_point(const PathSamples* s, uint decision) {
     return sobol_point(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
 }
 
-/// The same points as 32-bit fractions.
+/// The paths' points for a decision, as 32-bit fractions.
 static inline SquareBits path_bits(const PathSamples* s, uint decision) {
     return sobol_bits(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
 }

@@ -195,8 +195,8 @@ static inline lane_int physical_value(const PhysicalView* s, Vector in, lane_flo
     return above;
 }
 
-/// The same of the light from `in` on the other side of the surfaces. Returns the mask of surfaces
-/// that let some of it through.
+/// Finds what surfaces let through of the light from `in` on their other side, and the density of
+/// that direction. Returns the mask of surfaces that let some of it through.
 static inline lane_int physical_through(const PhysicalView* s, Vector in, lane_float* value,
                                         lane_float* density) {
     const lane_float zero = (lane_float)0.0f;

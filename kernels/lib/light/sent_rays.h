@@ -7,7 +7,7 @@
 #include "lib/light/paths.h"
 #include "lib/traverse/ray_queue.h"
 
-/// The t of rays after so many metres.
+/// The t of rays after a length in metres.
 static inline lane_float t_after(lane_float metres, Vector direction, float4 edge) {
     const lane_float per_t = metres_per_t(edge, direction);
     return exact_divide(metres, LANES_SELECT(LANE_MASK(per_t > 0.0f), per_t, (lane_float)1.0f));

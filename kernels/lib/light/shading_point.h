@@ -33,7 +33,7 @@ static inline void light_triangles(const WorldView* world, const ShadedHit* h, V
         from[i] = add_scaled(difference(o, corner), d, h->ray.t);
     }
     corner_shares(from, share);
-    Vector sum = {zero, zero, zero}, lift = sum;
+    Vector sum = {zero, zero, zero}, offset = sum;
     for (uint i = 0; i < 3; ++i) {
         Vector g = unpack_normal(LANES_GATHER_UINT(packed, place + i));
         g = select_vector(behind, opposite(g), g);
@@ -42,11 +42,12 @@ static inline void light_triangles(const WorldView* world, const ShadedHit* h, V
         const lane_float below = fmax(-dot_product(g, from[i]) * inverse, 0.0f);
         const Vector n = unit(metric);
         sum = add_scaled(sum, n, share[i]);
-        lift = add_scaled(lift, n, share[i] * below);
+        offset = add_scaled(offset, n, share[i] * below);
     }
     sum = unit(sum);
     s->normal = select_vector(curved & LANE_MASK(dot_product(sum, sum) > 0.0f), sum, s->normal);
-    s->lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s->lift);
+    s->offset =
+        select_vector(curved & LANE_MASK(dot_product(offset, normal) > 0.0f), offset, s->offset);
 }
 
 /// Cubes: the normals of the surface that they stand for, turned over where both the face, whose
@@ -81,9 +82,10 @@ static inline void light_cubes(const WorldView* world, const ShadedHit* h, Vecto
     const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
     const lane_float below = fmax(top - dot_product(g, from), 0.0f) * inverse;
     const Vector n = unit(metric);
-    const Vector lift = {n.x * below, n.y * below, n.z * below};
+    const Vector offset = {n.x * below, n.y * below, n.z * below};
     s->normal = select_vector(curved, n, s->normal);
-    s->lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s->lift);
+    s->offset =
+        select_vector(curved & LANE_MASK(dot_product(offset, normal) > 0.0f), offset, s->offset);
 }
 
 /// The normals by which light falls on points whose geometric normals are `normal`, at `place` in

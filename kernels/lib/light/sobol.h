@@ -78,7 +78,7 @@ static inline SquareBits sobol_bits(lane_uint sample, lane_uint seed) {
     return p;
 }
 
-/// The same point as numbers.
+/// Point number `sample` of the scrambled sequence, as numbers from 0 to 1.
 static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
     const SquareBits bits = sobol_bits(sample, seed);
     const SquarePoint p = {unit_interval(bits.x), unit_interval(bits.y)};

@@ -85,7 +85,7 @@ static inline ShapeSpan ball_span(ShapeRay r, float radius) {
                       closest);
 }
 
-/// In the endless cylinder around the Y axis.
+/// The part of a ray in the endless cylinder around the Y axis.
 static inline ShapeSpan tube_span(ShapeRay r, float radius) {
     const lane_float aa = fma(r.v.x, r.v.x, r.v.z * r.v.z);
     const lane_int moves = LANE_MASK(aa > 0.0f);

@@ -91,11 +91,11 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
         w->t = LANES_SELECT(searching, fmax(found.t, w->t), w->t);
         w->axis = LANES_SELECT(searching, (lane_int)3, w->axis);
         if (!VXL_INSTANCES) continue;
-        const lane_int anew = searching & of_instance;
+        const lane_int restarted = searching & of_instance;
         ray_state->instance = LANES_SELECT(searching, found.instance, ray_state->instance);
-        begin_anew(&world->pyramid, w, found.t, anew);
-        ray_state->goes_on &= ~anew;
-        ray_state->t_first = LANES_SELECT(anew, (lane_float)0.0f, ray_state->t_first);
+        restart_walks(&world->pyramid, w, found.t, restarted);
+        ray_state->goes_on &= ~restarted;
+        ray_state->t_first = LANES_SELECT(restarted, (lane_float)0.0f, ray_state->t_first);
     }
     return began;
 }

@@ -253,7 +253,7 @@ static inline void paint_hits(const WorldView* world, const SourceMeshes* source
                               const ShadedHit* h, const Footprint* f, Vector position,
                               Vector normal, global const float* restrict materials,
                               lane_uint material, const RayBatch* batch, uint first,
-                              lane_float* glow) {
+                              lane_float* emission_factors) {
     const float4 edge = world->shape.edge;
     const Vector metres = scaled(h->world_way, edge);
     const Vector way = unit(metres);
@@ -268,7 +268,7 @@ static inline void paint_hits(const WorldView* world, const SourceMeshes* source
     all[VXL_PAINT_WIDTH] = span.width;
     if (VXL_TEXTURE_MAPS) {
         map_material(materials, material, &maps, all + (VXL_PAINT_WIDTH + 1));
-        for (int c = 0; c < 3; ++c) glow[c] = maps.emission[c];
+        for (int c = 0; c < 3; ++c) emission_factors[c] = maps.emission[c];
     }
     store_paint(all, batch->paint, first);
 }

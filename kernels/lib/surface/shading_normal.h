@@ -66,13 +66,13 @@ static inline void corner_shares(const Vector* from, lane_float* share) {
 /// How a surface point is lit.
 typedef struct {
     Vector normal;  // a unit vector in metres' space
-    Vector lift;    // metres: how far from the point rays to lights begin, on the side of the
+    Vector offset;  // metres: how far from the point rays to lights begin, on the side of the
                     // geometric normal
 } ShadingPoint;
 
 // The batch's `shading` holds six values for each ray, those of ShadingPoint: from 0 on the normal,
-// from here on the lift.
-#define VXL_SHADING_LIFT 3u
+// from here on the offset.
+#define VXL_SHADING_OFFSET 3u
 
 /// Mask: lanes whose vectors differ.
 static inline lane_int are_different(Vector a, Vector b) {
@@ -80,8 +80,8 @@ static inline lane_int are_different(Vector a, Vector b) {
 }
 
 /// The direction v, moved along the unit normal n so far that v . n is `least` at least.
-static inline Vector keep_on_side(Vector v, Vector n, lane_float least) {
-    const lane_float below = fmax(least - dot_product(v, n), 0.0f);
+static inline Vector keep_on_side(Vector v, Vector n, lane_float lowest) {
+    const lane_float below = fmax(lowest - dot_product(v, n), 0.0f);
     return add_scaled(v, n, below);
 }
 
@@ -92,11 +92,11 @@ static inline Vector keep_on_side(Vector v, Vector n, lane_float least) {
 /// the corrected reflected ray.
 static inline Vector reflecting_normal(Vector way, Vector n, Vector shading) {
     const lane_float above = -dot_product(way, n);
-    const lane_float least = fmin(0.9f * fmax(above, 0.0f), 0.01f);
+    const lane_float lowest = fmin(0.9f * fmax(above, 0.0f), 0.01f);
     const lane_float twice = -2.0f * dot_product(way, shading);
     const Vector mirrored = add_scaled(way, shading, twice);
-    const lane_int below = LANE_MASK(dot_product(mirrored, n) < least);
-    const Vector kept = unit(keep_on_side(mirrored, n, least));
+    const lane_int below = LANE_MASK(dot_product(mirrored, n) < lowest);
+    const Vector kept = unit(keep_on_side(mirrored, n, lowest));
     const Vector half_way = unit(difference(kept, way));
     const Vector used = select_vector(below, half_way, shading);
     return select_vector(LANE_MASK(dot_product(shading, n) > 0.0f), used, n);

@@ -54,9 +54,10 @@ static inline void set_maps(global const uint* restrict textures, lane_uint plac
         m->roughness = LANES_SELECT(gloss, mean[1], m->roughness);
         m->metallic = LANES_SELECT(gloss, mean[2], m->metallic);
     }
-    const lane_int glows = map_mean(textures, place, VXL_MAP_EMISSION, area, wears, mean);
-    if (lanes_any(glows))
-        for (int c = 0; c < 3; ++c) m->emission[c] = LANES_SELECT(glows, mean[c], m->emission[c]);
+    const lane_int is_emissive = map_mean(textures, place, VXL_MAP_EMISSION, area, wears, mean);
+    if (lanes_any(is_emissive))
+        for (int c = 0; c < 3; ++c)
+            m->emission[c] = LANES_SELECT(is_emissive, mean[c], m->emission[c]);
 }
 
 /// The number of values behind VXL_PAINT_WIDTH.

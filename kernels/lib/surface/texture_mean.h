@@ -133,12 +133,12 @@ static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v
     add_texel(t, x0, y1, (1.0f - part_x) * lower, to);
     add_texel(t, x1, y1, part_x * lower, to);
     if (!VXL_TEXTURE_ALPHA) return;
-    const lane_int has_least = LANE_MASK(t->alpha < VXL_ALPHA_BLEND) & LANE_MASK(t->alpha > 0u);
+    const lane_int has_min = LANE_MASK(t->alpha < VXL_ALPHA_BLEND) & LANE_MASK(t->alpha > 0u);
     const lane_int is_there = LANE_MASK(own[3] * 255.0f >= LANES_FLOAT(t->alpha));
     const lane_int some = LANE_MASK(own[3] > 0.0f);
     const lane_float whole = exact_reciprocal(LANES_SELECT(some, own[3], (lane_float)1.0f));
     const lane_float as_mask = LANES_SELECT(is_there & some, whole, zero);
-    const lane_float scale = weight * LANES_SELECT(has_least, as_mask, (lane_float)1.0f);
+    const lane_float scale = weight * LANES_SELECT(has_min, as_mask, (lane_float)1.0f);
     for (int c = 0; c < 4; ++c) sum[c] = fma(own[c], scale, sum[c]);
 }
 
@@ -172,8 +172,8 @@ static inline void mean_over(global const uint* restrict textures, lane_uint pla
     const lane_float scale = LANES_AS_FLOAT((127 - level) << 23) * VXL_SAMPLES_PER_TEXEL;
     lane_float count[2], step[2];
     for (int i = 0; i < 2; ++i) {
-        const float most = VXL_LONG_TEXELS * VXL_SAMPLES_PER_TEXEL * 2.0f;
-        count[i] = clamp(ceil(length[i] * scale), 1.0f, most);
+        const float max_count = VXL_LONG_TEXELS * VXL_SAMPLES_PER_TEXEL * 2.0f;
+        count[i] = clamp(ceil(length[i] * scale), 1.0f, max_count);
         count[i] = LANES_SELECT(some, count[i], (lane_float)1.0f);
         step[i] = exact_reciprocal(count[i]);
     }

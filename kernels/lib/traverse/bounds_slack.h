@@ -20,7 +20,7 @@ typedef struct {
 } BoundsSlack;
 
 /// The lesser of `slowness` and |1 / d|, of an axis in the lanes of `mask`.
-static inline lane_float least_slowness(lane_float slowness, lane_float inverse, lane_int mask) {
+static inline lane_float min_slowness(lane_float slowness, lane_float inverse, lane_int mask) {
     return LANES_SELECT(mask, fmin(slowness, fabs(inverse)), slowness);
 }
 
@@ -29,9 +29,9 @@ static inline lane_float least_slowness(lane_float slowness, lane_float inverse,
 static inline lane_float slack_of_entry(Vector o, Vector d, int size_x, int size_y, int size_z) {
     const lane_float none = (lane_float)INFINITY;
     lane_float in = none;
-    in = least_slowness(in, exact_reciprocal(d.x), on_entry_side(o.x, d.x, size_x));
-    in = least_slowness(in, exact_reciprocal(d.y), on_entry_side(o.y, d.y, size_y));
-    in = least_slowness(in, exact_reciprocal(d.z), on_entry_side(o.z, d.z, size_z));
+    in = min_slowness(in, exact_reciprocal(d.x), on_entry_side(o.x, d.x, size_x));
+    in = min_slowness(in, exact_reciprocal(d.y), on_entry_side(o.y, d.y, size_y));
+    in = min_slowness(in, exact_reciprocal(d.z), on_entry_side(o.z, d.z, size_z));
     return LANES_SELECT(LANE_MASK(in < none), in, (lane_float)0.0f);
 }
 
@@ -50,9 +50,9 @@ static inline BoundsSlack bounds_slack(const PyramidView* p, const Walk* w, lane
     const Vector o = {w->ox, w->oy, w->oz}, d = {w->dx, w->dy, w->dz};
     const lane_float in = slack_of_entry(o, d, p->size_x, p->size_y, p->size_z);
     lane_float out = none;
-    out = least_slowness(out, w->ix, goes_out_by(t_out, w->ox, w->ix, w->px, w->mx, p->size_x));
-    out = least_slowness(out, w->iy, goes_out_by(t_out, w->oy, w->iy, w->py, w->my, p->size_y));
-    out = least_slowness(out, w->iz, goes_out_by(t_out, w->oz, w->iz, w->pz, w->mz, p->size_z));
+    out = min_slowness(out, w->ix, goes_out_by(t_out, w->ox, w->ix, w->px, w->mx, p->size_x));
+    out = min_slowness(out, w->iy, goes_out_by(t_out, w->oy, w->iy, w->py, w->my, p->size_y));
+    out = min_slowness(out, w->iz, goes_out_by(t_out, w->oz, w->iz, w->pz, w->mz, p->size_z));
     BoundsSlack slack;
     slack.in = LANES_SELECT(new, in, (lane_float)0.0f);
     slack.out = LANES_SELECT(LANE_MASK(out < none), out, (lane_float)0.0f);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The amount of medium that a ray goes through: the sum of density times length over its voxels.
 //
-// A length is the difference of two crossing times, each carried in two floats, so that a thin
+// A length is the difference of two crossing times, each held in two floats, so that a thin
 // layer far along the ray counts as exactly as a thick one near its start.
 #ifndef VXL_DENSITY_H
 #define VXL_DENSITY_H

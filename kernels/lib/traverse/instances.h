@@ -253,23 +253,24 @@ static INLINED void meet_instances(const PyramidView* world, const SurfaceView* 
     }
 }
 
-/// Makes the walks of rays that go on from an instance's surface at t, those `anew`, begin there.
-static inline void begin_anew(const PyramidView* p, Walk* w, lane_float t, lane_int anew) {
-    const lane_float zero = (lane_float)0.0f, at = LANES_SELECT(anew, t, zero);
+/// Makes the walks of rays that go on from an instance's surface at t, those `restarted`, begin
+/// there.
+static inline void restart_walks(const PyramidView* p, Walk* w, lane_float t, lane_int restarted) {
+    const lane_float zero = (lane_float)0.0f, at = LANES_SELECT(restarted, t, zero);
     const float one = p->fixed_point;
     const Walk from =
         begin_walk(snap_position(clamp(fma(w->dx, at, w->ox), 0.0f, (float)p->size_x), zero, one),
                    snap_position(clamp(fma(w->dy, at, w->oy), 0.0f, (float)p->size_y), zero, one),
                    snap_position(clamp(fma(w->dz, at, w->oz), 0.0f, (float)p->size_z), zero, one),
                    w->dx, w->dy, w->dz);
-    w->ox = LANES_SELECT(anew, from.ox, w->ox);
-    w->oy = LANES_SELECT(anew, from.oy, w->oy);
-    w->oz = LANES_SELECT(anew, from.oz, w->oz);
-    w->x = LANES_SELECT(anew, from.x, w->x);
-    w->y = LANES_SELECT(anew, from.y, w->y);
-    w->z = LANES_SELECT(anew, from.z, w->z);
-    w->t = LANES_SELECT(anew, from.t, w->t);
-    w->axis = LANES_SELECT(anew, from.axis, w->axis);
+    w->ox = LANES_SELECT(restarted, from.ox, w->ox);
+    w->oy = LANES_SELECT(restarted, from.oy, w->oy);
+    w->oz = LANES_SELECT(restarted, from.oz, w->oz);
+    w->x = LANES_SELECT(restarted, from.x, w->x);
+    w->y = LANES_SELECT(restarted, from.y, w->y);
+    w->z = LANES_SELECT(restarted, from.z, w->z);
+    w->t = LANES_SELECT(restarted, from.t, w->t);
+    w->axis = LANES_SELECT(restarted, from.axis, w->axis);
 }
 
 /// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.

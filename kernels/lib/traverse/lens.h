@@ -7,7 +7,7 @@
 #include "lib/traverse/display_shape.h"
 #include "shared/paths.h"
 
-/// A point of the regular polygon of so many corners on the unit circle, one of them at the top,
+/// A point of the regular polygon of `corners` corners on the unit circle, one of them at the top,
 /// all of which are equally probable: p.y chooses a triangle between two corners and the middle.
 static inline SquarePoint polygon_point(SquarePoint p, int corners) {
     const lane_float at = p.y * (float)corners;

@@ -34,7 +34,7 @@ std::optional<size_t> stamp_check_place(std::string_view header);
 /// checksum of its chunk follows. Returns whether there was one.
 bool seal(std::string& bytes);
 
-/// The same for an open file. Throws nothing: a file whose stamp can't be sealed counts as damaged.
+/// Seals an open file. Throws nothing: a file whose stamp can't be sealed counts as damaged.
 bool seal(int descriptor) noexcept;
 
 /// Compares a file with what it should be made from.

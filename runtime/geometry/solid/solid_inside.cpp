@@ -70,9 +70,9 @@ double thickness(const Solid& solid, const glm::dmat3& map) {
     const glm::dmat3 own = map * glm::dmat3(solid.parent_from_solid);
     if (solid.kind == SolidKind::difference_of) return thickness(solid.parts.front(), own);
     if (is_combination(solid.kind)) {
-        double least = thickness(solid.parts.front(), own);
-        for (const Solid& part : solid.parts) least = std::min(least, thickness(part, own));
-        return least;
+        double min = thickness(solid.parts.front(), own);
+        for (const Solid& part : solid.parts) min = std::min(min, thickness(part, own));
+        return min;
     }
     const bool has_planes = solid.kind == SolidKind::box || solid.kind == SolidKind::slab;
     if (!has_planes) return width_of(solid) * smallest_singular_value(own);

@@ -47,7 +47,7 @@ std::string exr_bytes(const Image& image, const ExrStorage& storage = {},
 /// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,
 /// where its data window is a part of its display window, the place of that.
 ///
-/// Of a file with several parts it reads the first and all flat ones with the same data window. A
+/// A file with several parts gives the first and all flat ones with the same data window. A
 /// channel of a later part whose name is taken has the part's name before its own: "albedo.R".
 ///
 /// Throws Error::input for a file that is missing, damaged, deep or subsampled, or that declares

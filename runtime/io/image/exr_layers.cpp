@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kColor = "rgba";
 constexpr const char* kDepth = "depth";
 
-/// By which parts are sorted.
+/// The order in which parts are sorted.
 auto rank_of(const ExrPart& part) {
     return std::tuple(part.name != kColor, part.name != kDepth, std::string_view(part.name));
 }

@@ -215,7 +215,7 @@ void VoxCells::fill(const std::array<uint32_t, 256>& colors,
         model.coordinates.push_back(uint32_t(brick));
         bricks.push_back(cells);
     }
-    // Beside the colours, which wait for memory.
+    // Runs while the colours are read, which wait for memory.
     auto marked = std::async([&] {
         model.occupancy.assign(bricks.size() * kLeavesPerBrick, 0);
         for (size_t slot = 0; slot < bricks.size(); ++slot)

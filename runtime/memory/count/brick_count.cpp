@@ -13,10 +13,10 @@
 namespace voxelume {
 namespace {
 
-constexpr double kMostMarked = 1 << 28;   ///< bricks of a lattice that are told apart
-constexpr double kMostCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
-constexpr size_t kSampledBricks = 256;    ///< whose leaves of 4³ voxels are counted
-constexpr size_t kSampledLeaves = 512;    ///< of these, whose voxels are counted
+constexpr double kMaxMarked = 1 << 28;   ///< bricks of a lattice that are told apart
+constexpr double kMaxCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
+constexpr size_t kSampledBricks = 256;   ///< whose leaves of 4³ voxels are counted
+constexpr size_t kSampledLeaves = 512;   ///< of these, whose voxels are counted
 
 /// How far outside of a voxel a surface may be that still counts as in it, in edges: 0.18 along the
 /// axes, and 0 at corners, where solids are voxelized.
@@ -219,7 +219,7 @@ class BrickCounter {
 };
 
 /// The maximum number of bricks that the surface of a box passes through.
-double most_bricks(const VoxelBox& box) {
+double max_bricks(const VoxelBox& box) {
     const glm::dvec3 size = glm::max(box.high - box.low, 0.0) / double(kBrickSize) + 2.0;
     return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
@@ -228,7 +228,7 @@ double most_bricks(const VoxelBox& box) {
 
 bool TakenBricks::take(const glm::ivec3& brick) {
     const double count = double(table_.x) * table_.y * table_.z;
-    if (count > kMostMarked) return true;
+    if (count > kMaxMarked) return true;
     if (taken_.empty()) taken_.resize(size_t(count));
     auto place = taken_[size_t(brick.x) +
                         size_t(table_.x) * (size_t(brick.y) + size_t(table_.y) * size_t(brick.z))];
@@ -261,7 +261,7 @@ BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const V
                         const BrickRule& rule, TakenBricks& taken,
                         std::span<const SolidField> parts) {
     if (glm::any(glm::greaterThan(box.low, box.high))) return {};
-    if (most_bricks(box) <= kMostCounted)
+    if (max_bricks(box) <= kMaxCounted)
         return BrickCounter(field, frame, rule, taken, parts).count(box);
     GridFrame coarse = frame;
     coarse.voxel_edge *= 2;

@@ -42,7 +42,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
 /// copied to a larger one, with room for a quarter more.
 void count_growth(const Device& device, BrickGrid& world);
 
-/// Follows WorldPlacer::place where so many bricks of a world change. Returns the triangles and
+/// Follows WorldPlacer::place where `bricks` of a world change. Returns the triangles and
 /// solids that the world then has; all other buffers are freed again.
 BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
                            const CountedWorld& world, const PartBricks& bricks);

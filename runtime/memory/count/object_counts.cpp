@@ -199,19 +199,19 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
     return alone(extent);
 }
 
-SurfaceExtent ObjectCounts::least_of_voxels(const Object& object, const VoxelModel& voxels) {
+SurfaceExtent ObjectCounts::min_of_voxels(const Object& object, const VoxelModel& voxels) {
     const GridFrame& frame = voxels.frame;
     const glm::dvec3 end = frame.origin + frame.voxel_edge * glm::dvec3(frame.size);
     if (!extents_.lies_in_world(frame.origin, end, object.world_from_object)) return {};
-    return least_count(voxels, object.world_from_object, world_frame(scene_.world));
+    return min_count(voxels, object.world_from_object, world_frame(scene_.world));
 }
 
-WorldExtent ObjectCounts::least_in_world(size_t number) {
+WorldExtent ObjectCounts::min_in_world(size_t number) {
     const Object& object = scene_.objects[number];
     const Model& model = scene_.models[size_t(object.model)];
     const bool has_voxels = !model.voxels.empty() && model.surface != Surface::exact;
     SurfaceExtent extent =
-        has_voxels ? least_of_voxels(object, meshes_.voxels(model))
+        has_voxels ? min_of_voxels(object, meshes_.voxels(model))
                    : extents_.minimum(
                          object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
     // Areas say too much where objects are small.
@@ -269,11 +269,11 @@ WorldCounts ObjectCounts::expected_world() {
     return sum_of(sum, primitives, {of_fields, of_others}, frame);
 }
 
-WorldCounts ObjectCounts::least_world() {
+WorldCounts ObjectCounts::min_world() {
     std::vector<ObjectExtent> others, all;
     double of_fields = 0;
     for (const size_t number : placed_numbers()) {
-        all.push_back({boxes()[number], least_in_world(number)});
+        all.push_back({boxes()[number], min_in_world(number)});
         if (is_smooth(number))
             of_fields += all.back().extent.bricks;
         else
@@ -287,7 +287,7 @@ WorldCounts ObjectCounts::least_world() {
 WorldCounts ObjectCounts::world(Estimate estimate) {
     in_world_.resize(scene_.objects.size());
     if (!expected_) expected_ = expected_world();
-    return estimate == Estimate::expected ? *expected_ : least_world();
+    return estimate == Estimate::expected ? *expected_ : min_world();
 }
 
 WorldCounts indexed_counts(const GridCounts& grid) {

@@ -38,7 +38,7 @@ class ObjectCounts {
     /// The bricks that the objects are expected in for which `objects` is true.
     PartBricks changed_bricks(const std::vector<bool>& objects);
 
-    /// As object_boxes.
+    /// Boxes as those of object_boxes.
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
@@ -49,18 +49,18 @@ class ObjectCounts {
     std::vector<size_t> placed_numbers();
     bool is_smooth(size_t number) const;
     WorldCounts expected_world();
-    WorldCounts least_world();
+    WorldCounts min_world();
     SurfaceExtent solid_extent(const Model& model, const GridFrame& frame);
     SurfaceExtent object_extent(const Object& object, const GridFrame& frame);
     BrickCount expected_in_world(const Object& object, TakenBricks& taken);
-    WorldExtent least_in_world(size_t number);
-    SurfaceExtent least_of_voxels(const Object& object, const VoxelModel& voxels);
+    WorldExtent min_in_world(size_t number);
+    SurfaceExtent min_of_voxels(const Object& object, const VoxelModel& voxels);
 
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
     ObjectLattices lattices_;
-    /// In their own spaces, by the edges of voxels.
+    /// Extents of solids in their models' spaces, by the edges of voxels.
     std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
     std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
     std::optional<WorldCounts> expected_;                ///< in the world

@@ -31,7 +31,7 @@ class ObjectExtents {
     /// True if the map takes all of a box into the world.
     bool lies_in_world(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& map) const;
 
-    /// As object_boxes.
+    /// Boxes as those of object_boxes.
     const std::vector<VoxelBox>& boxes();
 
   private:

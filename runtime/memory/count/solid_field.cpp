@@ -63,7 +63,7 @@ double shape_distance(const glm::dvec3& p, const Solid& s) {
 
 /// A lower bound on the length that a map gives to a unit vector: one over an upper bound on the
 /// length that its inverse gives.
-double least_stretch(const glm::dmat4& inverse) {
+double min_stretch(const glm::dmat4& inverse) {
     const glm::dmat3 turn(inverse);
     const double columns = std::sqrt(glm::dot(turn[0], turn[0]) + glm::dot(turn[1], turn[1]) +
                                      glm::dot(turn[2], turn[2]));
@@ -89,7 +89,7 @@ void SolidField::add(const Solid& solid, const glm::dmat4& frame_from_parent) {
     nodes_[number].shape = solid;
     nodes_[number].shape.parts.clear();
     nodes_[number].shape_from_frame = glm::inverse(map);
-    nodes_[number].scale = least_stretch(nodes_[number].shape_from_frame);
+    nodes_[number].scale = min_stretch(nodes_[number].shape_from_frame);
     for (const Solid& part : solid.parts) add(part, map);
     nodes_[number].end = uint32_t(nodes_.size());
 }

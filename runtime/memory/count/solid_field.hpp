@@ -17,7 +17,7 @@ class SolidField {
   public:
     SolidField(const Solid& solid, const glm::dmat4& frame_from_solid);
 
-    /// In metres, as `p` in the frame's space.
+    /// The distance in metres, as `p` in the frame's space.
     double distance(const glm::dvec3& p) const { return distance(0, p); }
 
   private:

@@ -40,7 +40,7 @@ class LeafCounter {
         for (int z = begin.z; z <= end.z; ++z)
             for (int y = begin.y; y <= end.y; ++y)
                 for (int x = begin.x; x <= end.x; ++x) bricks_.push_back({z, y, x});
-        if (bricks_.size() > most_waiting_) shrink();
+        if (bricks_.size() > max_waiting_) shrink();
     }
 
     BrickCount count(TakenBricks& taken) {
@@ -55,14 +55,14 @@ class LeafCounter {
     void shrink() {
         std::sort(bricks_.begin(), bricks_.end());
         bricks_.erase(std::unique(bricks_.begin(), bricks_.end()), bricks_.end());
-        most_waiting_ = std::max(most_waiting_, 2 * bricks_.size());
+        max_waiting_ = std::max(max_waiting_, 2 * bricks_.size());
     }
 
     glm::ivec3 last_;
     glm::dvec3 origin_, reach_;  ///< in the world's voxels
     glm::dmat3 axes_{1};         ///< of the file's voxels
     std::vector<std::array<int, 3>> bricks_;
-    size_t most_waiting_ = 1 << 16;
+    size_t max_waiting_ = 1 << 16;
 };
 
 /// How many voxels of the world one of a file's is as large as.
@@ -90,8 +90,8 @@ BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_o
     const double bricks = 1.4 * double(voxels.coordinates.size()) * more;
     BrickCount found{{0, bricks}, bricks};
     // Leaves that are many bricks large would make a list longer than the world's.
-    constexpr double kMostVoxels = 64;
-    if (!voxels.occupancy.empty() && more <= kMostVoxels) {
+    constexpr double kMaxVoxels = 64;
+    if (!voxels.occupancy.empty() && more <= kMaxVoxels) {
         LeafCounter counter(voxels.frame, world_from_object, spread, world);
         found = count_leaves(voxels, counter, taken);
     }
@@ -99,8 +99,8 @@ BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_o
     return found;
 }
 
-SurfaceExtent least_count(const VoxelModel& voxels, const glm::dmat4& world_from_object,
-                          const GridFrame& world) {
+SurfaceExtent min_count(const VoxelModel& voxels, const glm::dmat4& world_from_object,
+                        const GridFrame& world) {
     const double less = std::min(1.0, size_in(world, voxels.frame, world_from_object));
     return {double(voxels.voxels()) * less, double(voxels.coordinates.size()) * less};
 }

@@ -20,7 +20,7 @@ BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_o
 
 /// What they take at least, where the world shows all of them: no fewer bricks than the file's, and
 /// one voxel for all of the file's that a larger one of the world holds.
-SurfaceExtent least_count(const VoxelModel& voxels, const glm::dmat4& world_from_object,
-                          const GridFrame& world);
+SurfaceExtent min_count(const VoxelModel& voxels, const glm::dmat4& world_from_object,
+                        const GridFrame& world);
 
 }  // namespace voxelume

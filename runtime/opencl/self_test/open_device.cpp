@@ -70,31 +70,31 @@ std::vector<DeviceInfo> list_devices() {
     return infos;
 }
 
-std::optional<Device> Device::open_tested(const Candidate& chosen, int lanes, const Device* beside,
+std::optional<Device> Device::open_tested(const Candidate& chosen, int lanes, const Device* sibling,
                                           std::string& fault) {
     DeviceInfo info = settled(chosen.info, lanes);
     const SelfTestMode mode = self_test_mode();
-    if (mode == SelfTestMode::off) return open(chosen.device, std::move(info), beside);
+    if (mode == SelfTestMode::off) return open(chosen.device, std::move(info), sibling);
     std::optional<std::string> found;
     if (mode == SelfTestMode::once) found = kept_fault(info);
     // The test has a device of its own, so that it isn't seen in the counters.
     std::optional<Device> tested;
     if (!found) {
-        tested = open(chosen.device, info, beside);
+        tested = open(chosen.device, info, sibling);
         found = new_fault(*tested);
     }
     fault = *found;
     if (!fault.empty()) return std::nullopt;
     info.self_test = SelfTest::passed;
-    return open(chosen.device, std::move(info), tested ? &*tested : beside);
+    return open(chosen.device, std::move(info), tested ? &*tested : sibling);
 }
 
-Device Device::open(std::string_view selector, int lanes, const Device* beside) {
+Device Device::open(std::string_view selector, int lanes, const Device* sibling) {
     const std::string wanted = selector_or_default(selector);
     std::vector<Candidate> candidates = find_tested_candidates(lanes);
     for (std::string fault;;) {
         const Candidate& chosen = choose(candidates, wanted);
-        if (std::optional<Device> device = open_tested(chosen, lanes, beside, fault))
+        if (std::optional<Device> device = open_tested(chosen, lanes, sibling, fault))
             return *device;
         refuse(chosen.info, fault, candidates);
     }

@@ -290,18 +290,6 @@ glm::dvec2 half_extent(const Display& display) {
     return shape_row(display).half_extent(display);
 }
 
-std::span<const ValueRow<DisplayParameters>> display_rows() {
-    static constexpr std::array<ValueRow<DisplayParameters>, 6> rows = {{
-        {"angles", &DisplayParameters::angles, {0, 180, true, true}},
-        {"angle", &DisplayParameters::angle, {0, 180, true, true}},
-        {"near", &DisplayParameters::near, kNotNegative},
-        {"far", &DisplayParameters::far, kLength},
-        {"radius", &DisplayParameters::radius, kLength},
-        {"size", &DisplayParameters::size, kLength},
-    }};
-    return rows;
-}
-
 double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size) {
     return std::atan(std::tan(horizontal_half_angle) * size.y / size.x);
 }

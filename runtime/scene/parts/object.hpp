@@ -100,7 +100,7 @@ struct GroupMaterial {
 enum class Placement : uint8_t {
     automatic,  ///< `world` for what stands still, `instance` for what moves
     world,      ///< resampled into the world's voxels
-    instance    ///< rays are carried into the object's own voxels
+    instance    ///< rays are transformed into the object's own voxels
 };
 
 struct Object {

@@ -16,7 +16,7 @@ struct KeyTable {
     std::vector<std::string_view> keys;
 };
 
-/// All tables, in the order of scenes/README.md.
+/// All tables, in the order of scenes/manual/scene.md.
 const std::vector<KeyTable>& scene_key_tables();
 
 /// The table of that name, which must exist.

@@ -45,11 +45,11 @@ class ColumnClearance {
             clear_[axis].try_emplace(at.x + size.x * (at.y + size.y * at.z), 1.0).first->second;
         const double before = clear;
         clear = std::max(clear - taken, 0.0);
-        return before < kLeastClear ? -1 : std::min(taken / before, 1.0);
+        return before < kMinClear ? -1 : std::min(taken / before, 1.0);
     }
 
   private:
-    static constexpr double kLeastClear = 1.0 / 256;
+    static constexpr double kMinClear = 1.0 / 256;
 
     const VolumeFrame& frame_;
     std::array<std::unordered_map<uint64_t, double>, 3> clear_;

@@ -104,14 +104,14 @@ class PieceFinder {
             }
             places[size_t(6) * stride + i] = float(std::sqrt(piece.area));
         }
-        const Buffer<float> glow(device_, "emissive surface", size_t(stride) * 3);
-        Program(device_, "glow.cl", defines_)
-            .kernel("find_glow")
+        const Buffer<float> factors(device_, "emissive surface", size_t(stride) * 3);
+        Program(device_, "emission_maps.cl", defines_)
+            .kernel("mean_emission_maps")
             .launch_packets(count, shape_of(source_.pyramid), count, stride,
                             Buffer<uint32_t>(device_, "emissive surface", std::span(objects)),
                             Buffer<float>(device_, "emissive surface", std::span(places)),
-                            sources.objects, sources.words, glow);
-        const std::vector<float> found = glow.read();
+                            sources.objects, sources.words, factors);
+        const std::vector<float> found = factors.read();
         for (uint32_t i = 0; i < count; ++i)
             for (int c = 0; c < 3; ++c)
                 pieces[numbers[i]].emission[c] *= double(found[size_t(c) * stride + i]);

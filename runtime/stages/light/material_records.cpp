@@ -71,8 +71,8 @@ MaterialRecord physical_record(const Material& material, const GridFrame& world,
 
 /// An index of refraction by which facets bend light; those of no effect become a small one.
 double glass_index(double ior) {
-    constexpr double kLeast = 1e-3;
-    return std::abs(ior - 1) < kLeast ? 1 + kLeast : ior;
+    constexpr double kMin = 1e-3;
+    return std::abs(ior - 1) < kMin ? 1 + kMin : ior;
 }
 
 /// The block of a material's glass.

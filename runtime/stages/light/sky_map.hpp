@@ -22,7 +22,7 @@ void make_sky_cells(SkyMapData& data);
 /// file's name.
 std::shared_ptr<const SkyMapData> sky_map_data(const Sky& sky);
 
-/// The same on a device.
+/// Puts a sky's picture on a device.
 SkyMap build_sky_map(const Device& device, const Sky& sky);
 
 /// The bytes that it takes there, by its file's header, and in main memory while it is read.

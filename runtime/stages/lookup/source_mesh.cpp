@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// How far rounding may put a point, or a closest point, beside its place, in the mesh's size.
+/// How far rounding may move a point, or a closest point, from its place, in the mesh's size.
 constexpr double kRounding = 0x1p-20;
 
 uint64_t nodes_of(uint64_t triangles) {

@@ -47,18 +47,18 @@ double mean_step(double from, double to, double middle, std::span<const double> 
     return (mean_ramp(middle - from, rises, 1) - mean_ramp(middle - to, rises, 1)) / (to - from);
 }
 
-/// By how much the values rise along the edges of a box, without those that matter little beside
+/// By how much the values rise along the edges of a box, without those that matter little next to
 /// the largest: their share of the mean would be lost in rounding.
 size_t find_rises(const std::array<float, 8>& corners, std::array<double, 3>& rises) {
     std::array<double, 3> all{};
     for (size_t corner = 0; corner < 8; ++corner)
         for (size_t axis = 0; axis < 3; ++axis)
             all[axis] += ((corner >> axis & 1) != 0 ? 0.25 : -0.25) * double(corners[corner]);
-    double most = 0;
-    for (double& rise : all) most = std::max(most, rise = std::abs(rise));
+    double max = 0;
+    for (double& rise : all) max = std::max(max, rise = std::abs(rise));
     size_t count = 0;
     for (const double rise : all)
-        if (rise > 1e-4 * most) rises[count++] = rise;
+        if (rise > 1e-4 * max) rises[count++] = rise;
     return count;
 }
 

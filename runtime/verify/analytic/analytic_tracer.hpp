@@ -25,8 +25,8 @@ struct Seen {
 /// They don't form unions with each other, and the world's lattice
 /// cuts them open.
 ///
-/// It follows Whitted 1980 with the meaning that scenes/README.md gives to materials. Where
-/// surfaces of two objects coincide, the order in which a ray crosses them is undefined.
+/// It follows Whitted 1980 with the meaning that scenes/manual/materials.md gives to materials.
+/// Where surfaces of two objects coincide, the order in which a ray crosses them is undefined.
 class AnalyticTracer {
   public:
     /// Keeps a reference to the scene. Throws std::invalid_argument for unsupported solids and for

@@ -40,7 +40,7 @@ TEST_F(ArrayCubesTest, NumpyIndicesAreXYZ) {
     for (const int version : {1, 2, 3})
         EXPECT_EQ(cells_of(cubes(put("a.npy", npy_bytes("|u1", "2, 3, 4", data, false, version)))),
                   expected);
-    // The same bytes in Fortran's order: the first index runs fastest.
+    // Fortran's order gives the bytes another meaning: the first index runs fastest.
     const VoxelCells fortran = {{{0, 0, 0}, {}}, {{1, 1, 0}, {}}, {{0, 2, 0}, {}}, {{1, 2, 3}, {}}};
     EXPECT_EQ(cells_of(cubes(put("f.npy", npy_bytes("|u1", "2, 3, 4", data, true)))), fortran);
     // A wrong ending changes nothing: the first bytes decide.
@@ -190,7 +190,7 @@ TEST_F(ArrayCubesTest, PatientsStandUprightAndFaceTheFront) {
     EXPECT_EQ(cells_of(cubes(put("a.nii", nifti_bytes(sample, data)))), expected);
     EXPECT_EQ(cells_of(cubes(put("b.nii.gz", gzipped(nifti_bytes(sample, data))))), expected);
     EXPECT_EQ(cells_of(cubes(put("c.nii", nifti_bytes(sample, data, true)))), expected);
-    // The same place by a quaternion: half a turn about Z.
+    // A quaternion says this place, too: half a turn about Z.
     sample.sform = 0;
     sample.qform = 1;
     sample.quatern = {0, 0, 1, -0.5f, -0.5f, 0.5f};

@@ -52,10 +52,10 @@ TEST_P(FilteredPictures, ComeToTheFiltersIntegralOverWhatIsSeen) {
     const auto [shape, width] = GetParam();
     const double few = filter_error(filtered_scene(shape, width, 16));
     const double many = filter_error(filtered_scene(shape, width, 256));
-    const double most = filter_error(filtered_scene(shape, width, 2048));
+    const double max = filter_error(filtered_scene(shape, width, 2048));
     EXPECT_LT(few, 0.2);
     EXPECT_LT(many, 0.3 * few);
-    EXPECT_LT(most, 0.006);
+    EXPECT_LT(max, 0.006);
 }
 
 TEST_P(FilteredPictures, OfPartsAreThePartsOfThePicture) {

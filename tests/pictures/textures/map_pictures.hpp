@@ -26,7 +26,7 @@ inline oracle::Picture halves(std::array<uint8_t, 3> left, std::array<uint8_t, 3
 /// colour at a column and row, nothing beside the surface; pixels that it doesn't fill don't count.
 /// There are to be more than `least` that do.
 template <class Value>
-double rms_of_means(const Image& image, size_t least, const Value& value) {
+double rms_of_means(const Image& image, size_t min, const Value& value) {
     double squares = 0;
     size_t pixels = 0;
     for (int row = 0; row < image.height; ++row)
@@ -46,14 +46,14 @@ double rms_of_means(const Image& image, size_t least, const Value& value) {
             squares += glm::dot(seen - sum, seen - sum);
             ++pixels;
         }
-    EXPECT_GT(pixels, least);
+    EXPECT_GT(pixels, min);
     return 255 * std::sqrt(squares / double(3 * pixels));
 }
 
 /// The RMS difference of two pictures in the pixels whose middles `counts`, over the second one's
 /// mean. There are to be more than `least` values.
 template <class Counts>
-double relative_rms(const Image& image, const Image& expected, size_t least, const Counts& counts) {
+double relative_rms(const Image& image, const Image& expected, size_t min, const Counts& counts) {
     double squares = 0, sum = 0;
     size_t values = 0;
     for (int row = 0; row < image.height; ++row)
@@ -67,7 +67,7 @@ double relative_rms(const Image& image, const Image& expected, size_t least, con
                 ++values;
             }
         }
-    EXPECT_GT(values, least);
+    EXPECT_GT(values, min);
     return std::sqrt(squares / double(values)) / (sum / double(values));
 }
 

@@ -197,11 +197,11 @@ TEST_F(SmoothTexture, IsThatOfTheClosestPointOfTheMesh) {
                 const std::vector<glm::dvec3> colors = colors_at(ball, picture, p, distance);
                 farthest = std::max(farthest, distance);
                 ambiguous += colors.size() > 1 ? 1 : 0;
-                double least = std::numeric_limits<double>::infinity();
+                double min = std::numeric_limits<double>::infinity();
                 for (const glm::dvec3& color : colors)
-                    least = std::min(least, glm::length(seen - color));
-                squares += least * least;
-                largest = std::max(largest, least);
+                    min = std::min(min, glm::length(seen - color));
+                squares += min * min;
+                largest = std::max(largest, min);
                 ++compared;
             }
             EXPECT_LT(ambiguous, compared / 4) << placement << from;

@@ -73,8 +73,8 @@ void for_each_facet(double cosine, double width, const std::function<void(const 
 
 void for_each_cosine(const std::function<void(double share, double cosine)>& add) {
     constexpr int kSteps = 4096;  // of the cosines' logarithms
-    constexpr double kLeast = 1e-6;
-    const auto at = [](double step) { return std::pow(kLeast, 1 - step / kSteps); };
+    constexpr double kMin = 1e-6;
+    const auto at = [](double step) { return std::pow(kMin, 1 - step / kSteps); };
     for (int step = 0; step < kSteps; ++step)
         add(squared(at(step + 1)) - squared(at(step)), at(step + 0.5));
 }

@@ -111,13 +111,13 @@ void set_side(double width, double eta, size_t side, GlassTable& table) {
         table.values[size_t(2 * entry) + side] = float(std::max(1 - r.back - r.through, 0.0));
     }
     constexpr int kSteps = 4096;
-    constexpr double kLeast = 1e-9;  // of a mean that others are divided by
+    constexpr double kMin = 1e-9;  // of a mean that others are divided by
     double sum = 0;
     for (int step = 0; step < kSteps; ++step) {
         const double cosine = (step + 0.5) / kSteps;
         sum += 2 * cosine / kSteps * missing_at(table, side, width, cosine);
     }
-    table.missing[side] = std::max(sum, kLeast);
+    table.missing[side] = std::max(sum, kMin);
 }
 
 /// The part that gets through, of all light that facets return at once to even light from outside.
@@ -140,9 +140,9 @@ GlassTable make_glass_table(double width, double ior) {
     // Light after the first scattering passes equally in both directions, per square of the index,
     // so that paths are reversible. From outside, it is the part that passes at once.
     const double squared = second_power(ior);
-    const double most = squared / table.missing[0];
-    const double scale = std::min(part_through(width, ior) / table.missing[1], most);
-    table.back = {1 - scale * table.missing[1], 1 - scale / most};
+    const double max = squared / table.missing[0];
+    const double scale = std::min(part_through(width, ior) / table.missing[1], max);
+    table.back = {1 - scale * table.missing[1], 1 - scale / max};
     return table;
 }
 

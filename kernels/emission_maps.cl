@@ -8,10 +8,12 @@
 /// squares of the pieces' areas. `places` has seven components, `stride` values apart: the place in
 /// voxels, the unit normal in metres' space, and the length of the square's sides in metres.
 /// `objects` holds the number of each piece's object.
-kernel void find_glow(PyramidShape shape, const uint count, const uint stride,
-                      global const uint* restrict objects, global const float* restrict places,
-                      global const SourceRecord* restrict source_objects,
-                      global const uint* restrict source_words, global float* restrict glow) {
+kernel void mean_emission_maps(PyramidShape shape, const uint count, const uint stride,
+                               global const uint* restrict objects,
+                               global const float* restrict places,
+                               global const SourceRecord* restrict source_objects,
+                               global const uint* restrict source_words,
+                               global float* restrict factors) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const SourceMeshes sources = {source_objects, source_words};
@@ -28,5 +30,5 @@ kernel void find_glow(PyramidShape shape, const uint count, const uint stride,
     MapValues maps = no_map_values();
     paint_smooth(&sources, at, object, ask, &span, sides, color, &maps);
     const Vector emission = {maps.emission[0], maps.emission[1], maps.emission[2]};
-    store_vector(emission, glow, stride, first);
+    store_vector(emission, factors, stride, first);
 }
