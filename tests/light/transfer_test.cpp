@@ -263,6 +263,47 @@ TEST_F(TransferTest, ThatIsLitIsDarkerOnTheSideAwayFromTheLight) {
     EXPECT_NEAR(color_of(picture(scene), 0, 0), 0.25, 1e-3);
 }
 
+TEST_F(TransferTest, ThatIsLitByTheSceneHasTheLightOfItsLights) {
+    // Absorption rises along X, so that the surface faces lower X.
+    Scene scene = ramp_scene("[-4, 0.6875, 0.6875]");
+    auto& density = std::get<GridDensity>(scene.world.medium.density);
+    const glm::dvec3 color(1, 0.5, 0.25);
+    density.transfer = {{-4, 0, color}, {7, 44, color}};
+    density.is_lit_by_scene = true;
+    scene.world.ambient = {0.125F, 0.25F, 0.0625F};
+    scene.lights.resize(2);
+    scene.lights[0].position = {-3, 2, 0.6875};
+    scene.lights[0].intensity = {8, 4, 2};
+    scene.lights[1].kind = LightKind::directional;
+    scene.lights[1].direction = {0.6, -0.8, 0};
+    scene.lights[1].intensity = {0.5F, 1, 0.25F};
+    const Image image = picture(scene);
+    for (size_t pixel = 0; pixel < 16; ++pixel) {
+        const double y = 0.6875 + 0.5 * (0.375 - 0.25 * double(pixel / 4));
+        const double z = 0.5 * (0.375 - 0.25 * double(pixel % 4));  // from the light's plane
+        glm::dvec3 radiance(0);
+        double through = 1;
+        for (int i = 0; i < kCells; ++i) {
+            const double low = 4 * (ramp(i - 0.25) + 4), high = 4 * (ramp(i + 0.25) + 4);
+            const double share = std::min(4 * (high - low) / (high + low), 1.0);
+            const glm::dvec3 way(i * kEdge + 3, y - 2, z);
+            const double distance = glm::length(way);
+            const auto faced = [&](double cosine) { return 1 - share + share * cosine; };
+            const glm::dvec3 light =
+                glm::dvec3(0.125, 0.25, 0.0625) +
+                glm::dvec3(8, 4, 2) * faced(way.x / distance) / (distance * distance) +
+                glm::dvec3(0.5, 1, 0.25) * faced(0.6);
+            const double left = std::exp(-(low + high) / 2 * kEdge);
+            radiance += through * (1 - left) * color * light;
+            through *= left;
+        }
+        radiance += through * glm::dvec3(1, 2, 4);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(color_of(image, pixel, channel), radiance[channel], 1e-5)
+                << pixel << channel;
+    }
+}
+
 TEST_F(TransferTest, OfAFileWithoutOneItsValuesAreDensities) {
     Scene scene = ramp_scene("[-4, 0.6875, 0.6875]", R"("absorption": [0.5, 0.5, 0.5], )");
     std::get<GridDensity>(scene.world.medium.density).transfer.clear();

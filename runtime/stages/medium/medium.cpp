@@ -6,10 +6,11 @@
 namespace voxelume {
 
 MediumStage::MediumStage(const Device& device, const Features& features, const World& world,
-                         const Environment& environment, const Buffer<MaterialRecord>& materials)
+                         const Environment& environment, const Buffer<MaterialRecord>& materials,
+                         const std::vector<Light>& lights)
     : environment_(environment),
       materials_(materials),
-      density_(features.medium_grid ? form_density_grid(device, world) : DensityGrid{}),
+      density_(features.medium_grid ? form_density_grid(device, world, lights) : DensityGrid{}),
       program_(device, "medium.cl", features.defines(device)),
       camera_(program_.kernel("absorb_sight")),
       shadows_(program_.kernel("absorb_shadows")) {}
