@@ -215,8 +215,8 @@ debian_package() {
         { cat "$build/package.log"; return 1; }
     lintian --fail-on error --allow-root "$folder"/*.deb
     if [ "${1:-}" = --install ]; then
-        tests/cli/package_test.sh "$folder"/*.deb . build/package-root
-        tests/cli/dockerfile_test.sh . build/package-root "$folder"/*.deb
+        tests/scripts/package_test.sh "$folder"/*.deb . build/package-root
+        tests/scripts/dockerfile_test.sh . build/package-root "$folder"/*.deb
     fi
     echo "The package is $(echo "$folder"/*.deb)."
 }

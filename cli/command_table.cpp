@@ -2,7 +2,7 @@
 // The commands, and what they end with.
 #include <array>
 
-#include "cli/commands.hpp"
+#include "cli/shared/commands.hpp"
 
 namespace voxelume::cli {
 namespace {

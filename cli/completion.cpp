@@ -7,9 +7,9 @@
 #include <array>
 #include <memory>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
 #include "cli/option_table.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
 
 namespace voxelume::cli {
 namespace {

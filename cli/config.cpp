@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/report.hpp"
-#include "cli/settings.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/report.hpp"
+#include "cli/shared/settings.hpp"
 
 namespace voxelume::cli {
 namespace {

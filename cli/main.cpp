@@ -16,12 +16,12 @@
 #include <new>
 #include <thread>
 
-#include "cli/build_facts.hpp"
-#include "cli/checks.hpp"
-#include "cli/commands.hpp"
-#include "cli/complaint.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/settings.hpp"
+#include "cli/shared/build_facts.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/complaint.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/settings.hpp"
 
 namespace voxelume::cli {
 

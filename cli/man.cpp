@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "cli/commands.hpp"
 #include "cli/option_table.hpp"
-#include "cli/settings.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/settings.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "cli/commands.hpp"
-#include "cli/import_options.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/import_options.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {

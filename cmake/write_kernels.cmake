@@ -2,7 +2,7 @@
 # embed_kernels runs this. It writes the kernels below `folder` into the C++ source `output`.
 file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*.cl ${folder}/*.h)
 list(SORT files)
-set(text "#include \"runtime/opencl/kernel_source.hpp\"\n\nnamespace voxelume {\n\n")
+set(text "#include \"runtime/opencl/source/kernel_source.hpp\"\n\nnamespace voxelume {\n\n")
 string(APPEND text "const std::map<std::string, std::string_view>& embedded_kernels() {\n")
 string(APPEND text "    static const std::map<std::string, std::string_view> files = {\n")
 foreach(file IN LISTS files)

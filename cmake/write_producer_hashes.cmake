@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # hash_producers runs this. It writes hashes of `files` into the C++ source `output`.
-set(text "#include \"runtime/base/producer_hash.hpp\"\n\nnamespace voxelume {\n\n")
+set(text "#include \"runtime/base/files/producer_hash.hpp\"\n\nnamespace voxelume {\n\n")
 string(APPEND text "const char* producer_hash() {\n    return\n")
 foreach(file IN LISTS files)
     file(MD5 ${file} hash)

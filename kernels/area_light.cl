@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // surface points of paths + a light with an area -> a queue of shadow rays to points of it.
 #include "lib/lanes/work_item.h"
+#include "lib/light/area_points.h"
 #include "lib/light/direct_light.h"
-#include "lib/light/directions.h"
-#include "lib/light/path_samples.h"
 
 /// Adds light number `number`: each surface point sends a shadow ray to a point of the light that
 /// the path's sample chooses, all of which are equally probable.
@@ -19,15 +18,6 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
     const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
     const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
     const PathSamples samples = path_samples(&sampling, target, state);
-    SquarePoint p = path_point(&samples, VXL_DECISION_LIGHT + number);
-    if (area.axis_x.w != 0.0f) {
-        p = disk_point(p);
-    } else {
-        p.x = fma(p.x, 2.0f, -1.0f);
-        p.y = fma(p.y, 2.0f, -1.0f);
-    }
-    const Vector from = {fma(p.x, area.axis_x.x, fma(p.y, area.axis_y.x, light.position.x)),
-                         fma(p.x, area.axis_x.y, fma(p.y, area.axis_y.y, light.position.y)),
-                         fma(p.x, area.axis_x.z, fma(p.y, area.axis_y.z, light.position.z))};
+    const Vector from = area_point(light, area, &samples, number);
     shine_from(&world, light, from, materials, &queue, &batch, first);
 }

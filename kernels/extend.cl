@@ -12,6 +12,8 @@
 #include "lib/light/next_rays.h"
 #include "lib/light/path_samples.h"
 #include "lib/light/paths.h"
+#include "lib/light/sent_rays.h"
+#include "lib/traverse/segment.h"
 
 /// Adds the light at the paths' surfaces to the light of their sight rays, whose sums the first
 /// surfaces begin. Multiplies `throughput` by what the medium and objects on the way let through.
@@ -19,18 +21,9 @@ static inline void add_path_light(const RayBatch* batch, uint first, lane_int va
                                   const NodeLight* nodes, lane_uint target,
                                   lane_float* throughput) {
     const uint stride = batch->stride;
-    int add[VXL_LANES];
-    uint node[VXL_LANES];
-    LANES_STORE(valid, add, 0);
-    LANES_STORE(target, node, 0);
     for (uint c = 0; c < 3; ++c) {
-        float light[VXL_LANES];
-        LANES_STORE(throughput[c] * LANES_LOAD(batch->radiance, c * stride + first), light, 0);
-        for (int lane = 0; lane < VXL_LANES; ++lane) {
-            if (!add[lane]) continue;
-            global float* sum = nodes->radiance + c * nodes->stride + node[lane];
-            *sum = is_first ? light[lane] : *sum + light[lane];
-        }
+        const lane_float light = throughput[c] * LANES_LOAD(batch->radiance, c * stride + first);
+        add_to_nodes(nodes, c, valid, target, light, is_first);
         if (VXL_ABSORBS) throughput[c] *= LANES_LOAD(batch->transmittance, c * stride + first);
     }
 }
@@ -48,17 +41,6 @@ static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_in
     for (int lane = 0; lane < VXL_LANES; ++lane)
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
 }
-
-/// The t of rays after so many metres.
-static inline lane_float t_after(lane_float metres, Vector direction, float4 edge) {
-    const lane_float per_t = metres_per_t(edge, direction);
-    return exact_divide(metres, LANES_SELECT(LANE_MASK(per_t > 0.0f), per_t, (lane_float)1.0f));
-}
-
-/// The queue for rays to emitters, which `bind` of a RayQueue sets as it does VXL_QUEUE_PARAMETERS.
-#define VXL_EMITTER_QUEUE_PARAMETERS                                    \
-    global float *restrict sent_rays, global uint *restrict sent_paths, \
-        global float *restrict sent_starts, global uint *restrict sent_inside, uint sent_stride
 
 /// Sets, of physically based surfaces, how `likely` their paths go along a direction, and the share
 /// of what they return that comes from there, per solid angle.
@@ -122,22 +104,6 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
     return wanted;
 }
 
-/// The number of surfaces met, in the states of rays that go on from one more.
-static inline lane_uint met_after(lane_uint state) {
-    return min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
-}
-
-/// Puts rays to emitters, which end where they are scattered, into their queue.
-static inline void send_to_emitters(const RayQueue* sent, lane_int wanted, lane_uint target,
-                                    lane_uint state, uint bounces, NewRays* r,
-                                    global uint* counters) {
-    r->target = target;
-    r->state = met_after(state) | (bounces << VXL_STATE_BOUNCE_SHIFT) | VXL_STATE_DIFFUSE |
-               VXL_STATE_TO_EMITTER;
-    const Slots slots = reserve_slots(wanted, counters + VXL_COUNT_TO_EMITTERS);
-    put_rays(sent, r, &slots);
-}
-
 /// The states of paths that the surfaces have scattered, or let pass straight.
 static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_uint state) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
@@ -171,12 +137,15 @@ kernel void extend_paths(
 
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     ScatterPoint p = load_point(&batch, shape.edge, first, count);
+    lane_int in_medium = (lane_int)0;  // what the medium scatters goes on from there
+    if (VXL_SCATTERING) in_medium = scatters_before(&batch, first);
+    p.hit &= ~in_medium;
     lane_int met_any = p.hit;
     lane_float opacity = (lane_float)1.0f, clear = (lane_float)0.0f;
     if (VXL_TRANSMISSION) {
         const Layer layer = load_layer(&around, colors, &batch, first, count);
-        opacity = layer.opacity;
-        met_any = layer.hit;
+        opacity = LANES_SELECT(in_medium, opacity, layer.opacity);
+        met_any = layer.hit | in_medium;
         clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
         if (nodes.coverage) note_coverage(&nodes, valid, met_any, target, clear);
     }

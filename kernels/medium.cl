@@ -5,36 +5,18 @@
 // The density of the medium scales its absorption alone, so the sum of density times length stands
 // for a ray's whole way: passed = exp(-absorption * sum), emitted = color * (1 - passed).
 #include "lib/lanes/exact_exp.h"
-#include "lib/lanes/fixed_point.h"
-#include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
-#include "lib/traverse/density.h"
-#include "lib/traverse/ray_batch.h"
-#include "shared/paths.h"
+#include "lib/light/phase.h"
+#include "lib/traverse/segment.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
-
-/// The part of a ray between t_first and t_last.
-typedef struct {
-    Vector origin, direction;
-    lane_float t_first, t_last;
-} Segment;
-
-/// The segment's part inside the world, metres.
-static inline lane_float length_in_world(PyramidShape shape, const Segment* s) {
-    lane_float t_first = s->t_first, t_last = s->t_last;
-    clip_to_world(s->origin, s->direction, shape.size_x, shape.size_y, shape.size_z, &t_first,
-                  &t_last);
-    return fmax(t_last - t_first, 0.0f);
-}
 
 /// The sum of density times t along the segments of the `active` lanes.
 static inline lane_float depth_of(PyramidShape shape, const DensityView* density, const Segment* s,
                                   lane_int active) {
     if (!VXL_MEDIUM_GRID) return length_in_world(shape, s);
     const PyramidView p = grid_view(shape);
-    Walk walk = begin_walk(s->origin.x, s->origin.y, s->origin.z, s->direction.x, s->direction.y,
-                           s->direction.z);
+    Walk walk = walk_along(s);
     return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
 }
 
@@ -69,8 +51,7 @@ static inline Veil veil_of(PyramidShape shape, const DensityView* density,
         veil.emitted[channel] = (lane_float)0.0f;
     }
     const PyramidView p = grid_view(shape);
-    Walk walk = begin_walk(s->origin.x, s->origin.y, s->origin.z, s->direction.x, s->direction.y,
-                           s->direction.z);
+    Walk walk = walk_along(s);
     const lane_float metres = metres_per_t(shape.edge, s->direction);
     lane_float entered = s->t_first, entered_low = (lane_float)0.0f;
     lane_int walking = active & in_grid(&p, &walk) & LANE_MASK(s->t_first < s->t_last);
@@ -88,25 +69,10 @@ static inline Veil veil_of(PyramidShape shape, const DensityView* density,
     return veil;
 }
 
-/// The rays' parts up to what they met. A ray that met nothing goes on to the far surface, or to
-/// the world's end.
-static inline Segment sight_segment(const RayBatch* batch, uint first) {
-    global const uint* hits = batch->hits;
-    const uint stride = batch->stride;
-    const lane_int hit =
-        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
-    const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-    const lane_float t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);
-    Segment segment = {load_vector(batch->rays, stride, first),
-                       load_vector(batch->rays + VXL_RAY_DX * stride, stride, first),
-                       (lane_float)0.0f, LANES_SELECT(hit, t_hit, t_end)};
-    if (VXL_TRANSMISSION) segment.t_first = LANES_LOAD(batch->starts, first);
-    return segment;
-}
-
 /// Applies the medium between the start of each ray, or of its segment, and its end to the ray's
 /// radiance. Writes the part of the light that comes through to `transmittance`.
-kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
+kernel void absorb_sight(PyramidShape shape, Environment environment,
+                         VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS,
                          global const float* restrict density_colors,
                          global const float* restrict materials, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
@@ -125,23 +91,30 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
     if (VXL_MEDIUM & !VXL_MEDIUM_COLORS)
         depth = depth_of(shape, &density, &segment, active & ~in_object);
     if (VXL_TRANSMISSION && lanes_any(in_object))
+
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
     depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
     lane_float shows = (lane_float)1.0f;  // the medium's own light
+    lane_int looks = (lane_int)0;
     if (VXL_LOOKS) {
         const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
-        shows =
-            LANES_SELECT(LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u), (lane_float)0.0f, shows);
+        looks = LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u);
+        shows = LANES_SELECT(looks, (lane_float)0.0f, shows);
     }
     const float absorption[3] = {environment.absorption.x, environment.absorption.y,
                                  environment.absorption.z};
     const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
+    const MediumScattering scattered = VXL_MEDIUM_SCATTERING;
     Veil veil;
     if (VXL_MEDIUM_COLORS)
         veil = veil_of(shape, &density, density_colors, absorption, &segment, active & ~in_object);
     for (int channel = 0; channel < 3; ++channel) {
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
+        // Paths are scattered by chance, but what is sent to emitters loses its share.
+        if (VXL_SCATTERING && VXL_LOOKS)
+            per_metre +=
+                LANES_SELECT(looks, (lane_float)scattered.per_metre[channel], (lane_float)0.0f);
         lane_float shown = (lane_float)color[channel];
         if (VXL_LOOKS) shown *= shows;
         if (VXL_TRANSMISSION && lanes_any(in_object)) {

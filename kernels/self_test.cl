@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // questions -> answers that are known: a driver that gives others is refused. What is asked is what
-// images depend on, in code of their own (runtime/opencl/self_test.hpp).
+// images depend on, in code of their own (runtime/opencl/self_test/self_test.hpp).
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/walk.h"

@@ -14,6 +14,7 @@
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_alpha.h"
 #include "lib/surface/triangle.h"
+#include "lib/traverse/segment.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/paths.h"
 #include "shared/scene.h"
@@ -230,6 +231,8 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
         counts = emission_share(emitters, h, world->shape.edge, batch, first,
                                 looks | (h->hit & emits_light(materials, material)));
     }
+    lane_int in_medium = (lane_int)0;  // the path is scattered before it comes here
+    if (VXL_SCATTERING) in_medium = scatters_before(batch, first);
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color = surface_color(materials, place, colors, channel);
@@ -241,8 +244,9 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
         if (VXL_LOOKS)
             around[channel] = LANES_SELECT(looks & ~to_sky, (lane_float)0.0f, around[channel]);
         const lane_float own = fma(color * diffuse, ambient[channel], emission) * opacity;
-        LANES_STORE(LANES_SELECT(h->hit, own, around[channel]), batch->radiance,
-                    (uint)channel * batch->stride + first);
+        lane_float light = LANES_SELECT(h->hit, own, around[channel]);
+        if (VXL_SCATTERING) light = LANES_SELECT(in_medium, (lane_float)0.0f, light);
+        LANES_STORE(light, batch->radiance, (uint)channel * batch->stride + first);
     }
 }
 

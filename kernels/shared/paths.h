@@ -39,12 +39,14 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 //   bits 16..23  times that it was scattered
 //   bit 24       the last time was a diffuse one
 //   bit 25       the ray looks for an emitter: it ends there, and what else it meets doesn't count
+//   bit 26       the medium scatters the path before the surface that the ray has met
 #define VXL_PATH_STATE VXL_PATH_WEIGHT
 #define VXL_STATE_MET 0xFFFFu
 #define VXL_STATE_BOUNCE_SHIFT 16
 #define VXL_STATE_BOUNCES 0xFFu
 #define VXL_STATE_DIFFUSE 0x1000000u
 #define VXL_STATE_TO_EMITTER 0x2000000u
+#define VXL_STATE_IN_MEDIUM 0x4000000u
 // VXL_PATH_EMITTER, behind the set of media in the arrays of paths, where paths send rays to
 // emitters or to the sky:
 //   of rays that look for an emitter, its number, or VXL_EMITTER_IS_SKY
@@ -53,9 +55,10 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // VXL_PATH_TRAVELLED: float, as the ray's t: how far before its origin the path was scattered last.
 // Rays that go straight on begin anew behind surfaces of instances.
 
-// The decisions at a surface that a path meets, each with a point of the unit square.
+// The decisions at a surface that a path meets, or where the medium scatters it, each with a point of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of diffuse light
+#define VXL_DECISION_FLIGHT 0xFFFAu             // how far light comes in a scattering medium
 #define VXL_DECISION_SKY 0xFFFBu            // whether a ray is sent to the sky or to an emitter
 #define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter
 #define VXL_DECISION_LENS 0xFFFDu           // where on the lens a sight ray starts

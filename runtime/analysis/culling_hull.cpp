@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 
 namespace voxelume {
 namespace {

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "runtime/analysis/object_warnings.hpp"
-#include "runtime/geometry/solid_bounds.hpp"
-#include "runtime/geometry/solid_inside.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {

@@ -5,7 +5,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "runtime/analysis/object_lattice.hpp"
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 

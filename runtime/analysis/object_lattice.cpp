@@ -9,8 +9,8 @@
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/scene/scene_affine.hpp"
 #include "runtime/stages/place/place.hpp"
 #include "runtime/stages/place/placement_map.hpp"
 

@@ -14,8 +14,8 @@
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
-#include "runtime/geometry/solid_bounds.hpp"
-#include "runtime/geometry/solid_inside.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {

@@ -5,8 +5,8 @@
 
 #include "runtime/analysis/object_lattice.hpp"
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {

@@ -102,9 +102,15 @@ bool has_emissive_samples(const Scene& scene, const Pyramid& world) {
     return scene.render.light == LightMode::local && has_emissive_object(scene, world);
 }
 
+/// Whether paths are scattered between the objects.
+bool scatters_paths(const Scene& scene, const Pyramid& world) {
+    return has_scattering(scene) && !world.clear;
+}
+
 /// True if a light or an emissive object shines on something that isn't black.
 bool lights_surfaces(const Scene& scene, const Pyramid& world) {
-    return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
+    return (scatters_paths(scene, world) ||
+            std::ranges::any_of(shown_materials(scene, world), is_lit)) &&
            (std::ranges::any_of(scene.lights, shines) || has_sun(scene.world) ||
             has_sky_samples(scene) || has_emissive_samples(scene, world));
 }
@@ -113,14 +119,15 @@ bool lights_surfaces(const Scene& scene, const Pyramid& world) {
 void add_sky(const Sky& sky, const Scene& scene, const Pyramid& world, Features& features) {
     features.sky = sky_feature(sky);
     features.sky_hidden = !sky.visible;
-    const bool is_sought = sky.strength > 0 && !shown_objects(scene, world).empty();
+    const bool is_sought =
+        sky.strength > 0 && (features.scattering || !shown_objects(scene, world).empty());
     if (sky.kind == SkyKind::map && is_sought) features.sky_rays = emitter_feature(scene.render);
 }
 
 /// Adds the features that depend on light, and on where rays continue.
 void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
-    features.shadows = scene.render.shadows && lit;
+    features.shadows = scene.render.shadows && lit && world.voxel_count > 0;
     features.global = scene.render.light == LightMode::global;
     features.area_samples =
         lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
@@ -128,7 +135,9 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
                     return shines(light) && has_area(light);
                 }));
     if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
-    features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
+    features.scattering = scatters_paths(scene, world);
+    features.medium =
+        features.scattering || (scene.world.medium.absorption != glm::vec3(0) && !world.clear);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);

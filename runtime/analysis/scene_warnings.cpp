@@ -51,6 +51,15 @@ void add_light_warning(const Scene& scene, std::vector<Warning>& warnings) {
              warnings);
 }
 
+void add_scattering_warning(const Scene& scene, std::vector<Warning>& warnings) {
+    if (scene.world.medium.scattering == glm::vec3(0) || has_scattering(scene)) return;
+    if (!scene.render.channels.color) return;
+    add_once({WarningKind::ignored_scattering, scene.world.where,
+              "the medium's \"scattering\" is followed in global light alone, and is left out "
+              "here: set render.light to \"global\""},
+             warnings);
+}
+
 void add_cache_warning(const ModelCache& cache, std::vector<Warning>& warnings) {
     const std::string refusal = cache.refusal();
     if (refusal.empty()) return;
@@ -114,6 +123,7 @@ std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> fra
             }
             add_inside_warnings(now, meshes, warnings);
             add_light_warning(now, warnings);
+            add_scattering_warning(now, warnings);
             first = std::move(now);
         });
     }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <optional>
 
-#include "runtime/api/describe.hpp"
+#include "runtime/api/describe/describe.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/process.hpp"
 
 #include "runtime/base/error.hpp"
-#include "runtime/base/input_file.hpp"
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/exr.hpp"

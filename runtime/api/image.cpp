@@ -9,13 +9,13 @@
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
-#include "runtime/base/input_file.hpp"
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/join_images.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 #include "runtime/voxelume/render.hpp"
 
 namespace voxelume {

@@ -7,14 +7,14 @@
 #include <thread>
 
 #include "runtime/api/guarded.hpp"
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/disk_cache.hpp"
+#include "runtime/base/files/temporary_files.hpp"
 #include "runtime/base/main_memory.hpp"
-#include "runtime/base/temporary_files.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/opencl/device_call.hpp"
-#include "runtime/opencl/pocl_folder.hpp"
+#include "runtime/opencl/source/pocl_folder.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,7 +9,7 @@
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
-#include "runtime/base/cache_key.hpp"
+#include "runtime/base/files/cache_key.hpp"
 #include "runtime/image/join_images.hpp"
 #include "runtime/scene/quilt.hpp"
 #include "runtime/scene/scene_animation.hpp"

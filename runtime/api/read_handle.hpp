@@ -9,8 +9,8 @@
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/document/scene_change.hpp"
 #include "runtime/scene_file/fit_scene.hpp"
-#include "runtime/scene_file/scene_change.hpp"
 #include "runtime/voxelume/scene.hpp"
 
 namespace voxelume::api {

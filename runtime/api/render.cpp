@@ -13,7 +13,7 @@
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/volume_file.hpp"

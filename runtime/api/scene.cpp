@@ -9,11 +9,11 @@
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/api/read_handle.hpp"
-#include "runtime/api/tree.hpp"
+#include "runtime/api/tree/tree.hpp"
 #include "runtime/api/voxel_array.hpp"
 #include "runtime/scene/scene_animation.hpp"
-#include "runtime/scene_file/document_hash.hpp"
-#include "runtime/scene_file/orbit.hpp"
+#include "runtime/scene_file/document/document_hash.hpp"
+#include "runtime/scene_file/document/orbit.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "runtime/io/voxel_art/cube_list.hpp"
-#include "runtime/scene/material.hpp"
+#include "runtime/scene/parts/material.hpp"
 
 namespace voxelume {
 

@@ -9,16 +9,16 @@
 #include <new>
 
 #include "runtime/assets/summary_bytes.hpp"
-#include "runtime/base/cache_key.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/base/producer_hash.hpp"
+#include "runtime/base/files/cache_key.hpp"
+#include "runtime/base/files/producer_hash.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/io/gltf/gltf_file.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
-#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/grid/grid.hpp"

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 
 #include "runtime/base/error.hpp"
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 
 namespace voxelume {

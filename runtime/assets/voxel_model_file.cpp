@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "kernels/shared/voxel.h"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "runtime/geometry/voxel_model.hpp"
-#include "runtime/scene/material.hpp"
+#include "runtime/scene/parts/material.hpp"
 
 namespace voxelume {
 

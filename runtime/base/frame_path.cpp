@@ -40,7 +40,7 @@ std::string frame_path(const std::string& pattern, int frame, bool animation) {
     const size_t end = dot == std::string::npos || dot == 0 ? name.size() : dot;
     // "v-1.png" must not become "v-10001.png", as if this were frame 10001.
     const bool ends_in_digit = end > 0 && name[end - 1] >= '0' && name[end - 1] <= '9';
-    return folder + name.insert(end, (ends_in_digit ? "." : "") + pad(frame, 4));
+    return folder + name.insert(end, fmt::format("{}{}", ends_in_digit ? "." : "", pad(frame, 4)));
 }
 
 }  // namespace voxelume

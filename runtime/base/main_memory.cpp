@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/base/main_memory.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -71,7 +72,8 @@ uint64_t control_group_memory(const fs::path& groups, const fs::path& mount) {
     for (std::string line; std::getline(stream, line);) {
         const size_t first = line.find(':'), second = line.find(':', first + 1);
         if (second == std::string::npos) continue;
-        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        const std::string controllers =
+            fmt::format(",{},", line.substr(first + 1, second - first - 1));
         const fs::path group = line.substr(second + 1);
         if (controllers == ",,")
             least = std::min(least, limit_of_group(mount, group, "memory.max"));

@@ -29,6 +29,7 @@ enum class WarningKind : uint8_t {
     ignored_materials,    ///< a material library, or textures
     world_not_cached,     ///< it is too large for the cache
     cache_not_writable,   ///< so that each run does everything again
+    ignored_scattering,   ///< the medium's, in local light
 };
 
 /// A finished sentence in two parts: where, and what is wrong and what to do. `text` begins with a

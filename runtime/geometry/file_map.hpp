@@ -7,7 +7,7 @@
 #include "runtime/geometry/mesh.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/voxel_model.hpp"
-#include "runtime/scene/object.hpp"
+#include "runtime/scene/parts/object.hpp"
 
 namespace voxelume {
 

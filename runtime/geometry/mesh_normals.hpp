@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/geometry/mesh.hpp"
-#include "runtime/scene/shading.hpp"
+#include "runtime/scene/parts/shading.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include "runtime/geometry/mesh_creases.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/mesh_thickness.hpp"
-#include "runtime/scene/surface.hpp"
+#include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/geometry/mesh.hpp"
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

@@ -11,9 +11,9 @@
 #include <glm/mat4x4.hpp>
 
 #include "runtime/geometry/mesh.hpp"
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/grid/grid_frame.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

@@ -18,7 +18,7 @@
 #include "kernels/shared/source_mesh.h"
 #include "runtime/grid/grid_frame.hpp"
 #include "runtime/opencl/buffer.hpp"
-#include "runtime/scene/surface.hpp"
+#include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
 

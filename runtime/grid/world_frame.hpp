@@ -3,7 +3,7 @@
 #pragma once
 
 #include "runtime/grid/grid_frame.hpp"
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/world.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

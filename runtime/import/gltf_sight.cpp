@@ -9,7 +9,7 @@
 
 #include "runtime/import/contents.hpp"
 #include "runtime/import/gltf_tracks.hpp"
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/observer.hpp"
 
 namespace voxelume {
 namespace {

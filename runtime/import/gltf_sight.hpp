@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/io/gltf/gltf_motion.hpp"
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

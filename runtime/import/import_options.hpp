@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/scene/framing.hpp"
+#include "runtime/scene/parts/framing.hpp"
 
 namespace voxelume {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/import/contents.hpp"
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/import/contents.hpp"
 #include "runtime/import/vox_parts.hpp"
 #include "runtime/import/vox_sight.hpp"

@@ -7,7 +7,7 @@
 
 #include "runtime/import/file_light.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

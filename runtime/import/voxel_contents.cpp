@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // file of the voxels of one model, or voxels in memory -> contents of a scene
 #include "runtime/base/error.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"

@@ -6,7 +6,7 @@
 #include <glm/vector_relational.hpp>
 #include <vector>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume_format_table.hpp"

@@ -3,8 +3,8 @@
 
 #include <climits>
 
-#include "runtime/base/atomic_file.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"

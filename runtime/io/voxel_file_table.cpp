@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 

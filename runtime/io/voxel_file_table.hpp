@@ -11,7 +11,7 @@
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
 #include "runtime/io/voxel_art/voxel_art.hpp"
-#include "runtime/scene/voxel_values.hpp"
+#include "runtime/scene/parts/voxel_values.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/analysis/placed_objects.hpp"
-#include "runtime/memory/object_counts.hpp"
+#include "runtime/memory/count/object_counts.hpp"
 
 namespace voxelume {
 

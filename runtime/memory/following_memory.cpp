@@ -5,8 +5,8 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/world_frame.hpp"
-#include "runtime/memory/count_image.hpp"
-#include "runtime/memory/count_sources.hpp"
+#include "runtime/memory/count/count_image.hpp"
+#include "runtime/memory/count/count_sources.hpp"
 #include "runtime/memory/counted_grids.hpp"
 #include "runtime/memory/frame_memory.hpp"
 #include "runtime/scene/first_samples.hpp"

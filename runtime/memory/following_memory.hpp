@@ -3,7 +3,7 @@
 // world is built.
 #pragma once
 
-#include "runtime/memory/object_counts.hpp"
+#include "runtime/memory/count/object_counts.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 
 namespace voxelume {

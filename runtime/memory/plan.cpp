@@ -89,7 +89,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& d
     check_groups(scene, meshes);
     ScenePlan plan;
     plan.world = world_frame(scene.world);
-    plan.medium = plan_density(scene.world);
+    plan.medium = plan_density(scene.world, has_scattering(scene));
     ObjectCounts objects(scene, meshes);
     const FrameMemory expected =
         walk_frame(scene, meshes, objects, plan.medium, Estimate::expected, device);

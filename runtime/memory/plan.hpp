@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/assets/asset_store.hpp"
-#include "runtime/memory/plan_grid.hpp"
+#include "runtime/memory/count/plan_grid.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"

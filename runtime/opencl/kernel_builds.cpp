@@ -7,9 +7,9 @@
 #include <thread>
 #include <utility>
 
-#include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/kernel_slice.hpp"
+#include "runtime/base/files/disk_cache.hpp"
+#include "runtime/opencl/source/kernel_slice.hpp"
 
 namespace voxelume {
 namespace {

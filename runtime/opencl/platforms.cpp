@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/pocl_folder.hpp"
 #include "runtime/opencl/ranking.hpp"
 #include "runtime/opencl/selector.hpp"
+#include "runtime/opencl/source/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {

@@ -10,8 +10,8 @@
 #include <mutex>
 #include <utility>
 
-#include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
 #include "runtime/opencl/status.hpp"
 

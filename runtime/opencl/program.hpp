@@ -16,7 +16,7 @@
 
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 
 namespace voxelume {
 

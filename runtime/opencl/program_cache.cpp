@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/base/disk_cache.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/compile_turn.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
-#include "runtime/opencl/kernel_slice.hpp"
-#include "runtime/opencl/kernel_source.hpp"
-#include "runtime/opencl/pocl_folder.hpp"
+#include "runtime/opencl/source/compile_turn.hpp"
+#include "runtime/opencl/source/kernel_slice.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
+#include "runtime/opencl/source/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {

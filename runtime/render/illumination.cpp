@@ -80,6 +80,7 @@ void build_programs(const Device& device, const Features& features, const Scene&
         files.push_back("sky_light.cl");
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
+    if (features.scattering) files.push_back("medium_paths.cl");
     if (features.paths) files.push_back("scatter.cl");
     if (features.global) files.push_back("extend.cl");
     if (features.global && features.area_samples) files.push_back("area_light.cl");
@@ -113,12 +114,15 @@ Illumination::Illumination(const Device& device, const Features& features, const
         medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials(),
                         scene.lights);
     if (features.medium) {
-        surroundings_.absorption = shade_.environment().absorption;
+        surroundings_.absorption = medium_->extinction();
         surroundings_.density = medium_->density();
     }
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.min_weight), compact);
     if (features.global) extend_.emplace(device, features, surroundings_);
+    if (features.scattering)
+        medium_paths_.emplace(device, features, shade_.environment().absorption,
+                              medium_->scattering(), medium_->density());
     if (features.global && features.area_samples && !lights_.empty())
         area_lighting_.emplace(device, features, shade_.materials());
     if (features.emitters != VXL_EMITTERS_NONE) {
@@ -128,6 +132,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.sky_rays != VXL_EMITTERS_NONE) {
         if (emitters_.count > 0) shade_.set_sky_chance(1 - kEmittersBesideSky);
         extend_->set_sky(shade_.sky().map);
+        if (medium_paths_) medium_paths_->set_sky(shade_.sky().map);
     }
     if (features.observer_in_medium) {
         hollow_ = hollow_objects(scene);

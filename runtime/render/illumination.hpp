@@ -18,6 +18,7 @@
 #include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/medium/medium.hpp"
 #include "runtime/stages/trace/extend.hpp"
+#include "runtime/stages/trace/medium_paths.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/stages/trace/scatter.hpp"
 #include "runtime/stages/trace/trace.hpp"
@@ -86,6 +87,8 @@ class Illumination {
     void direct(RayBatch& entries, uint32_t count, bool from_observer);
     void bring_light(RayBatch& entries, uint32_t count);
     void trace_to_emitters(PathDepth& depth, uint32_t count);
+    uint32_t scatter_in_medium(RayBatch& entries, uint32_t count, PathDepth& depth);
+    NextRays light_medium(uint32_t count, uint32_t taken, PathDepth& depth);
     void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});
@@ -110,6 +113,7 @@ class Illumination {
     std::optional<MediumStage> medium_;            ///< not compiled if nothing absorbs
     std::optional<ScatterStage> scatter_;          ///< not compiled without paths
     std::optional<ExtendStage> extend_;            ///< only in global light
+    std::optional<MediumPathStage> medium_paths_;  ///< only for media that scatter paths
     uint32_t sky_samples_;                         ///< directions that a surface point looks to
     ShadowQueue queue_;
     HollowObjects hollow_;  ///< only for observers inside media

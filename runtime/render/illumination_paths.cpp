@@ -22,6 +22,30 @@ void Illumination::trace_to_emitters(PathDepth& depth, uint32_t count) {
     }
 }
 
+/// Finds the paths that the medium scatters before their hits. Returns the number of the points.
+uint32_t Illumination::scatter_in_medium(RayBatch& entries, uint32_t count, PathDepth& depth) {
+    if (!medium_paths_) return 0;
+    return medium_paths_->scatter(world_, sampling_, entries, count, depth.points);
+}
+
+/// Lights the points where the medium scatters paths, and sends these on behind `taken` rays.
+NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& depth) {
+    if (count == 0) return {};
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        const PathLight& light = lights_[i];
+        if (light.area)
+            medium_paths_->add_area_light(world_, light.record, *light.area, sampling_,
+                                          light.number, depth.points, count, queue_);
+        else
+            medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
+        if (!beams_.empty()) queue_.beams = beams_[i];
+        bring_light(depth.points, count);
+    }
+    if (!beams_.empty()) queue_.beams = {};
+    return medium_paths_->paths(world_, sampling_, emitters_, depth.points, count, depth.nodes,
+                                depth.next, taken, depth.next_to_emitters);
+}
+
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills
 /// their radiance and coverage.
 void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known) {
@@ -30,12 +54,15 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     RayBatch* entries = &batch;
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
+        const uint32_t scattered = scatter_in_medium(*entries, count, depth);
         direct(*entries, count, is_first);
         const NextRays sent =
             extend_->paths(world_, sampling_, emitters_, *entries, count, is_first, depth.nodes,
                            depth.next, depth.next_to_emitters);
         trace_to_emitters(depth, sent.to_emitters);
-        count = sent.paths;
+        const NextRays in_medium = light_medium(scattered, sent.paths, depth);
+        trace_to_emitters(depth, in_medium.to_emitters);
+        count = sent.paths + in_medium.paths;
         if (count > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;
         secondary_rays_ += count;

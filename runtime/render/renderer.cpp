@@ -41,7 +41,7 @@ namespace {
 /// light.
 Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
-    features.medium = features.medium_grid = features.absorbs = false;
+    features.medium = features.medium_grid = features.scattering = features.absorbs = false;
     features.filter = features.filtered_refraction = features.physical = false;
     features.rough_glass = false;
     features.sky = features.sky_rays = 0;

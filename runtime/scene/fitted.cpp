@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/framing.hpp"
+#include "runtime/scene/parts/framing.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {

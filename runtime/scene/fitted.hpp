@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

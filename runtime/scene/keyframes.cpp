@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

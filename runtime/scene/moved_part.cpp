@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/scene/track_values.hpp"
 
 namespace voxelume {

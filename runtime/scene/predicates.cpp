@@ -7,7 +7,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 
 namespace voxelume {
 namespace {
@@ -82,6 +82,10 @@ bool has_emission(const Scene& scene, const Object& object) {
 
 bool is_emissive(const Scene& scene, const Object& object) {
     return object.visible && object.light_samples.value_or(1) > 0 && has_emission(scene, object);
+}
+
+bool has_scattering(const Scene& scene) {
+    return scene.render.light == LightMode::global && scene.world.medium.scattering != glm::vec3(0);
 }
 
 bool shines(const Light& light) {

@@ -46,6 +46,9 @@ bool is_emissive(const Scene& scene, const Object& object);
 /// Whether any light comes from it.
 bool shines(const Light& light);
 
+/// Whether the medium between the objects scatters light. In local light none does.
+bool has_scattering(const Scene& scene);
+
 /// Whether it shines from a patch, not from one point or direction.
 bool has_area(const Light& light);
 

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "runtime/scene/fitted.hpp"
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/material.hpp"
-#include "runtime/scene/object.hpp"
-#include "runtime/scene/observer.hpp"
-#include "runtime/scene/reconstruction_filter.hpp"
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/material.hpp"
+#include "runtime/scene/parts/object.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/reconstruction_filter.hpp"
+#include "runtime/scene/parts/world.hpp"
 
 namespace voxelume {
 

@@ -4,11 +4,11 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_motion.hpp"
-#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 namespace {
@@ -75,8 +75,13 @@ std::string density_text(const Density& density) {
 }
 
 std::string medium_text(const Medium& medium) {
-    return fmt::format("medium: absorption {} per m{}\n",
-                       vector_text(glm::dvec3(medium.absorption)), density_text(medium.density));
+    std::string scattering;
+    if (medium.scattering != glm::vec3(0))
+        scattering = fmt::format(", scattering {} per m, anisotropy {:.6g}",
+                                 vector_text(glm::dvec3(medium.scattering)), medium.anisotropy);
+    return fmt::format("medium: absorption {} per m{}{}\n",
+                       vector_text(glm::dvec3(medium.absorption)), scattering,
+                       density_text(medium.density));
 }
 
 std::string projection_text(const Observer& observer) {
@@ -113,7 +118,8 @@ std::string describe(const Scene& scene) {
     const World& world = scene.world;
     std::string text = fmt::format("world: {}x{}x{} voxels of {} m\n", world.voxels.x,
                                    world.voxels.y, world.voxels.z, vector_text(world.voxel_size));
-    if (world.medium.absorption != glm::vec3(0)) text += medium_text(world.medium);
+    if (world.medium.absorption != glm::vec3(0) || world.medium.scattering != glm::vec3(0))
+        text += medium_text(world.medium);
     for (const Model& model : scene.models) text += model_text(model) + "\n";
     for (const Object& object : scene.objects) {
         text += fmt::format("object \"{}\": model \"{}\", material \"{}\", at {}\n", object.name,

@@ -10,11 +10,11 @@
 
 #include "runtime/base/text.hpp"
 #include "runtime/scene/keyframes.hpp"
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
+#include "runtime/scene/parts/value_row.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/base/error.hpp"
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/scene/moved_part.hpp"
 #include "runtime/scene/scene_animation.hpp"
 

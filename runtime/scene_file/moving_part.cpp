@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/scene_file/document_part.hpp"
 #include "runtime/scene_file/scene_sequence.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/document/scene_document.hpp"
 #include "runtime/scene_file/fit_scene.hpp"
-#include "runtime/scene_file/scene_document.hpp"
 
 namespace voxelume {
 

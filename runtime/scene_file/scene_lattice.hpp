@@ -4,8 +4,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "runtime/scene/object.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene/parts/object.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 
 namespace voxelume {
 

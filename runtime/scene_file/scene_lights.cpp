@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "runtime/base/text.hpp"
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

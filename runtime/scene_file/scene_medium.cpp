@@ -110,6 +110,9 @@ Medium read_medium(const SceneValue& value, const AssetSearch& search) {
         medium.density = read_density(*density, search);
     // Points have absorptions of their own.
     if (has_medium_colors(medium) && !fields.has("absorption")) medium.absorption = glm::vec3(1);
+    if (has_medium_colors(medium) && fields.has("scattering"))
+        fields.get("scattering").fail(
+            "can't stand beside a density with a \"transfer\": leave one of them out");
     return medium;
 }
 

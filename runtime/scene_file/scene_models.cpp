@@ -9,8 +9,8 @@
 #include <unordered_set>
 
 #include "runtime/base/text.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/scene_lattice.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 #include "runtime/scene_file/scene_sequence.hpp"

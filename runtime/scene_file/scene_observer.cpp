@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/observer.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

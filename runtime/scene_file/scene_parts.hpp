@@ -8,12 +8,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/observer.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/assets.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 
 namespace voxelume {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

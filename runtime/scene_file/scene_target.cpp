@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 namespace {

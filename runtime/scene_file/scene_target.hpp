@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/scene/scene_motion.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
-#include "runtime/scene_file/scene_path.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_path.hpp"
 
 namespace voxelume {
 

@@ -22,9 +22,10 @@ struct Features {
     bool source_meshes = false;   ///< some smooth object shows the textures of its mesh
     bool texture_alpha = false;   ///< the alpha of some triangle's texture counts
     bool texture_maps = false;    ///< some texture has maps
-    bool medium = false;          ///< the environment absorbs light
+    bool medium = false;          ///< the environment absorbs light, or scatters it
     bool medium_grid = false;     ///< ... and its density varies
     bool medium_colors = false;   ///< ... and so does its colour
+    bool scattering = false;      ///< ... and paths are scattered in it
     bool shadows = false;         ///< lights can be hidden
     bool area_samples = false;    ///< some light has an area
     bool checker = false;         ///< some material changes its colour from block to block
@@ -98,6 +99,7 @@ struct Features {
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_MEDIUM_COLORS", medium_colors},
+                {"VXL_SCATTERING", scattering},
                 {"VXL_SHADOWS", shadows},
                 {"VXL_AREA_SAMPLES", area_samples},
                 {"VXL_CHECKER", checker},

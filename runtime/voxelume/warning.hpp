@@ -22,7 +22,8 @@ enum class WarningKind {
     unlikely_unit,        ///< a mesh is far larger or smaller than the world
     ignored_materials,    ///< a mesh's material library or textures, or parts of them, aren't shown
     world_not_cached,     ///< the world is too large to be kept on disk
-    cache_not_writable    ///< nothing can be kept on disk
+    cache_not_writable,   ///< nothing can be kept on disk
+    ignored_scattering    ///< local light doesn't follow what the medium scatters
 };
 
 /// The kind's name in JSON: "outside_world".

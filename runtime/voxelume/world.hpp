@@ -63,6 +63,11 @@ struct Medium {
     Color color{};       ///< radiance that an infinitely deep medium shows, at least 0
     /// The density at each voxel of the world; monostate: 1 everywhere.
     std::variant<std::monostate, HeightDensity, BallDensity, GridDensity> density{};
+    /// Per metre at density 1, at least 0: followed in global light. Not with a transfer.
+    Color scattering{};
+    /// The mean cosine of the angle by which light is scattered (Henyey & Greenstein 1941), -0.99
+    /// to 0.99: 0 in all directions alike, above 0 forwards.
+    double anisotropy = 0;
 };
 
 /// A sky of one colour.

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "runtime/base/error.hpp"
-#include "runtime/geometry/solid_clip.hpp"
+#include "runtime/geometry/solid/solid_clip.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/stages/voxelize/cut.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"

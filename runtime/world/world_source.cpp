@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "runtime/analysis/object_lattice.hpp"
-#include "runtime/base/cache_key.hpp"
+#include "runtime/base/files/cache_key.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"

@@ -10,8 +10,8 @@
 #include "kernels/shared/emitters.h"
 #include "kernels/shared/sky.h"
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 #include "runtime/stages/features.hpp"
 #include "tests/support/shared_device.hpp"
 

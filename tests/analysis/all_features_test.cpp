@@ -16,8 +16,8 @@
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
 #include "tests/support/shared_device.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "runtime/io/image/png.hpp"
 #include "tests/analysis/warned_scene.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

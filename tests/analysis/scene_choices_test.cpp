@@ -11,10 +11,10 @@
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/support/array_writer.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
 #include "tests/support/test_meshes.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 namespace {

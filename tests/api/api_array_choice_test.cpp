@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "tests/api/api_fixture.hpp"
-#include "tests/support/array_writer.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume::v1 {
 

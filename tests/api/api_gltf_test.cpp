@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "tests/api/api_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume::v1 {
 namespace {

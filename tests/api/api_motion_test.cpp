@@ -5,7 +5,7 @@
 
 #include "tests/api/scene_pairs.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

@@ -175,10 +175,12 @@ TEST(ApiScene, HasMediaAndRenderSettings) {
     const char* observer = R"({"position": [0.5, 1, -6], "display": {"shape": "pyramid"}})";
     expect_same(scene, text_with(settings, observer, world(R"(, "density": {"kind": "ball",
         "center": [1, 0, 1], "radius": 2, "falloff": 0.5})")));
+    scene.world.medium->scattering = {3, 2, 1};
+    scene.world.medium->anisotropy = -0.25;
     scene.world.medium->density = v1::HeightDensity{0.25, 2};
     expect_same(scene, text_with(settings, observer, world(R"(, "density": {"kind": "height",
-        "base": 0.25, "scale_height": 2})")));
-    scene.world.medium->density = {};
+        "base": 0.25, "scale_height": 2}, "scattering": [3, 2, 1], "anisotropy": -0.25)")));
+    scene.world.medium = v1::Medium{{1, 2, 3}, {4, 5, 6}};
     expect_same(scene, text_with(settings, observer, world("")));
 }
 

@@ -6,7 +6,7 @@
 #include <openvdb/openvdb.h>
 
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/gltf_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 namespace {

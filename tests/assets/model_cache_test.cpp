@@ -9,7 +9,7 @@
 #include <regex>
 #include <set>
 
-#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 #include "runtime/render/renderer.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 #include <csignal>
 
-#include "runtime/base/process_tag.hpp"
+#include "runtime/base/files/process_tag.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "runtime/base/process_tag.hpp"
+#include "runtime/base/files/process_tag.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/setting.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a helper program can't ask of the system any more, and what it still can.
-#include "runtime/base/helper_calls.hpp"
+#include "runtime/base/helper/helper_calls.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <cstring>
 #include <thread>
 
-#include "runtime/base/helper_limits.hpp"
+#include "runtime/base/helper/helper_limits.hpp"
 #include "runtime/base/sanitizers.hpp"
 
 namespace voxelume {

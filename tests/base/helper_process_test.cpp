@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Helpers answer, end early, hang, or are missing; shells stand in for them.
-#include "runtime/base/helper_process.hpp"
+#include "runtime/base/helper/helper_process.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <thread>
 
-#include "runtime/base/helper_limits.hpp"
-#include "runtime/base/helper_wire.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/helper/helper_limits.hpp"
+#include "runtime/base/helper/helper_wire.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {

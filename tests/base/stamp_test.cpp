@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 
 #include <gtest/gtest.h>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {

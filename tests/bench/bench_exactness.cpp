@@ -146,7 +146,7 @@ class Covering {
                                       std::span(vertices, 3 * lattice.vertices.size())),
                       Buffer<uint32_t>(device, "lattice triangles",
                                        std::span(corners, 3 * lattice.triangles.size()))};
-        bins_ = bin_triangles(device, Program(device, "voxelize_bin.cl"), triangles_,
+        bins_ = bin_triangles(device, Program(device, "voxelize/voxelize_bin.cl"), triangles_,
                               frame.bricks(), glm::ivec3(0), kBrickSize * kLatticePerVoxel);
         occupancy_ = Buffer<uint64_t>(device, "occupancy", size_t(64) * bins_.stored);
     }
@@ -196,8 +196,8 @@ void measure_covering(Run& run, const Mesh& mesh, const GridFrame& frame, int re
     if (!run.wants(name)) return;
     const Device device = Device::open();
     Covering covering(device, mesh, frame);
-    const auto exact = covering.work(
-        Program(device, "voxelize_cover.cl", {{"VXL_SLICES", kBrickSize}, {"VXL_THIN", 0}}));
+    const auto exact = covering.work(Program(device, "voxelize/voxelize_cover.cl",
+                                             {{"VXL_SLICES", kBrickSize}, {"VXL_THIN", 0}}));
     const auto floats =
         covering.work(Program::from_text(device, kFloatCover, {{"VXL_SLICES", kBrickSize}}));
     compare(run, name, exact, floats);

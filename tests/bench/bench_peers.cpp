@@ -19,7 +19,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/verify/bench/bench.hpp"
 #include "runtime/verify/bench/bench_errors.hpp"
 #include "runtime/verify/bench/bench_subject.hpp"

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "runtime/io/mesh/mesh_reader.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/place.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"

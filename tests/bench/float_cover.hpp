@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/voxelize_cover.cl in 32-bit floats, to measure what exactness costs: it makes the
-// kernel's tests, in its order, on coordinates in voxels.
+// kernels/voxelize/voxelize_cover.cl in 32-bit floats, to measure what exactness costs: it makes
+// the kernel's tests, in its order, on coordinates in voxels.
 #pragma once
 
 namespace voxelume {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/test_meshes.hpp"
 

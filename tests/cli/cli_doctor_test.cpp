@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 #include "tests/cli/scene_program.hpp"
 #include "tests/support/setting.hpp"
 

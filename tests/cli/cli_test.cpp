@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/progress.hpp"
+#include "cli/shared/progress.hpp"
 
 #include <gmock/gmock.h>
 

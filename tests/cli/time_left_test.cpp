@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/time_left.hpp"
+#include "cli/render/time_left.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "runtime/geometry/solid_inside.hpp"
+#include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/geometry/winding_number.hpp"
 #include "tests/oracles/analytic_solids.hpp"
 #include "tests/support/solid_cases.hpp"

@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "tests/oracles/mesh_distance.hpp"
-#include "tests/oracles/mesh_ray.hpp"
-#include "tests/oracles/triangle_distance.hpp"
+#include "tests/oracles/mesh/mesh_distance.hpp"
+#include "tests/oracles/mesh/mesh_ray.hpp"
+#include "tests/oracles/mesh/triangle_distance.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "tests/support/test_meshes.hpp"
 
 namespace voxelume {

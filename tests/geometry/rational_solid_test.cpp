@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "runtime/geometry/solid_membership.hpp"
+#include "runtime/geometry/solid/solid_membership.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 #include "runtime/verify/exact/occupancy.hpp"
 #include "tests/oracles/rational_solid.hpp"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The side of a solid that a lattice point is on, in exact arithmetic: random solids, maps and
 // points.
-#include "runtime/geometry/solid_membership.hpp"
+#include "runtime/geometry/solid/solid_membership.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "runtime/geometry/solid_program.hpp"
+#include "runtime/geometry/solid/solid_program.hpp"
 #include "tests/oracles/analytic_solids.hpp"
 #include "tests/support/solid_cases.hpp"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "runtime/stages/features.hpp"
-#include "runtime/stages/light/albedo_table.hpp"
-#include "runtime/stages/light/glass_table.hpp"
+#include "runtime/stages/light/tables/albedo_table.hpp"
+#include "runtime/stages/light/tables/glass_table.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "runtime/geometry/solid_program.hpp"
+#include "runtime/geometry/solid/solid_program.hpp"
 #include "runtime/opencl/program.hpp"
 #include "tests/oracles/analytic_solids.hpp"
 #include "tests/support/solid_cases.hpp"

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <random>
 
-#include "runtime/geometry/solid_membership.hpp"
-#include "runtime/geometry/solid_program.hpp"
+#include "runtime/geometry/solid/solid_membership.hpp"
+#include "runtime/geometry/solid/solid_program.hpp"
 #include "runtime/opencl/program.hpp"
 #include "tests/oracles/analytic_solids.hpp"
 #include "tests/support/solid_cases.hpp"

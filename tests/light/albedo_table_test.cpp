@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of what rough surfaces return, against sums over all their facets.
-#include "runtime/stages/light/albedo_table.hpp"
+#include "runtime/stages/light/tables/albedo_table.hpp"
 
 #include <gtest/gtest.h>
 

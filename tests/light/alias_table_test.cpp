@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Alias tables against the weights that they are made of.
-#include "runtime/stages/light/alias_table.hpp"
+#include "runtime/stages/light/tables/alias_table.hpp"
 
 #include <gmock/gmock.h>
 

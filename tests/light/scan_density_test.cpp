@@ -8,7 +8,7 @@
 #include "runtime/base/main_memory.hpp"
 #include "runtime/grid/density_field.hpp"
 #include "runtime/io/vdb/vdb.hpp"
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/world.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/stages/medium/density_source.hpp"
 #include "tests/light/medium_fixture.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bricks and voxels of solids counted by distances, against those that are voxelized.
-#include "runtime/memory/brick_count.hpp"
+#include "runtime/memory/count/brick_count.hpp"
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/memory/voxel_bricks.hpp"
+#include "runtime/memory/count/voxel_bricks.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 #include "tests/support/test_device.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who compiles what a cache lacks, and that nobody waits for a process that has ended.
-#include "runtime/opencl/compile_turn.hpp"
+#include "runtime/opencl/source/compile_turn.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

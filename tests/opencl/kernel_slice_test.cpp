@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What slices hold and leave out, and that a compiler accepts those of all kernels.
-#include "runtime/opencl/kernel_slice.hpp"
+#include "runtime/opencl/source/kernel_slice.hpp"
 
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program.hpp"
-#include "runtime/opencl/source_parts.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
+#include "runtime/opencl/source/source_parts.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

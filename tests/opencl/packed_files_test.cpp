@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/packed_files.hpp"
+#include "runtime/opencl/source/packed_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/files/disk_cache.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/features.hpp"
 #include "tests/support/file_fixture.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The answers that a driver's self-test takes for right, computed once more by the host.
-#include "runtime/opencl/self_test.hpp"
+#include "runtime/opencl/self_test/self_test.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kernels/shared/trace.h"
-#include "runtime/opencl/known_answers.hpp"
+#include "runtime/opencl/self_test/known_answers.hpp"
 #include "tests/oracles/cell_walk.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/setting.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume::oracle {
 

@@ -2,7 +2,7 @@
 // Reconstruction filters of width 1 by their definitions, integrated by Simpson's rule.
 #pragma once
 
-#include "runtime/scene/reconstruction_filter.hpp"
+#include "runtime/scene/parts/reconstruction_filter.hpp"
 
 namespace voxelume::oracle {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "tests/oracles/rational_map.hpp"
 
 namespace voxelume::oracle {

@@ -7,22 +7,22 @@
 namespace voxelume {
 namespace {
 
-Scene scene_of(const char* text) {
+Scene absorbing_scene(const char* text) {
     Scene scene = parse_scene(text, "test.json", {});
     resize(scene, {172, 133});
     return scene;
 }
 
 TEST(AbsorbingImage, NestedDielectricsInAMedium) {
-    expect_analytic_image(scene_of(kNestedScene), 1e-5, 1e-3);
+    expect_analytic_image(absorbing_scene(kNestedScene), 1e-5, 1e-3);
 }
 
 TEST(AbsorbingImage, VeilsAndFilteredShadowsInAMedium) {
-    expect_analytic_image(scene_of(kVeiledScene), 1e-5, 1e-3);
+    expect_analytic_image(absorbing_scene(kVeiledScene), 1e-5, 1e-3);
 }
 
 TEST(AbsorbingImage, AMediumWhoseDensityIsAskedForVoxelByVoxel) {
-    Scene scene = scene_of(kVeiledScene);
+    Scene scene = absorbing_scene(kVeiledScene);
     if (!is_exhaustive()) resize(scene, {115, 89});
     Scene asked = scene;
     asked.world.medium.density = BallDensity{{0, 0, 0}, 1000, 0};

@@ -9,7 +9,7 @@ namespace {
 
 /// The scene with an image whose sizes aren't powers of two, so that no two strides are equal by
 /// chance.
-Scene scene_of(const char* text) {
+Scene path_scene(const char* text) {
     Scene scene = parse_scene(text, "test.json", {});
     resize(scene, {172, 133});
     return scene;
@@ -22,33 +22,33 @@ Scene without_absorption(Scene scene) {
 }
 
 TEST(PathsImage, NestedDielectricsWithFresnel) {
-    expect_analytic_image(without_absorption(scene_of(kNestedScene)), 1e-5, 1e-3);
+    expect_analytic_image(without_absorption(path_scene(kNestedScene)), 1e-5, 1e-3);
 }
 
 TEST(PathsImage, VeilsAndFilteredShadows) {
-    expect_analytic_image(without_absorption(scene_of(kVeiledScene)), 1e-5, 1e-3);
+    expect_analytic_image(without_absorption(path_scene(kVeiledScene)), 1e-5, 1e-3);
 }
 
 TEST(PathsImage, RaysThatBeginInsideOfAnObject) {
-    expect_analytic_image(without_absorption(scene_of(kPoolScene)), 1e-5, 1e-3);
+    expect_analytic_image(without_absorption(path_scene(kPoolScene)), 1e-5, 1e-3);
 }
 
 TEST(PathsImage, OpaqueShadowsOfTransmittingObjects) {
-    Scene scene = without_absorption(scene_of(kVeiledScene));
+    Scene scene = without_absorption(path_scene(kVeiledScene));
     scene.render.filtered_shadows = false;
     expect_analytic_image(scene, 1e-5, 1e-3);
 }
 
 TEST(PathsImage, NoRecursionAndOneStepOfIt) {
     for (const int depth : {0, 1}) {
-        Scene scene = without_absorption(scene_of(kNestedScene));
+        Scene scene = without_absorption(path_scene(kNestedScene));
         scene.render.depth = depth;
         expect_analytic_image(scene, 1e-5, 1e-3);
     }
 }
 
 TEST(PathsImage, MinWeightEndsTheSamePaths) {
-    Scene scene = without_absorption(scene_of(kVeiledScene));
+    Scene scene = without_absorption(path_scene(kVeiledScene));
     scene.render.min_weight = 0.1;
     expect_analytic_image(scene, 1e-5, 1e-3);
 }

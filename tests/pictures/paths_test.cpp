@@ -9,7 +9,7 @@
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/leaky_room.hpp"
+#include "tests/pictures/light/leaky_room.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/test_device.hpp"
 

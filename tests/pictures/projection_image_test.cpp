@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/box_scene.hpp"
+#include "tests/pictures/light/box_scene.hpp"
 
 namespace voxelume {
 namespace {

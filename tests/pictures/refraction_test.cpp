@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "tests/pictures/sensor_room.hpp"
+#include "tests/pictures/light/sensor_room.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "runtime/analysis/scene_features.hpp"
-#include "tests/pictures/box_scene.hpp"
+#include "tests/pictures/light/box_scene.hpp"
 
 namespace voxelume {
 namespace {

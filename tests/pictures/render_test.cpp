@@ -9,8 +9,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "runtime/opencl/pocl_folder.hpp"
-#include "tests/pictures/box_scene.hpp"
+#include "runtime/opencl/source/pocl_folder.hpp"
+#include "tests/pictures/light/box_scene.hpp"
 
 namespace voxelume {
 namespace {

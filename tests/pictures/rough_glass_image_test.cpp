@@ -3,7 +3,7 @@
 #include <set>
 
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/global_light.hpp"
+#include "tests/pictures/light/global_light.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "runtime/geometry/mesh_normals.hpp"
-#include "tests/oracles/mesh_shading.hpp"
+#include "tests/oracles/mesh/mesh_shading.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
 #include "tests/support/test_meshes.hpp"

@@ -9,7 +9,7 @@
 #include "tests/pictures/glass_block.hpp"
 #include "tests/pictures/refracted_rays.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/vox_writer.hpp"
+#include "tests/support/writers/vox_writer.hpp"
 
 namespace voxelume::glass_block {
 namespace {

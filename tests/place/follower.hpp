@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/placed_world.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"

@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/place.hpp"
 #include "tests/place/field_accuracy.hpp"

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "tests/place/placing.hpp"
 
 namespace voxelume {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/placed_world.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"

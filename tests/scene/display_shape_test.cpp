@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/scene/display_shape.hpp"
+#include "runtime/scene/parts/display_shape.hpp"
 
 #include <gtest/gtest.h>
 

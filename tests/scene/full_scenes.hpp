@@ -13,7 +13,7 @@ inline std::vector<nlohmann::json> full_scenes() {
         R"({"$schema": "x", "voxelume": 1,
             "world": {"voxel_size": [0.1, 0.2, 0.3], "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]},
                       "background": [1, 2, 3], "ambient": [0, 1, 2],
-                      "medium": {"absorption": [1, 2, 3], "color": [0, 0, 1],
+                      "medium": {"absorption": [1, 2, 3], "color": [0, 0, 1], "scattering": [2, 1, 0], "anisotropy": -0.5,
                                  "density": {"kind": "height", "base": -1, "scale_height": 2}}},
             "materials": {"a": {"color": [0, 0.5, 1], "diffuse": 0.5, "specular": 0.5, "shininess": 7,
                                 "reflection": 0.5, "refraction": 0.5, "ior": 1.5, "fresnel": true,

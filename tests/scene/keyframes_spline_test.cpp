@@ -7,7 +7,7 @@
 #include <random>
 
 #include "runtime/scene/keyframes.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

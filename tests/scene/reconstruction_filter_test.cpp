@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reconstruction filters against their definitions, integrated number by number.
-#include "runtime/scene/reconstruction_filter.hpp"
+#include "runtime/scene/parts/reconstruction_filter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

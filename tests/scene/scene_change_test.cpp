@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values changed before a scene is read, and observers that go round.
-#include "runtime/scene_file/scene_change.hpp"
+#include "runtime/scene_file/document/scene_change.hpp"
 
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
 
-#include "runtime/scene_file/orbit.hpp"
+#include "runtime/scene_file/document/orbit.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/scene/fitted_scenes.hpp"
 

@@ -8,11 +8,11 @@
 #include <set>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/observer.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/scene/scene_animation.hpp"
-#include "runtime/scene/solid.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/scene/moving_scene.hpp"
 #include "tests/support/file_fixture.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parser's table of keys, the published schema and the manual have the same keys.
-#include "runtime/scene_file/scene_keys.hpp"
+#include "runtime/scene_file/document/scene_keys.hpp"
 
 #include <gmock/gmock.h>
 

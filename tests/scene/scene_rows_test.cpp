@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "runtime/scene/light.hpp"
-#include "runtime/scene/material.hpp"
-#include "runtime/scene/object.hpp"
-#include "runtime/scene/observer.hpp"
-#include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid.hpp"
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/light.hpp"
+#include "runtime/scene/parts/material.hpp"
+#include "runtime/scene/parts/object.hpp"
+#include "runtime/scene/parts/observer.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
+#include "runtime/scene/parts/solid.hpp"
+#include "runtime/scene/parts/world.hpp"
 #include "tests/scene/small_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 

@@ -17,8 +17,8 @@
 #include <set>
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/document/scene_keys.hpp"
 #include "runtime/scene_file/read_scene.hpp"
-#include "runtime/scene_file/scene_keys.hpp"
 #include "tests/scene/full_scenes.hpp"
 #include "tests/scene/small_scene.hpp"
 #include "tests/support/exhaustive.hpp"

@@ -10,9 +10,9 @@
 
 #include "runtime/geometry/mesh.hpp"
 #include "runtime/render/renderer.hpp"
-#include "runtime/scene/bounds.hpp"
-#include "tests/oracles/mesh_distance.hpp"
-#include "tests/oracles/mesh_ray.hpp"
+#include "runtime/scene/parts/bounds.hpp"
+#include "tests/oracles/mesh/mesh_distance.hpp"
+#include "tests/oracles/mesh/mesh_ray.hpp"
 
 namespace voxelume {
 

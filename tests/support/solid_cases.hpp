@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

@@ -11,8 +11,8 @@
 #include "runtime/import/scene_of_file.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/vox_writer.hpp"
 #include "tests/support/voxel_cells.hpp"
+#include "tests/support/writers/vox_writer.hpp"
 
 namespace voxelume {
 

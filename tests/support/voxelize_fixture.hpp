@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "runtime/stages/voxelize/voxelize.hpp"
-#include "tests/oracles/triangle_overlap.hpp"
+#include "tests/oracles/mesh/triangle_overlap.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/verify/bench/bench.hpp"
 #include "runtime/verify/report/bench_page.hpp"
 #include "runtime/verify/report/log_plot.hpp"

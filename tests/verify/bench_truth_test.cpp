@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/verify/bench/bench.hpp"
 
 namespace voxelume {

@@ -17,7 +17,7 @@
 #include "runtime/verify/stress/ray_classes.hpp"
 #include "runtime/verify/stress/stress_rays.hpp"
 #include "runtime/verify/stress/triangle_classes.hpp"
-#include "tests/oracles/triangle_overlap.hpp"
+#include "tests/oracles/mesh/triangle_overlap.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The boxes around analytic solids, and the lattices that hold them.
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 
 #include <gtest/gtest.h>
 

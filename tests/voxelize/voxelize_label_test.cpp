@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/shared/voxel.h"
-#include "tests/oracles/triangle_distance.hpp"
+#include "tests/oracles/mesh/triangle_distance.hpp"
 #include "tests/support/voxelize_fixture.hpp"
 
 namespace voxelume {

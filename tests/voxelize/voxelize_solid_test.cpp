@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "tests/oracles/analytic_solids.hpp"
 #include "tests/support/solid_cases.hpp"
 #include "tests/support/test_device.hpp"

@@ -163,11 +163,10 @@ static inline lane_uint sources_of(const RayBatch* batch, uint first, lane_int b
     return LANES_SELECT(behind, (lane_uint)VXL_NO_PRIMITIVE, source);
 }
 
-/// Writes the `lit` lanes' rays to slots of the queue, which are all reserved at once. Their light
-/// is `behind` the triangles that they begin above.
+/// Writes the `lit` lanes' rays, which begin on these sources, to slots of the queue, `stride`
+/// apart, which are all reserved at once.
 static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_int lit,
-                              lane_int behind, const RayBatch* batch, uint first) {
-    const uint stride = batch->stride;
+                              lane_uint begins_on, uint stride, uint first) {
     int lit_lane[VXL_LANES];
     LANES_STORE(lit, lit_lane, 0);
     uint wanted = 0;
@@ -186,7 +185,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     LANES_STORE(r->contribution[0], queued, 7 * VXL_LANES);
     LANES_STORE(r->contribution[1], queued, 8 * VXL_LANES);
     LANES_STORE(r->contribution[2], queued, 9 * VXL_LANES);
-    if (VXL_SOURCES) LANES_STORE(sources_of(batch, first, behind), source, 0);
+    if (VXL_SOURCES) LANES_STORE(begins_on, source, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane) {
         if (!lit_lane[lane]) continue;
         for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
@@ -219,13 +218,17 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
     return behind;
 }
 
-/// Queues the `lit` lanes' rays, or adds their light at once if nothing can come between.
+/// Queues the `lit` lanes' rays, or adds their light at once if nothing can come between. The light
+/// is `behind` the triangles that they begin above.
 static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_int lit,
                                lane_int behind, const RayBatch* batch, uint first) {
-    if (VXL_SHADOWS | VXL_MEDIUM)
-        queue_rays(queue, r, lit, behind, batch, first);
-    else
+    if (VXL_SHADOWS | VXL_MEDIUM) {
+        lane_uint source = (lane_uint)VXL_NO_PRIMITIVE;
+        if (VXL_SOURCES) source = sources_of(batch, first, behind);
+        queue_rays(queue, r, lit, source, batch->stride, first);
+    } else {
         add_shares(r->contribution, lit, batch, first);
+    }
 }
 
 /// Adds a light that shines from the points `from`: every surface point that faces it and to which

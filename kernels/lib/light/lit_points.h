@@ -6,7 +6,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/hit_attributes.h"
-#include "lib/traverse/ray_batch.h"
+#include "lib/traverse/segment.h"
 #include "shared/trace.h"
 
 /// The light as a packet of surface points sees it.
@@ -35,6 +35,7 @@ static inline bool load_lit_points(const WorldView* world, const RayBatch* batch
     p->lit = LANE_MASK(number != VXL_NO_VOXEL);
     if (VXL_TRANSMISSION)
         p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
+    if (VXL_SCATTERING) p->lit &= ~scatters_before(batch, first);
     if (!lanes_any(p->lit)) return false;
     p->leaving = (lane_int)0;
     if (VXL_ROUGH_GLASS)

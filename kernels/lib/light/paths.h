@@ -73,6 +73,23 @@ static inline lane_float medium_ior(global const float* restrict materials, lane
                         (lane_float)1.0f);
 }
 
+/// Adds a channel's light to the nodes that the `valid` lanes name, each at most one lane; `begins`
+/// their sums.
+static inline void add_to_nodes(const NodeLight* nodes, uint channel, lane_int valid,
+                                lane_uint target, lane_float light, uint begins) {
+    int add[VXL_LANES];
+    uint node[VXL_LANES];
+    float added[VXL_LANES];
+    LANES_STORE(valid, add, 0);
+    LANES_STORE(target, node, 0);
+    LANES_STORE(light, added, 0);
+    for (int lane = 0; lane < VXL_LANES; ++lane) {
+        if (!add[lane]) continue;
+        global float* sum = nodes->radiance + channel * nodes->stride + node[lane];
+        *sum = begins ? added[lane] : *sum + added[lane];
+    }
+}
+
 static inline void count_lanes(lane_int mask, global uint* counter) {
     if (lanes_any(mask)) atomic_add(counter, (uint)lanes_count(mask));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that depend on a display's shape: its sight rays, its depths, its inside.
-// runtime/scene/display_shape.hpp is the host's side.
+// runtime/scene/parts/display_shape.hpp is the host's side.
 #ifndef VXL_DISPLAY_SHAPE_H
 #define VXL_DISPLAY_SHAPE_H
 

@@ -46,6 +46,9 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
     ray_state->on_surface = (lane_int)-1;
     const lane_uint target =
         VXL_RAY_UINTS(q->targets, packet->ray, VXL_REFILLS_SHADOWS) & LANES_AS_UINT(fresh);
+    if (VXL_SCATTERING)  // points in the medium have met nothing
+        ray_state->on_surface = LANE_MASK(
+            LANES_GATHER_UINT(batch->hits + VXL_HIT_VOXEL * stride, target) != VXL_NO_VOXEL);
     if (VXL_SOURCES)
         ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
     if (VXL_INSTANCES)

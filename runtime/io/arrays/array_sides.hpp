@@ -2,7 +2,7 @@
 // array -> which of its cells lie inside a surface, and where neighbours lie on both sides of it.
 #pragma once
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/arrays/cell_bits.hpp"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/ranges.hpp"
 #include "runtime/io/arrays/byte_decoder.hpp"
 #include "runtime/io/arrays/cell_array.hpp"

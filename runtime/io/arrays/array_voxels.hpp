@@ -8,7 +8,7 @@
 
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
-#include "runtime/scene/voxel_values.hpp"
+#include "runtime/scene/parts/voxel_values.hpp"
 
 namespace voxelume {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
 
 namespace voxelume {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/png_values.hpp"
 #include "runtime/io/mesh/companion_file.hpp"

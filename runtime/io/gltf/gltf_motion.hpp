@@ -8,7 +8,7 @@
 
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 

@@ -6,7 +6,7 @@
 
 #include "runtime/geometry/mesh.hpp"
 #include "runtime/io/gltf/gltf_motion.hpp"
-#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/parts/bounds.hpp"
 
 namespace voxelume {
 

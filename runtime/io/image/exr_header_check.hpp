@@ -2,7 +2,7 @@
 // What an OpenEXR file's header declares, against the file's size, before OpenEXR sees it.
 #pragma once
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume {
 

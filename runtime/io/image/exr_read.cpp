@@ -8,7 +8,7 @@
 #include <ImfStringAttribute.h>
 
 #include "runtime/base/error.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/exr_header.hpp"
 #include "runtime/io/image/exr_header_check.hpp"

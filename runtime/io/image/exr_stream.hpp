@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 
 namespace voxelume {
 

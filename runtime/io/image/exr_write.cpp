@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/exr_chunks.hpp"
 #include "runtime/io/image/exr_layers.hpp"

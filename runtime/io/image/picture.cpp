@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume {
 namespace {

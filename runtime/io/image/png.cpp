@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/base/input_file.hpp"
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/image/srgb.hpp"
 
 namespace voxelume {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/srgb.hpp"
 #include "runtime/io/image/exr.hpp"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "runtime/base/decimal.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/utf8.hpp"
 #include "runtime/io/mesh/companion_file.hpp"
 

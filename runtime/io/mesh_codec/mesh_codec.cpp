@@ -11,8 +11,8 @@
 #include <iterator>
 
 #include "runtime/base/error.hpp"
-#include "runtime/base/helper_program.hpp"
-#include "runtime/base/helper_wire.hpp"
+#include "runtime/base/helper/helper_program.hpp"
+#include "runtime/base/helper/helper_wire.hpp"
 
 namespace voxelume {
 namespace {

@@ -8,10 +8,10 @@
 #include <new>
 #include <stdexcept>
 
-#include "runtime/base/helper_calls.hpp"
-#include "runtime/base/helper_limits.hpp"
-#include "runtime/base/helper_wire.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
+#include "runtime/base/helper/helper_calls.hpp"
+#include "runtime/base/helper/helper_limits.hpp"
+#include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/io/mesh_codec/mesh_decoders.hpp"
 
 namespace voxelume {

@@ -4,7 +4,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/vdb/vdb_read.hpp"
 #include "runtime/io/vdb/vdb_stream.hpp"
 

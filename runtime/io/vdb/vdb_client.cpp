@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "runtime/base/helper_wire.hpp"
+#include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/io/vdb/vdb_client.hpp"
 #include "runtime/io/vdb/vdb_module.hpp"
 #include "runtime/io/vdb/vdb_read.hpp"

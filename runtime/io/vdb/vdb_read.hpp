@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/image/volume.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/vdb/vdb_density.hpp"

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "runtime/base/helper_calls.hpp"
-#include "runtime/base/helper_limits.hpp"
-#include "runtime/base/helper_wire.hpp"
+#include "runtime/base/helper/helper_calls.hpp"
+#include "runtime/base/helper/helper_limits.hpp"
+#include "runtime/base/helper/helper_wire.hpp"
 #include "runtime/io/vdb/vdb_client.hpp"
 #include "runtime/io/vdb/vdb_read.hpp"
 #include "runtime/io/vdb/vdb_tree.hpp"

@@ -11,7 +11,7 @@
 #include <streambuf>
 #include <vector>
 
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 
 namespace voxelume::vdb {
 

@@ -5,8 +5,8 @@
 
 #include <openvdb/openvdb.h>
 
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume::vdb {
 

@@ -6,7 +6,7 @@
 
 #include <openvdb/openvdb.h>
 
-#include "runtime/base/helper_wire.hpp"
+#include "runtime/base/helper/helper_wire.hpp"
 
 namespace voxelume::vdb {
 

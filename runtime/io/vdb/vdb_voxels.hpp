@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "runtime/scene/surface.hpp"
+#include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
 

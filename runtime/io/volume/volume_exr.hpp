@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <string>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume::volume_exr {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/base/stamp.hpp"
+#include "runtime/base/files/stamp.hpp"
 #include "runtime/io/volume/volume_exr.hpp"
 
 namespace voxelume::volume_exr {

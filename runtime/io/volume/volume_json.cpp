@@ -4,8 +4,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "runtime/base/atomic_file.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/volume/volume_formats.hpp"

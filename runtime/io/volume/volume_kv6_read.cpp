@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_formats.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"

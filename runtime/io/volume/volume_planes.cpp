@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_dither.hpp"
 #include "runtime/io/volume/volume_json.hpp"

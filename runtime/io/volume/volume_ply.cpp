@@ -2,7 +2,7 @@
 // Volumetric image -> PLY: a point in the world for every visible voxel.
 #include <cmath>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/volume/volume_formats.hpp"

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"

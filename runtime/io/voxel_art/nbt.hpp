@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <memory>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 
 namespace voxelume {

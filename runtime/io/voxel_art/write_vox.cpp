@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_art/median_cut.hpp"
 #include "runtime/io/voxels/vox_materials.hpp"
@@ -43,14 +44,16 @@ glm::ivec3 floor_parts(const glm::ivec3& cell) {
     return {cell.x >> 8, cell.y >> 8, cell.z >> 8};
 }
 
-/// A material's number and a colour of its voxels, 0xBBGGRR.
+/// A material's number and a colour of its voxels, 0xBBGGRR. Number 0 stands for all plain ones.
 using Paint = std::pair<size_t, uint32_t>;
 
 Paint paint_of(const CubeList& cubes, size_t voxel) {
     const size_t material = cubes.material_numbers.empty() ? 0 : cubes.material_numbers[voxel];
     const uint32_t own = cubes.colors.empty() ? 0xFFFFFF : cubes.colors[voxel] & 0xFFFFFF;
     if (material >= cubes.materials.size()) return {0, own};
-    return {material, cubes.materials[material].color.value_or(own)};
+    const CubeMaterial& of = cubes.materials[material];
+    const bool is_plain = of.vox.kind == VoxMaterialKind::diffuse;
+    return {is_plain ? 0 : material + 1, of.color.value_or(own)};
 }
 
 /// The file's colours, and of each the material.
@@ -69,9 +72,6 @@ VoxPalette palette_of(const CubeList& cubes) {
     }
     size_t all = 0;
     for (const auto& [material, colors] : counts) all += colors.size();
-    if (counts.size() > kMaxColors)
-        throw Error(ErrorKind::limit, "a .vox has at most {} materials, and there are {}",
-                    kMaxColors, counts.size());
     const size_t spare = kMaxColors - counts.size(), further = all - counts.size();
     VoxPalette palette;
     for (const auto& [material, colors] : counts) {
@@ -89,9 +89,8 @@ VoxPalette palette_of(const CubeList& cubes) {
 /// A chunk MATL for each colour whose material is more than a colour.
 void add_materials(std::string& bytes, const CubeList& cubes, const VoxPalette& palette) {
     for (size_t i = 0; i < palette.colors.size(); ++i) {
-        if (palette.materials[i] >= cubes.materials.size()) continue;
-        const VoxDictionary values = values_of(cubes.materials[palette.materials[i]].vox);
-        if (values.empty()) continue;
+        if (palette.materials[i] == 0) continue;
+        const VoxDictionary values = values_of(cubes.materials[palette.materials[i] - 1].vox);
         std::string content;
         add_int(content, int32_t(i + 1));
         add_int(content, int32_t(values.size()));
@@ -170,9 +169,27 @@ void add_graph(std::string& bytes, const Parts& parts) {
     }
 }
 
+/// True if there are so many materials that plain voxels would have no colour left.
+bool has_too_many_materials(const CubeList& cubes) {
+    std::set<size_t> numbers;
+    for (size_t i = 0; i < cubes.material_numbers.size(); ++i)
+        numbers.insert(paint_of(cubes, i).first);
+    return numbers.size() > kMaxColors;
+}
+
 }  // namespace
 
 WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) {
+    if (has_too_many_materials(cubes)) {
+        CubeList plain = cubes;
+        plain.materials.clear();
+        WriterNotes notes = write_vox(path, plain);
+        notes.push_back(
+            fmt::format("its materials became plain colours, since there are more than "
+                        "{}",
+                        kMaxColors));
+        return notes;
+    }
     const VoxPalette palette = palette_of(cubes);
     const Parts parts = parts_of(cubes, palette);
     std::string inside;

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_format.hpp"
 

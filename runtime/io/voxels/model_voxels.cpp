@@ -7,7 +7,7 @@
 
 #include "kernels/shared/normal.h"
 #include "kernels/shared/voxel.h"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/geometry/mesh_normals.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"

@@ -3,7 +3,7 @@
 #include <xxhash.h>
 #include <zstd.h>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_format.hpp"
 

@@ -7,8 +7,8 @@
 #include <future>
 #include <glm/common.hpp>
 
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/base/huge_pages.hpp"
-#include "runtime/base/input_file.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 

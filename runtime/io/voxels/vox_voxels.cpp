@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "kernels/shared/voxel.h"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 #include "runtime/io/voxels/vox_cells.hpp"
 
 namespace voxelume {

@@ -13,8 +13,8 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/stages/light/alias_table.hpp"
 #include "runtime/stages/light/emissive_pieces.hpp"
+#include "runtime/stages/light/tables/alias_table.hpp"
 
 namespace voxelume {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "runtime/opencl/float4.hpp"
-#include "runtime/scene/display_shape.hpp"
+#include "runtime/scene/parts/display_shape.hpp"
 
 namespace voxelume {
 namespace {

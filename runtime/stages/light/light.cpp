@@ -7,7 +7,7 @@
 
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 
 namespace voxelume {
 LightRecord light_record(const Light& light, const GridFrame& world) {

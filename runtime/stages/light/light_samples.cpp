@@ -9,7 +9,7 @@
 
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emissive_pieces.hpp"
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
-#include "runtime/stages/light/albedo_table.hpp"
-#include "runtime/stages/light/coat_table.hpp"
-#include "runtime/stages/light/glass_table.hpp"
+#include "runtime/stages/light/tables/albedo_table.hpp"
+#include "runtime/stages/light/tables/coat_table.hpp"
+#include "runtime/stages/light/tables/glass_table.hpp"
 
 namespace voxelume {
 namespace {

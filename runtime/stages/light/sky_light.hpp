@@ -7,7 +7,7 @@
 #include "kernels/shared/sky.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
-#include "runtime/scene/sky.hpp"
+#include "runtime/scene/parts/sky.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/stages/sky_map.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "runtime/opencl/device.hpp"
-#include "runtime/scene/sky.hpp"
+#include "runtime/scene/parts/sky.hpp"
 #include "runtime/stages/sky_map.hpp"
 
 namespace voxelume {

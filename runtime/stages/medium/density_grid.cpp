@@ -134,8 +134,9 @@ bool has_no_medium(const World& world) {
     return has_density(world.medium) && DensityLattice(world).is_zero();
 }
 
-DensityPlan plan_density(const World& world) {
-    if (!has_density(world.medium) || world.medium.absorption == glm::vec3(0)) return {};
+DensityPlan plan_density(const World& world, bool scatters) {
+    if (!has_density(world.medium)) return {};
+    if (!scatters && world.medium.absorption == glm::vec3(0)) return {};
     const DensityLattice lattice(world);
     if (lattice.is_zero()) return {.is_zero = true};
     const SlotCount slots = count_slots(lattice);

@@ -40,12 +40,12 @@ struct DensityPlan {
     double host_bytes = 0;     ///< in main memory while it is formed
 };
 
-/// The plan of the medium's density grid; empty for a medium without density or absorption. Reads
-/// the file of a grid.
+/// The plan of the medium's density grid; empty for a medium without density, and for one that
+/// neither absorbs nor `scatters` light. Reads the file of a grid.
 ///
 /// Throws Error::input, whose message starts with the place in the scene, for a damaged file or one
 /// without a float grid of that name; Error::limit for more bricks than can be numbered.
-DensityPlan plan_density(const World& world);
+DensityPlan plan_density(const World& world, bool scatters = false);
 
 /// The grid's buffers.
 DensityGrid allocate_density(const Device& device, const DensitySize& size);

@@ -8,6 +8,7 @@
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/medium_scattering.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
@@ -31,11 +32,16 @@ class MediumStage {
     /// queue. Without shadows the remaining light is added to the batch's radiance.
     void shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum, RayBatch& batch);
 
+    const MediumScattering& scattering() const { return scattering_; }
+    /// What light loses per metre on its way to a surface, at density 1.
+    const float4& extinction() const { return extinction_.absorption; }
     /// The density grid; empty if the density is 1 everywhere.
     const DensityGrid& density() const { return density_; }
 
   private:
     Environment environment_;
+    MediumScattering scattering_;
+    Environment extinction_;  ///< that of rays to lights, which lose what is scattered, too
     Buffer<MaterialRecord> materials_;
     DensityGrid density_;
     Program program_;

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "runtime/scene/light.hpp"
+#include "runtime/scene/parts/light.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/scene/world.hpp"
+#include "runtime/scene/parts/world.hpp"
 
 namespace voxelume {
 

@@ -10,7 +10,7 @@
 
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/scene/surface.hpp"
+#include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

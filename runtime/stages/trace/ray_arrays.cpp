@@ -94,6 +94,11 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
         make_batch(features, maker, depth.to_emitters);
         make_queue(features, maker, depth.next_to_emitters);
     }
+    if (features.scattering) {
+        make_queue(features, maker, depth.points);
+        maker.make(depth.points.hits, "medium points", hit_components(features));
+        maker.make(depth.points.radiance, "medium points", 3);
+    }
     if (features.transmission && is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
     if (features.global) return;
     if (features.transmission) maker.make(depth.children.node_weights, "path node weights", 3);
@@ -151,7 +156,7 @@ PathDepth allocate_depth(const Device& device, const Features& features, bool is
     ArrayMaker maker(device, slots);
     make_depth(features, is_first, maker, depth);
     depth.entries.stride = depth.next.stride = depth.nodes.stride = slots;
-    depth.to_emitters.stride = depth.next_to_emitters.stride = slots;
+    depth.to_emitters.stride = depth.next_to_emitters.stride = depth.points.stride = slots;
     return depth;
 }
 

@@ -18,6 +18,8 @@ struct PathDepth {
     RayQueue next;              ///< the rays of the layer behind them
     RayBatch to_emitters;       ///< rays that paths send to emitters, where they do
     RayQueue next_to_emitters;  ///< those that go on straight through surfaces
+    RayBatch points;            ///< where the medium scatters paths: their ways there, hits of
+                                ///< nothing, and radiance
     Children children;
     NodeLight nodes;
 };

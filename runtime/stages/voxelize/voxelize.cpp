@@ -158,7 +158,7 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
         voxelize_cubes(job, options.set, 0);
     if (lists_primitives(options.surface)) {
         voxelize_cubes(job, VoxelSet::supercover, kListMargin);
-        list_primitives(job, program("voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
+        list_primitives(job, program("voxelize/voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
         keep_triangles(job, mesh, frame_from_mesh, labels);
         if (!normals.empty())
             job.grid.triangle_normals =
@@ -168,39 +168,40 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
     if (has_cube_normals(options)) labels.corner_normals = std::move(normals);
     labels.has_normals = has_cube_normals(options);
     if (!labels.triangle_attributes.empty() || has_paint(mesh) || labels.has_normals)
-        label_voxels(job, program("voxelize_label.cl", label_defines(device_, labels)),
-                     program("voxelize_distance.cl", slice_defines(device_)),
+        label_voxels(job, program("voxelize/voxelize_label.cl", label_defines(device_, labels)),
+                     program("voxelize/voxelize_distance.cl", slice_defines(device_)),
                      bin(job, job.triangles, label_reach(frame), kLatticePerBrick), labels);
     return job.grid;
 }
 
 TriangleBins Voxelizer::bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
                             const glm::ivec3& reach, int extent) {
-    return bin_triangles(device_, program("voxelize_bin.cl", {}), triangles,
+    return bin_triangles(device_, program("voxelize/voxelize_bin.cl", {}), triangles,
                          job.grid.frame.bricks(), reach, extent);
 }
 
 Buffer<uint16_t> Voxelizer::inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach) {
-    const Program& winding = program("voxelize_winding.cl", {{"VXL_CENTERS", centers}});
+    const Program& winding = program("voxelize/voxelize_winding.cl", {{"VXL_CENTERS", centers}});
     if (job.caps.count == 0) return find_inside(job, winding);
     Defines defines = slice_defines(device_);
     defines.emplace_back("VXL_CENTERS", centers);
     const DeviceTriangles all = part_of(job.triangles, 0, job.triangles.count + job.caps.count);
-    return find_inside_open(job, winding, program("voxelize_caps.cl", defines),
+    return find_inside_open(job, winding, program("voxelize/voxelize_caps.cl", defines),
                             bin(job, job.caps, glm::ivec3(0), kLatticePerBrick),
                             bin(job, all, reach, kLatticePerBrick));
 }
 
 void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
-    const ProgramFile files[] = {{"voxelize_bin.cl", {}},
-                                 {"voxelize_winding.cl", {{"VXL_CENTERS", 0}}},
-                                 {"voxelize_distance.cl", slice_defines(device_)}};
+    const ProgramFile files[] = {{"voxelize/voxelize_bin.cl", {}},
+                                 {"voxelize/voxelize_winding.cl", {{"VXL_CENTERS", 0}}},
+                                 {"voxelize/voxelize_distance.cl", slice_defines(device_)}};
     Program::build_together(device_, files);
     // Only nodes count, and a brick's last node is at 15.
     const glm::ivec3 reach = band_reach(job.grid.frame, band);
     store_bins(job, bin(job, job.triangles, reach, kLatticePerBrick - kLatticePerVoxel));
     const Buffer<uint16_t> rows = inside(job, false, reach);
-    measure_distances(job, program("voxelize_distance.cl", slice_defines(device_)), rows, band);
+    measure_distances(job, program("voxelize/voxelize_distance.cl", slice_defines(device_)), rows,
+                      band);
 }
 
 void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set, int margin) {
@@ -208,18 +209,18 @@ void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set, int margin) {
     defines.emplace_back("VXL_THIN", set == VoxelSet::thin);
     defines.emplace_back("VXL_MARGIN", margin);
     const ProgramFile inside_or_cover =
-        set == VoxelSet::solid ? ProgramFile{"voxelize_winding.cl", {{"VXL_CENTERS", 1}}}
-                               : ProgramFile{"voxelize_cover.cl", defines};
-    const ProgramFile files[] = {{"voxelize_bin.cl", {}}, inside_or_cover};
+        set == VoxelSet::solid ? ProgramFile{"voxelize/voxelize_winding.cl", {{"VXL_CENTERS", 1}}}
+                               : ProgramFile{"voxelize/voxelize_cover.cl", defines};
+    const ProgramFile files[] = {{"voxelize/voxelize_bin.cl", {}}, inside_or_cover};
     Program::build_together(device_, files);
     store_bins(job, bin(job, job.triangles, glm::ivec3(margin), kLatticePerBrick));
     if (set == VoxelSet::solid) {
         const Buffer<uint16_t> rows = inside(job, true, glm::ivec3(0));
-        fill_solid(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 1}}), rows);
+        fill_solid(job, program("voxelize/voxelize_winding.cl", {{"VXL_CENTERS", 1}}), rows);
         return;
     }
-    cover_bricks(job, program("voxelize_cover.cl", defines));
-    mark_outside(job, program("voxelize_bin.cl", {}));
+    cover_bricks(job, program("voxelize/voxelize_cover.cl", defines));
+    mark_outside(job, program("voxelize/voxelize_bin.cl", {}));
 }
 
 BrickGrid voxelize_mesh(const Device& device, const Mesh& mesh, const glm::dmat4& frame_from_mesh,

@@ -18,7 +18,7 @@ Windings count_windings(VoxelizeJob& job, const Program& winding, const Triangle
     return w;
 }
 
-// The states of kernels/voxelize_caps.cl.
+// The states of kernels/voxelize/voxelize_caps.cl.
 constexpr uint32_t kStateInside = 1, kStateClosed = 2;
 
 std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,

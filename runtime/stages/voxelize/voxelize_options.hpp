@@ -2,7 +2,7 @@
 // The options of voxelization: shared by the stages that voxelize meshes and analytic solids.
 #pragma once
 
-#include "runtime/scene/object.hpp"
+#include "runtime/scene/parts/object.hpp"
 
 namespace voxelume {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "kernels/shared/voxel.h"
-#include "runtime/geometry/solid_membership.hpp"
-#include "runtime/geometry/solid_program.hpp"
+#include "runtime/geometry/solid/solid_membership.hpp"
+#include "runtime/geometry/solid/solid_program.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/brick_arrays.hpp"
@@ -32,7 +32,7 @@ class SolidVoxelizer {
   public:
     SolidVoxelizer(const Device& device, SolidProgram program, const GridFrame& frame)
         : device_(device),
-          code_(device, "voxelize_solid.cl", {{"VXL_NATIVE_DIVIDE", device.is_cpu()}}),
+          code_(device, "voxelize/voxelize_solid.cl", {{"VXL_NATIVE_DIVIDE", device.is_cpu()}}),
           program_(std::move(program)),
           solids_(device, "solids", program_.words()) {
         grid_.frame = frame;
@@ -115,7 +115,7 @@ class SolidVoxelizer {
 
     void give_normals() {
         grid_.normals = allocate_words(device_, "voxel normals", grid_.brick_count);
-        const Program code(device_, "voxelize_normals.cl",
+        const Program code(device_, "voxelize/voxelize_normals.cl",
                            {{"VXL_NATIVE_DIVIDE", device_.is_cpu()}});
         run_over_bricks(code.kernel("normals_of_solid"), grid_.normals);
     }

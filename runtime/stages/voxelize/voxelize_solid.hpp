@@ -6,7 +6,7 @@
 
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 #include "runtime/stages/voxelize/voxelize_options.hpp"
 
 namespace voxelume {

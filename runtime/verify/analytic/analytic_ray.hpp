@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "runtime/scene/solid.hpp"
+#include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
 

@@ -6,7 +6,7 @@
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 #include "runtime/verify/bench/bench.hpp"
 #include "runtime/verify/report/bench_page.hpp"
 #include "runtime/verify/report/bench_plots.hpp"

@@ -2,8 +2,8 @@
 // The kernels that there are, and what devices have launched of them, for callers.
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
-#include "runtime/opencl/kernel_source.hpp"
-#include "runtime/opencl/self_test.hpp"
+#include "runtime/opencl/self_test/self_test.hpp"
+#include "runtime/opencl/source/kernel_source.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::v1 {

@@ -4,7 +4,7 @@
 
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/document/scene_fields.hpp"
 #include "runtime/verify/stress/stress.hpp"
 #include "runtime/voxelume_verify.hpp"
 

@@ -12,7 +12,7 @@
 #include <map>
 #include <memory>
 
-#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/files/atomic_file.hpp"
 
 namespace voxelume {
 namespace {

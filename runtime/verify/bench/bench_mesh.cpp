@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "runtime/io/mesh/mesh_reader.hpp"
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

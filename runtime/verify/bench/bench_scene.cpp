@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

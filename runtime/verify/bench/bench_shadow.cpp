@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/parts/scene_affine.hpp"
 
 namespace voxelume {
 namespace {

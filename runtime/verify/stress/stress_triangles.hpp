@@ -2,7 +2,7 @@
 // triangles of difficult classes -> mismatches between their voxels and the exact ones
 #pragma once
 
-#include "runtime/scene/surface.hpp"
+#include "runtime/scene/parts/surface.hpp"
 #include "runtime/verify/stress/stress.hpp"
 
 namespace voxelume {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// voxelume info FILE: what is in a file.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "cli/shared/commands.hpp"
+#include "cli/shared/report.hpp"
+#include "cli/shared/slice_names.hpp"
+#include "runtime/voxelume.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+Report report_of(const Facts& facts) {
+    if (facts.kind == Facts::Kind::value)
+        return std::visit(
+            [](const auto& value) -> Report {
+                using Value = std::decay_t<decltype(value)>;
+                if constexpr (std::is_same_v<Value, std::monostate> ||
+                              std::is_same_v<Value, std::vector<Facts>>)
+                    return nullptr;
+                else
+                    return value;
+            },
+            facts.value);
+    const bool is_list = facts.kind == Facts::Kind::list;
+    Report report = is_list ? Report::array() : Report::object();
+    for (const Facts& inner : std::get<std::vector<Facts>>(facts.value)) {
+        if (is_list)
+            report.push_back(report_of(inner));
+        else
+            report[inner.name] = report_of(inner);
+    }
+    return report;
+}
+
+void check_integrity(const std::string& path) {
+    const FileIntegrity found = verify_file(path);
+    if (found == FileIntegrity::whole) return;
+    const char* reason = found == FileIntegrity::damaged
+                             ? "is damaged: its bytes aren't those that were written"
+                             : "has no checksum; .exr, .png, .nrrd, .vdb and .ply files that "
+                               "`render` writes have one, and .vxm files";
+    throw Error(ErrorKind::input, path + ": " + reason, {path});
+}
+
+}  // namespace
+
+Action add_info(CLI::App& app) {
+    struct Options {
+        std::string path;
+        bool json = false, verify = false;
+    };
+    auto options = std::make_shared<Options>();
+    app.add_option(
+           "FILE", options->path,
+           "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
+           "model (.vxm), MagicaVoxel file (.vox), array or scan (.npy .nrrd .nii), file of "
+           "another voxel editor or game, or mesh")
+        ->required();
+    app.add_flag("--json", options->json, "print the result as JSON");
+    app.add_flag("--verify", options->verify, "compare all of FILE with the checksum in it");
+    return [options] {
+        const std::string path = first_slice(options->path);
+        if (options->verify) check_integrity(path);
+        const bool is_stack = path != options->path;
+        print_report(report_of(is_stack ? describe_slices(path) : describe_file(path)),
+                     options->json);
+        return 0;
+    };
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// voxelume view: a look at a volumetric image, as a picture or as a page for a browser.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/slice_names.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+constexpr int kMinSide = 64;
+
+struct ViewCommand {
+    std::string from, size = "1280x1000", device;
+    std::vector<std::string> outputs;
+    double around = 35, above = 25;
+    double exposure = 0;
+};
+
+/// The volumetric image of a file, or of what a model file holds. OpenVDB files are the former.
+Volume volume_of(const ViewCommand& command) {
+    const std::string from = first_slice(command.from);
+    if (ending_of(from) == ".vdb" || !is_model_file(from)) return Volume::read(from);
+    ImportOptions options;
+    options.lattice = true;
+    return render_volume(scene_of_file(from, options), {Device::open(command.device)});
+}
+
+int run(const ViewCommand& command) {
+    const Size size = parse_size(command.size, "view");
+    if (size[0] < kMinSide || size[1] < kMinSide)
+        fail_usage("view: --size {}: a sheet has at least {} pixels a side", command.size,
+                   kMinSide);
+    for (const std::string& output : command.outputs)
+        check_output(output, {".png", ".html"}, "view");
+    const Volume volume = volume_of(command);
+    const ViewPoint view{command.around, command.above};
+    for (const std::string& output : command.outputs) {
+        if (ending_of(output) == ".html")
+            volume.write_page(output, view, command.exposure);
+        else
+            volume.view(view, size).write(output, {.exposure = command.exposure});
+    }
+    return 0;
+}
+
+}  // namespace
+
+Action add_view(CLI::App& app) {
+    const auto command = std::make_shared<ViewCommand>();
+    app.add_option("VOLUME", command->from,
+                   "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file: .obj "
+                   ".ply .stl .gltf .glb .vxm .vox")
+        ->required();
+    app.add_option("-o,--output", command->outputs,
+                   ".png: views from the front and from a side, and slices from near to far; "
+                   ".html: a page to turn and slice it in; may be given again")
+        ->required()
+        ->allow_extra_args(false);
+    app.add_option("--around", command->around,
+                   "angle of the side view to the observer's right, in degrees; 35 by default")
+        ->check(in_range(-360, 360));
+    app.add_option("--above", command->above,
+                   "angle of the side view from above, in degrees; 25 by default")
+        ->check(in_range(-90, 90));
+    app.add_option("--size", command->size,
+                   "size of the .png, WIDTHxHEIGHT in pixels; 1280x1000 by default")
+        ->type_name("WIDTHxHEIGHT");
+    app.add_option("--device", command->device,
+                   "device for model files: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE");
+    app.add_option("--exposure", command->exposure, "exposure in stops, 0 by default")
+        ->check(in_range(-64, 64));
+    return [command] { return run(*command); };
+}
+
+}  // namespace voxelume::cli

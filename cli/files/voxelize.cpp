@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// voxelume voxelize FILE: the voxels of a mesh, of a file of voxels or of a scene, as files for
+// this and other programs.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/shared/checks.hpp"
+#include "cli/shared/commands.hpp"
+#include "cli/shared/scene_options.hpp"
+#include "cli/shared/slice_names.hpp"
+#include "cli/shared/tell.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+struct VoxelizeCommand {
+    std::string file;
+    std::vector<std::string> outputs;
+    double voxel_size = 0;
+    int resolution = 0;
+    int frame = 0;                      ///< 0: not given
+    std::string surface, set, normals;  ///< empty: not given
+    std::string device;
+    std::vector<std::filesystem::path> assets;
+    bool quiet = false;
+};
+
+constexpr std::array kSurfaces = {std::pair{std::string_view("smooth"), Surface::smooth},
+                                  std::pair{std::string_view("cubes"), Surface::cubes},
+                                  std::pair{std::string_view("exact"), Surface::exact}};
+constexpr std::array kSets = {std::pair{std::string_view("supercover"), VoxelSet::supercover},
+                              std::pair{std::string_view("thin"), VoxelSet::thin},
+                              std::pair{std::string_view("solid"), VoxelSet::solid}};
+
+constexpr std::array kNormals = {std::pair{std::string_view("faces"), CubeNormals::faces},
+                                 std::pair{std::string_view("surface"), CubeNormals::surface}};
+
+constexpr std::initializer_list<const char*> kCubeEndings = {".vox", ".kv6", ".binvox", ".npy",
+                                                             ".nrrd"};
+
+/// Without --surface a mesh is smooth, but in files that hold cubes alone.
+Surface surface_of(const VoxelizeCommand& command) {
+    if (!command.surface.empty()) return choose(command.surface, kSurfaces, "voxelize: --surface");
+    const bool all_cubes = std::ranges::all_of(command.outputs, [](const std::string& output) {
+        return std::ranges::count(kCubeEndings, ending_of(output)) > 0;
+    });
+    return all_cubes ? Surface::cubes : Surface::smooth;
+}
+
+VoxelizeOptions options_of(const VoxelizeCommand& command) {
+    VoxelizeOptions options;
+    options.voxel_size = command.voxel_size;
+    if (command.resolution > 0) options.resolution = command.resolution;
+    options.surface = surface_of(command);
+    if (!command.set.empty()) options.set = choose(command.set, kSets, "voxelize: --set");
+    if (!command.normals.empty())
+        options.normals = choose(command.normals, kNormals, "voxelize: --normals");
+    if (options.surface != Surface::cubes && options.set != VoxelSet::supercover)
+        fail_usage("voxelize: --set {}: only cubes have sets: add --surface cubes", command.set);
+    if (options.surface != Surface::cubes && options.normals != CubeNormals::faces)
+        fail_usage(
+            "voxelize: --normals {}: only cubes have a choice of normals: add --surface cubes",
+            command.normals);
+    return options;
+}
+
+void tell_notes(const VoxelizeCommand& command, const std::vector<std::string>& notes) {
+    if (command.quiet) return;
+    for (const std::string& note : notes) tell("note: {}\n", note);
+}
+
+/// Tells of voxels that were made of something, as in "12 triangles".
+void tell_of(const VoxelizeCommand& command, const std::string& what, const VoxelizeReport& report,
+             const Device& device) {
+    if (!command.quiet)
+        tell("{} to {}x{}x{} voxels of {:.4g} m in {:.2f} s on \"{}\": {} bricks\n", what,
+             report.size[0], report.size[1], report.size[2], report.voxel_size, report.seconds,
+             device.info().name, report.bricks);
+    tell_notes(command, report.notes);
+}
+
+void voxelize_mesh(const VoxelizeCommand& command) {
+    if (command.frame > 0)
+        fail_usage("voxelize: --frame is for scenes; `import` makes one of a file that moves");
+    const VoxelizeOptions options = options_of(command);
+    const Device device = Device::open(command.device);
+    const VoxelizeReport report =
+        voxelize(command.file, {command.outputs.begin(), command.outputs.end()}, device, options);
+    tell_of(command, fmt::format("{} triangles", report.triangles), report, device);
+}
+
+/// Scenes and files of voxels are cubes anyway.
+void refuse_mesh_options(const VoxelizeCommand& command) {
+    const bool is_other = !command.surface.empty() && command.surface != "cubes";
+    if (is_other || !command.set.empty() || !command.normals.empty())
+        fail_usage(
+            "voxelize: {} is for meshes: scenes and files of voxels become cubes, by the "
+            "\"set\" of each model",
+            is_other               ? "--surface"
+            : !command.set.empty() ? "--set"
+                                   : "--normals");
+}
+
+void voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
+    const Device device = Device::open(command.device);
+    const VoxelizeSceneOptions options{
+        command.voxel_size, command.resolution, std::max(command.frame, 1), {}};
+    const VoxelizeReport report =
+        voxelize_scene(scene, {command.outputs.begin(), command.outputs.end()}, device, options);
+    const size_t count = scene.object_names().size();
+    tell_of(command, fmt::format("{} object{}", count, count == 1 ? "" : "s"), report, device);
+}
+
+/// The voxels that a file has, or larger and smaller ones in their place.
+void voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
+    if (command.voxel_size > 0 || command.resolution > 0 || command.frame > 0) {
+        ImportOptions import;
+        import.ground = false;
+        return voxelize_scene(command, scene_of_file(file, import));
+    }
+    for (const std::string& output : command.outputs)
+        tell_notes(command, convert_voxels(file, output));
+}
+
+void check_voxels_output(const std::string& path) {
+    check_output(path, {".vxm", ".vdb", ".vox", ".kv6", ".binvox", ".npy", ".nrrd"}, "voxelize");
+    if (path.find('#') != std::string::npos)
+        fail_usage(
+            "voxelize: {}: one frame's voxels are written, so no #### counts them: choose the "
+            "frame by --frame",
+            path);
+}
+
+int run(const VoxelizeCommand& command) {
+    if (command.outputs.empty()) fail_usage("voxelize: say where the voxels go: -o model.vxm");
+    for (const std::string& path : command.outputs) check_voxels_output(path);
+    const std::string file = first_slice(command.file), ending = ending_of(file);
+    constexpr std::array kMeshEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    const bool is_scene = ending == ".json" || file == "-";
+    const bool is_mesh =
+        std::ranges::count(kMeshEndings, ending) > 0 || (!is_scene && !is_model_file(file));
+    if (is_mesh) {
+        voxelize_mesh(command);
+        return 0;
+    }
+    refuse_mesh_options(command);
+    if (is_scene)
+        voxelize_scene(command, load_scene(file, {command.assets, {}, {}, 0}));
+    else
+        voxelize_voxels(command, file);
+    return 0;
+}
+
+}  // namespace
+
+Action add_voxelize(CLI::App& app) {
+    const auto command = std::make_shared<VoxelizeCommand>();
+    app.add_option(
+           "FILE", command->file,
+           "triangle mesh, .obj .ply .stl .gltf .glb; file of voxels, as `info` tells; or "
+           "scene, .json, all of whose objects become cubes; - is a scene from standard input")
+        ->required();
+    app.add_option("-o,--output", command->outputs,
+                   "output: model .vxm or OpenVDB volume .vdb, or of cubes .vox .kv6 .binvox .npy "
+                   ".nrrd; may be given again")
+        ->allow_extra_args(false);
+    const auto size =
+        app.add_option("--voxel-size", command->voxel_size, "edge of a voxel in metres")
+            ->check(in_range(1e-9, 1e9));
+    app.add_option(
+           "--resolution", command->resolution,
+           "voxels along the longest side; if neither is given, 256 of a mesh, and else the "
+           "voxels that there are")
+        ->check(in_range(1, 16384, Number::whole))
+        ->excludes(size);
+    app.add_option(
+           "--surface", command->surface,
+           "surface of a mesh: smooth (a distance field; the default, but for files of cubes), "
+           "cubes, or exact (lists of triangles)")
+        ->type_name("smooth|cubes|exact");
+    app.add_option("--set", command->set,
+                   "voxel set of a mesh as cubes: supercover (the default), thin or solid")
+        ->type_name("supercover|thin|solid");
+    app.add_option("--normals", command->normals,
+                   "normals that light cubes: faces (the default), or surface (those of the mesh, "
+                   "kept in .vxm)")
+        ->type_name("faces|surface");
+    app.add_option("--frame", command->frame, "frame of a scene that moves; 1 by default")
+        ->check(in_range(1, 1000000, Number::whole));
+    app.add_option("--assets", command->assets,
+                   "folder to look for a scene's models in; may be given again")
+        ->allow_extra_args(false);
+    app.add_option("--device", command->device,
+                   "device: auto, cpu, gpu, a number, or part of a name")
+        ->type_name("DEVICE");
+    app.add_flag("-q,--quiet", command->quiet, "print errors only");
+    return [command] { return run(*command); };
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rendering a scene takes, for people and programs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "cli/shared/report.hpp"
+#include "cli/shared/scene_options.hpp"
+#include "cli/shared/warnings.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+/// Three digits are what an estimate is good for.
+double three_digits(double value) {
+    return std::stod(fmt::format("{:.3g}", value));
+}
+
+double megabytes(double bytes) {
+    return three_digits(bytes / 1e6);
+}
+
+uint64_t count(double estimate) {
+    return uint64_t(std::llround(estimate));
+}
+
+Report grid_row(const GridPlan& grid) {
+    Report row = {{"grid", grid.name},
+                  {"voxels", fmt::format("{}", fmt::join(grid.size, "x"))},
+                  {"triangles", nullptr},
+                  {"surface voxels", count(grid.surface_voxels)},
+                  {"bricks", count(grid.bricks)},
+                  {"MB while made", megabytes(grid.made_bytes)},
+                  {"MB kept", megabytes(grid.kept_bytes)}};
+    if (grid.triangles) row["triangles"] = *grid.triangles;
+    return row;
+}
+
+Report surface_rows(const Plan& plan) {
+    Report rows = Report::array();
+    for (const SurfacePlan& surface : plan.surfaces)
+        rows.push_back(
+            {{"model", surface.model}, {"surface", surface.surface}, {"because", surface.reason}});
+    return rows;
+}
+
+Report plan_report(const Plan& plan, const Device& device) {
+    Report report;
+    if (!plan.surfaces.empty()) report["surfaces"] = surface_rows(plan);
+    report["grids"] = Report::array();
+    for (const GridPlan& grid : plan.grids) report["grids"].push_back(grid_row(grid));
+    report["device"] = device.info().name;
+    report["stages"] = Report::array();
+    for (const StagePlan& stage : plan.stages)
+        report["stages"].push_back(
+            {{"stage", stage.name},
+             {"MB", megabytes(stage.bytes)},
+             {"% of device", three_digits(stage.bytes / plan.device_bytes * 100)}});
+    report["largest buffer"] = bytes_text(plan.largest_buffer_bytes);
+    report["main memory"] = bytes_text(plan.host_bytes);
+    return report;
+}
+
+/// What the text ends with, for programs.
+void add_verdict(const Plan& plan, Report& report) {
+    report["verdict"] = name_of(plan.verdict);
+    report["least MB"] = megabytes(plan.min_bytes);
+    report["most MB"] = megabytes(plan.max_bytes);
+    report["device MB"] = megabytes(plan.device_bytes);
+    report["warnings"] = Report::array();
+    for (const Warning& warning : plan.warnings)
+        report["warnings"].push_back(
+            {{"kind", name_of(warning.kind)}, {"where", warning.where}, {"text", warning.text}});
+}
+
+/// What the scene leaves out, as values to copy into it.
+void print_fitted(const Scene& scene) {
+    if (scene.has_default_light())
+        fmt::print(
+            "The scene has no \"lights\", so one shines from the observer's upper left.\n\n");
+    if (scene.fitted().empty()) return;
+    fmt::print("What the scene leaves out was found from its objects. To keep it, copy:\n");
+    std::istringstream lines(scene.fitted());
+    for (std::string line; std::getline(lines, line);) fmt::print("  {}\n", line);
+    fmt::print("\n");
+}
+
+/// Returns what was fitted as an object of JSON, for programs.
+Report fitted_report(const Scene& scene) {
+    std::string text = scene.fitted();
+    if (!text.empty()) text.pop_back();
+    std::ranges::replace(text, '\n', ',');
+    return Report::parse("{" + text + "}");
+}
+
+void print_verdict(const Plan& plan, bool is_of_frames) {
+    const std::string of_frames = is_of_frames ? fmt::format(" by frame {}", plan.frame) : "";
+    const std::string needed = plan.verdict == Verdict::fits
+                                   ? fmt::format("fits: at most {}", bytes_text(plan.max_bytes))
+                                   : fmt::format("may fit: {} to {}", bytes_text(plan.min_bytes),
+                                                 bytes_text(plan.max_bytes));
+    fmt::print("\n{} of {} are needed{}; counts and memory are estimates\n", needed,
+               bytes_text(plan.device_bytes), of_frames);
+}
+
+}  // namespace
+
+void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
+                const PlanPrint& print) {
+    const Plan plan = voxelume::plan(scene, device, options);
+    tell_warnings(plan.warnings, print.quiet, print.strict);
+    const bool as_json = print.as_json;
+    if (!as_json) {
+        fmt::print("{}\n", scene.describe());
+        print_fitted(scene);
+    }
+    Report report = plan_report(plan, device);
+    if (scene.moves()) report["frame"] = plan.frame;
+    if (as_json) {
+        if (!scene.fitted().empty()) report["fitted"] = fitted_report(scene);
+        add_verdict(plan, report);
+    }
+    print_report(report, as_json);
+    if (plan.refusal) throw *plan.refusal;
+    if (as_json) return;
+    const size_t frames =
+        options.frames.empty() ? size_t(scene.moves() ? scene.frames() : 1) : options.frames.size();
+    print_verdict(plan, frames > 1);
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// One job of `render`: a scene to its files.
+#include "cli/render/render_job.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "cli/output/channels.hpp"
+#include "cli/output/crop.hpp"
+#include "cli/output/output_stream.hpp"
+#include "cli/output/view_transforms.hpp"
+#include "cli/render/finished_files.hpp"
+#include "cli/render/render_progress.hpp"
+#include "cli/render/render_report.hpp"
+#include "cli/render/shard_part.hpp"
+#include "cli/shared/checks.hpp"
+#include "cli/shared/interrupt.hpp"
+#include "cli/shared/tell.hpp"
+#include "cli/shared/warnings.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+/// The scene with the part of the image that --crop names.
+Scene cropped(const Scene& scene, const std::string& text) {
+    const ImagePart part = part_of(text, scene);
+    return scene.with_crop(part.first, part.size);
+}
+
+/// `-q` silences what nobody asked for by name.
+ProgressStyle style_of(const RenderCommand& command) {
+    const ProgressStyle style = progress_style(command.progress);
+    return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
+}
+
+/// Says how many of the frames are there, and why others are rendered again.
+void tell_of(const Finished& finished, size_t count) {
+    if (finished.frames > 0) tell("{} of {} frames are there already\n", finished.frames, count);
+    const auto again = [](size_t files, const char* one, const char* several) {
+        if (files > 0) tell("{} {}, and rendered again\n", files, files == 1 ? one : several);
+    };
+    again(finished.damaged, "file is damaged or has no hash in it",
+          "files are damaged or have no hash in them");
+    again(finished.changed, "file is of another scene, file, option or version",
+          "files are of another scene, file, option or version");
+}
+
+/// Leaves the frames that have to be rendered, and tells of the others. Returns whether any are
+/// left.
+bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
+    const size_t count = job.frames.size();
+    if (count == 0 && !command.quiet)
+        tell("this part has nothing to render: there are more parts than frames or rows\n");
+    const std::vector<int> numbers = numbers_of(job.frames);
+    const Finished finished =
+        skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
+    if (job.frames.empty() && OutputStream(command.outputs).is_wanted()) {
+        job.frames.push_back({numbers.front(), {}, {}});  // its image goes to the stream anyway
+        return true;
+    }
+    if (!command.quiet) tell_of(finished, count);
+    return !job.frames.empty();
+}
+
+/// The files of a run, or of a part of it.
+struct RunFiles {
+    FrameJob job;
+    std::string label;  ///< of the progress
+    bool is_part = false;
+};
+
+/// Renders the files of a run, and tells of them while it does.
+Statistics render_files(const Scene& scene, const std::vector<Device>& devices, RunFiles run,
+                        const RenderCommand& command) {
+    FrameJob& job = run.job;
+    RenderProgress progress(run.label, job.frames.size(), style_of(command));
+    const Interruptible interruptible;
+    RenderOptions render;
+    render.stop = interruptible.stop();
+    render.cache = cache_options(command.scene);
+    render.overlap = !command.one_by_one;
+    render.time_kernels = command.verbose || !command.stats.empty();
+    render.progress = [&](double done, int frame) { progress.advance(done, frame); };
+    render.compiling = [&](int kernel, int known) { progress.compiling(kernel, known); };
+    render.strict = command.scene.strict;
+    render.is_part = run.is_part;
+    if (!command.quiet) render.warn = warning_printer(render.strict, [&] { progress.clear(); });
+    const OutputStream stream(command.outputs);
+    if (stream.is_wanted()) {
+        job.deliver_images = true;
+        render.channels = stream.channels(job.image_files);
+    }
+    job.deliver = [&, files = job.frames.begin()](const RenderedFrame& frame) mutable {
+        if (stream.is_wanted()) stream.write(*frame.image, job.image_files);
+        progress.written(*files++);
+    };
+    return render_frames(scene, devices, job, render);
+}
+
+}  // namespace
+
+const std::vector<Device>& LazyDevices::open() {
+    if (devices_.empty()) devices_ = Device::open_all(selector_);
+    return devices_;
+}
+
+void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const std::string& label) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [start] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    FrameJob job;
+    job.image_files = {command.exposure,
+                       parse_view_transform(command.view_transform, "render: --view-transform"),
+                       command.png_bits,
+                       command.float_color,
+                       parse_channels(command.channels, "render: --channels"),
+                       command.multi_part};
+    Scene scene = read_with(command.scene, "render");
+    job.frames = frame_files(command, scene);
+    check_files(job.frames, scene, command);
+    if (!command.quilt.views.empty())
+        return render_quilts(command, scene, job, lazy_devices.open(), label);
+    if (!command.crop.empty() && command.outputs.empty() && !command.volumes.empty())
+        fail_usage("render: --crop is of images, and no -o names one; --volume is whole anyway");
+    if (!command.crop.empty()) scene = cropped(scene, command.crop);
+    std::optional<ShardPart> part;
+    if (!command.shard.empty()) part.emplace(command, scene, job);
+    const size_t frames = job.frames.size();
+    if (!command.plan_only && !remove_finished(scene, command, job)) {
+        if (part) part->write();
+        Statistics statistics;
+        statistics.total_seconds = seconds();
+        if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
+        return;
+    }
+    const std::vector<Device>& devices = lazy_devices.open();
+    if (command.plan_only) {
+        print_plan(scene, devices[0],
+                   {numbers_of(job.frames), needed_channels(job), cache_options(command.scene)},
+                   {.quiet = command.quiet, .strict = command.scene.strict});
+        return;
+    }
+    if (!command.quiet && scene.has_default_light())
+        tell("note: {}\n",
+             harmless_line(fmt::format("{}: has no \"lights\", so one shines from the "
+                                       "observer's upper left; \"lights\": [] is dark",
+                                       scene.file().string())));
+    const double open_seconds = seconds();
+    const bool is_part = part.has_value() || job.frames.size() < frames;
+    Statistics statistics = render_files(scene, devices, {std::move(job), label, is_part}, command);
+    statistics.open_seconds += open_seconds;
+    if (part) part->write();
+    statistics.total_seconds = seconds();
+    if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
+    if (command.quiet) return;
+    print_summary(statistics);
+    if (command.verbose) print_details(statistics);
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// One job of `render`: a scene to its files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/render/frame_files.hpp"
+
+namespace voxelume::cli {
+
+/// The devices of a selector, opened once, when the first scene to be rendered was read.
+class LazyDevices {
+  public:
+    explicit LazyDevices(std::string selector) : selector_(std::move(selector)) {}
+    const std::vector<Device>& open();
+
+  private:
+    std::string selector_;
+    std::vector<Device> devices_;
+};
+
+/// Reads the command's scene and writes what it asks for, or plans it; `label` stands before the
+/// progress bar. Throws Error.
+void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const std::string& label);
+
+}  // namespace voxelume::cli

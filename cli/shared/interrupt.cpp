@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/shared/interrupt.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "cli/shared/tell.hpp"
+#include "runtime/voxelume.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+// `timeout` sends its signal to the program and to its group, which are two signals for the
+// program.
+constexpr std::chrono::milliseconds kTogether{300};
+
+std::atomic<int> signal_number = 0;
+std::atomic<int> interruptibles = 0;
+std::atomic<std::chrono::milliseconds> grace;  // of the last of them
+std::mutex telling;
+bool is_told = false;  // with `telling` held
+
+/// Never destroyed: the thread may use it when the process ends.
+std::stop_source& stop_source() {
+    static auto* const source = new std::stop_source;
+    return *source;
+}
+
+/// What the program says when it ends in the middle of something.
+void tell_end() {
+    tell_interruption(
+        [] { tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted"); });
+}
+
+std::atomic<pid_t> ending_thread = 0;
+
+/// PoCL aborts where the files that it is about to compile or load were removed. The thread in
+/// which it does waits until the process ends, which another thread is about to do.
+void outlast_abort(int) {
+    if (gettid() == ending_thread) _exit(interrupted_code());
+    for (;;) pause();
+}
+
+/// Waits for one of the signals, which are blocked.
+void wait_for_signal(const sigset_t& signals) {
+    int number = 0;
+    if (sigwait(&signals, &number) != 0) return;
+    signal_number = number;
+    stop_source().request_stop();
+    if (interruptibles > 0) {
+        std::this_thread::sleep_for(kTogether);
+        constexpr timespec kNow{};
+        while (sigtimedwait(&signals, nullptr, &kNow) > 0) {
+        }
+        // A later signal, of either kind, is the system's to handle.
+        std::signal(SIGINT, SIG_DFL);
+        std::signal(SIGTERM, SIG_DFL);
+        pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+        std::this_thread::sleep_for(grace.load() - kTogether);
+    }
+    tell_end();
+    ending_thread = gettid();
+    std::signal(SIGABRT, outlast_abort);
+    remove_unfinished_files();
+    _exit(interrupted_code());
+}
+
+bool is_ignored(int number) {
+    struct sigaction action {};
+    return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+void handle_interrupts() {
+    stop_source();
+    // The signals are blocked in every thread, since LLVM has handlers of its own while PoCL
+    // compiles: they would take the signals that are ignored, too, and while one of them runs, a
+    // second signal would end the program at once. PoCL's linker, a process of its own, inherits
+    // the mask, so that it isn't ended before the program is.
+    sigset_t all, awaited;
+    sigemptyset(&all);
+    sigemptyset(&awaited);
+    for (const int number : {SIGINT, SIGTERM}) {
+        sigaddset(&all, number);
+        if (!is_ignored(number)) sigaddset(&awaited, number);
+    }
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);
+    std::thread(wait_for_signal, awaited).detach();
+}
+
+Interruptible::Interruptible(std::chrono::milliseconds own_grace) {
+    grace = own_grace;
+    ++interruptibles;
+}
+
+Interruptible::~Interruptible() {
+    --interruptibles;
+}
+
+std::stop_token Interruptible::stop() const {
+    return stop_source().get_token();
+}
+
+int interrupted_code() {
+    return 128 + (signal_number == SIGTERM ? SIGTERM : SIGINT);
+}
+
+void tell_interruption(const std::function<void()>& say) {
+    const std::lock_guard locked(telling);
+    if (!std::exchange(is_told, true)) say();
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+// paths on their way through a scattering medium -> the points where it scatters them, the light
+// there, and the next rays of the paths.
+//
+// How far light comes is sampled exactly: the sum of density times length is inverted voxel by
+// voxel, without rejections ("regular tracking"). Where the three colours are scattered differently
+// one of them chooses the length, and all share it by the balance heuristic (Veach & Guibas 1995).
+// Absorption is no chance but a weight, as on all rays.
+#include "lib/lanes/exact_exp.h"
+#include "lib/lanes/work_item.h"
+#include "lib/light/area_points.h"
+#include "lib/light/child_rays.h"
+#include "lib/light/direct_light.h"
+#include "lib/light/light_rays.h"
+#include "lib/light/phase.h"
+#include "lib/light/sent_rays.h"
+#include "lib/traverse/segment.h"
+
+/// How far paths come.
+typedef struct {
+    lane_float t;
+    lane_float depth;  // sum of density times t up to there
+    lane_int ends;     // mask: the medium scatters them there
+} Flight;
+
+/// Flies through the voxels of the segments up to where density times t sums up to `sought`.
+static inline Flight fly_through_grid(PyramidShape shape, const DensityView* density,
+                                      const Segment* s, lane_float sought, lane_int active) {
+    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+    Flight f = {s->t_last, zero, (lane_int)0};
+    lane_float lost = zero, entered = s->t_first, entered_low = zero;
+    const PyramidView p = grid_view(shape);
+    Walk walk = walk_along(s);
+    lane_int walking = active & in_grid(&p, &walk) & LANE_MASK(s->t_first < s->t_last);
+    while (lanes_any(walking)) {
+        const DensityCell cell = look_up_density(density, walk.x, walk.y, walk.z, walking);
+        const lane_float begins = entered, before = f.depth - lost;
+        const Stretch stretch = cross_cell(&p, density, &walk, &cell, s->t_first, s->t_last,
+                                           &entered, &entered_low, walking);
+        const lane_float left = sought - before;
+        const lane_int ends = stretch.counts & LANE_MASK(cell.density > 0.0f) &
+                              LANE_MASK(cell.density * stretch.length > left);
+        const lane_float part = exact_divide(left, LANES_SELECT(ends, cell.density, one));
+        f.t = LANES_SELECT(ends, begins + part, f.t);
+        f.ends |= ends;
+        add_exactly(&f.depth, &lost, cell.density * stretch.length, stretch.counts & ~ends);
+        walking &= ~(ends | stretch.ends) & in_grid(&p, &walk);
+    }
+    f.depth = LANES_SELECT(f.ends, sought, f.depth - lost);
+    return f;
+}
+
+/// Flies along the segments of the `active` lanes up to where density times t sums up to `sought`.
+static inline Flight fly(PyramidShape shape, const DensityView* density, const Segment* s,
+                         lane_float sought, lane_int active) {
+    if (VXL_MEDIUM_GRID) return fly_through_grid(shape, density, s, sought, active);
+    const Segment inside = part_in_world(shape, *s);
+    const lane_float length = fmax(inside.t_last - inside.t_first, 0.0f);
+    Flight f;
+    f.ends = active & LANE_MASK(sought < length);
+    f.depth = LANES_SELECT(f.ends, sought, LANES_SELECT(active, length, (lane_float)0.0f));
+    f.t = LANES_SELECT(f.ends, inside.t_first + sought, s->t_last);
+    return f;
+}
+
+/// The optical depth at which light of one of the colours is scattered, over its rate: a sum of
+/// density times metres. Infinite for a colour that isn't scattered.
+static inline lane_float sought_depth(const MediumScattering* m, SquarePoint p) {
+    const lane_float third = p.y * 3.0f;
+    const lane_float rate =
+        LANES_SELECT(LANE_MASK(third < 1.0f), (lane_float)m->per_metre[0],
+                     LANES_SELECT(LANE_MASK(third < 2.0f), (lane_float)m->per_metre[1],
+                                  (lane_float)m->per_metre[2]));
+    const lane_int some = LANE_MASK(rate > 0.0f);
+    const lane_float depth =
+        exact_divide(-exact_log(1.0f - p.x), LANES_SELECT(some, rate, (lane_float)1.0f));
+    return LANES_SELECT(some, fmax(depth, 0.0f), (lane_float)INFINITY);
+}
+
+/// Multiplies the throughput of paths by what each colour has of those that come through `depth`,
+/// and are scattered there in the `ends` lanes, over what their sampling has of all colours.
+static inline void weigh_colors(const MediumScattering* m, lane_float depth, lane_int ends,
+                                lane_int active, lane_float* throughput) {
+    const float* rates = m->per_metre;
+    if (rates[0] == rates[1] && rates[1] == rates[2]) return;
+    lane_float share[3], sum = (lane_float)0.0f;
+    for (int c = 0; c < 3; ++c) {
+        share[c] = exact_exp(-rates[c] * depth);
+        share[c] *= LANES_SELECT(ends, (lane_float)rates[c], (lane_float)1.0f);
+        sum += share[c];
+    }
+    const lane_int some = active & LANE_MASK(sum > 0.0f);
+    const lane_float safe = LANES_SELECT(some, sum, (lane_float)1.0f);
+    for (int c = 0; c < 3; ++c)
+        throughput[c] *= LANES_SELECT(some, exact_divide(3.0f * share[c], safe), (lane_float)1.0f);
+}
+
+/// What a point in the medium begins with: the way on which the path came, with no surface around.
+static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float t, lane_uint target,
+                               lane_uint state) {
+    const float one = shape.fixed_point;
+    const lane_float zero = (lane_float)0.0f;
+    NewRays r;
+    const Vector at = add_scaled(s->origin, s->direction, t);
+    r.origin.x = clamp(snap_position(at.x, zero, one), 0.0f, (float)shape.size_x);
+    r.origin.y = clamp(snap_position(at.y, zero, one), 0.0f, (float)shape.size_y);
+    r.origin.z = clamp(snap_position(at.z, zero, one), 0.0f, (float)shape.size_z);
+    r.direction = s->direction;
+    r.t_end = (lane_float)INFINITY;
+    r.source = (lane_uint)VXL_NO_PRIMITIVE;
+    r.instance = (lane_uint)VXL_NO_INSTANCE;
+    r.flags = r.emitter = r.cell_xy = r.cell_z = r.medium = (lane_uint)0;
+    r.travelled = r.width = r.start = r.clear = r.weight = zero;
+    r.media = empty_medium_set();
+    r.target = target;
+    r.state = state;
+    return r;
+}
+
+/// Finds the paths that the medium scatters before the surfaces that their rays have met, among
+/// entries 0 .. count-1: puts the points, with the throughput of the light from there, into a
+/// queue, and marks the entries, whose end transmittance[0] has. Paths inside of objects are
+/// scattered nowhere.
+kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
+                              VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS,
+                              PathSampling sampling, VXL_BATCH_PARAMETERS, uint count,
+                              global uint* restrict counters, VXL_QUEUE_PARAMETERS,
+                              global uint* restrict point_hits,
+                              global float* restrict point_radiance) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const RayBatch batch = VXL_BATCH;
+    const RayQueue points = VXL_QUEUE;
+    const DensityView density = VXL_DENSITY;
+    const MediumScattering medium = VXL_MEDIUM_SCATTERING;
+    lane_int active =
+        below(first, count) & LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
+    if (VXL_TRANSMISSION) active &= LANE_MASK(LANES_LOAD(inside, first) == 0u);
+    const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
+    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
+    const PathSamples samples = path_samples(&sampling, target, state);
+    const Segment segment = sight_segment(&batch, first);
+    const lane_float metres = metres_per_t(shape.edge, segment.direction);
+    const lane_float sought = sought_depth(&medium, path_point(&samples, VXL_DECISION_FLIGHT));
+    const lane_float per_t = exact_divide(sought, LANES_SELECT(active, metres, (lane_float)1.0f));
+    const Flight flight = fly(shape, &density, &segment, per_t, active);
+
+    const lane_float depth = flight.depth * metres;
+    lane_float throughput[3];
+    for (uint c = 0; c < 3; ++c)
+        throughput[c] = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
+    weigh_colors(&medium, depth, flight.ends, active, throughput);
+    NewRays point = point_of(shape, &segment, flight.t, target, state);
+    const float absorbed[3] = {absorption.x, absorption.y, absorption.z};
+    for (uint c = 0; c < 3; ++c) {
+        point.throughput[c] = throughput[c] * exact_exp(-absorbed[c] * depth);
+        const lane_float kept = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
+        LANES_STORE(LANES_AS_UINT(LANES_SELECT(flight.ends, kept, throughput[c])), paths,
+                    (VXL_PATH_THROUGHPUT + c) * stride + first);
+    }
+    LANES_STORE(LANES_SELECT(flight.ends, state | VXL_STATE_IN_MEDIUM, state), paths,
+                VXL_PATH_STATE * stride + first);
+    if (!lanes_any(flight.ends)) return;
+    LANES_STORE(flight.t, transmittance, first);
+    if (VXL_TRANSMISSION) {
+        const lane_uint clear = LANES_LOAD(paths, VXL_PATH_CLEAR * stride + first);
+        LANES_STORE(LANES_SELECT(flight.ends, (lane_uint)0, clear), paths,
+                    VXL_PATH_CLEAR * stride + first);
+    }
+    const Slots slots = reserve_slots(flight.ends, counters + VXL_COUNT_CHILDREN);
+    put_rays(&points, &point, &slots);
+    put_uint(point_hits + VXL_HIT_VOXEL * points.stride, (lane_uint)VXL_NO_VOXEL, &slots);
+    if (VXL_INSTANCES)
+        put_uint(point_hits + VXL_HIT_INSTANCE * points.stride, (lane_uint)VXL_NO_INSTANCE, &slots);
+    for (uint c = 0; c < 3; ++c)
+        put_float(point_radiance + c * points.stride, (lane_float)0.0f, &slots);
+}
+
+/// Adds the light that a source sends from the points `from` and the medium scatters towards the
+/// viewer: every point gets a slot in the queue of shadow rays. A light's intensity is pi times its
+/// power per solid angle, as Lambert's surfaces have it.
+static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vector from, float g,
+                                     const ShadowQueue* queue, const RayBatch* batch, uint first,
+                                     lane_int valid) {
+    const uint stride = batch->stride;
+    const float4 edge = shape.edge;
+    const Vector at = load_vector(batch->rays, stride, first);
+    const Vector way =
+        unit(scaled(load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), edge));
+    const Vector nowhere = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
+    Incidence i;
+    i.to_light = light.kind == VXL_LIGHT_DIRECTIONAL ? from : difference(from, at);
+    const Vector metric = scaled(i.to_light, edge);
+    const lane_float squared = dot_product(metric, metric);
+    i.lit = valid & LANE_MASK(squared > 0.0f);
+    i.l = unit(metric);
+    i.falloff = falloff_of(light, i.l, squared, i.lit);
+    i.lit &= LANE_MASK(i.falloff > 0.0f);
+    if (!lanes_any(i.lit)) return;
+    LitRays r;
+    aim_at_light(shape, light, &i, at, nowhere, &r);
+    const lane_float scattered = 3.14159265f * phase_density(g, dot_product(way, i.l)) * i.falloff;
+    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
+    for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * intensity[c];
+    queue_rays(queue, &r, i.lit, (lane_uint)VXL_NO_PRIMITIVE, stride, first);
+}
+
+/// Adds one light that shines from one point or direction to points in the medium.
+kernel void add_light_to_medium(PyramidShape shape, LightRecord light,
+                                VXL_SCATTERING_PARAMETER VXL_SHADOW_QUEUE_PARAMETERS,
+                                VXL_BATCH_PARAMETERS, uint count) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const RayBatch batch = VXL_BATCH;
+    const ShadowQueue queue = VXL_SHADOW_QUEUE;
+    const MediumScattering medium = VXL_MEDIUM_SCATTERING;
+    const Vector from = {(lane_float)light.position.x, (lane_float)light.position.y,
+                         (lane_float)light.position.z};
+    shine_into_medium(shape, light, from, medium.anisotropy, &queue, &batch, first,
+                      below(first, count));
+}
+
+#if VXL_AREA_SAMPLES
+/// Adds light number `number`, which has an area, to points in the medium: each sends a shadow ray
+/// to a point of the light that the path's sample chooses.
+kernel void add_area_light_to_medium(PyramidShape shape, LightRecord light, LightAreaRecord area,
+                                     PathSampling sampling, uint number,
+                                     VXL_SCATTERING_PARAMETER VXL_SHADOW_QUEUE_PARAMETERS,
+                                     VXL_BATCH_PARAMETERS, uint count) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const RayBatch batch = VXL_BATCH;
+    const ShadowQueue queue = VXL_SHADOW_QUEUE;
+    const MediumScattering medium = VXL_MEDIUM_SCATTERING;
+    const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
+    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
+    const PathSamples samples = path_samples(&sampling, target, state);
+    const Vector from = area_point(light, area, &samples, number);
+    shine_into_medium(shape, light, from, medium.anisotropy, &queue, &batch, first,
+                      below(first, count));
+}
+#endif
+
+/// Ends some of the paths that bring little light: the mask of those that go on, whose throughput
+/// stands for all.
+static inline lane_int keep_some(lane_float chance, lane_uint bounces, lane_float* throughput) {
+    const lane_float one = (lane_float)1.0f;
+    const lane_float brings = largest(throughput);
+    const lane_int asked = LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES) & LANE_MASK(brings < 1.0f);
+    const lane_int stays = LANE_MASK(brings > 0.0f) & (LANE_MASK(chance < brings) | ~asked);
+    const lane_float scale = exact_reciprocal(LANES_SELECT(stays & asked, brings, one));
+    for (int c = 0; c < 3; ++c) throughput[c] *= scale;
+    return stays;
+}
+
+/// Fills rays from points in the medium to emitters or the sky. Returns the mask of rays to send.
+static inline lane_int look_from_medium(PyramidShape shape, const MediumScattering* medium,
+                                        Vector way, lane_int wanted, const PathSamples* samples,
+                                        const Emitters* emitters, const SkyMap* sky, NewRays* r) {
+    const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
+    const Vector nowhere = {zero, zero, zero};
+    const EmitterRays s = choose_light(emitters, sky, samples, r->origin, shape.edge);
+    const lane_float scattered = phase_density(medium->anisotropy, dot_product(way, s.direction));
+    wanted &= s.found;
+    lane_float density = s.density;
+    if ((VXL_EMITTERS == VXL_EMITTERS_BOTH) | (VXL_SKY_RAYS == VXL_EMITTERS_BOTH))
+        density += scattered;
+    const lane_float share = exact_divide(scattered, LANES_SELECT(wanted, density, one));
+    for (int c = 0; c < 3; ++c) r->throughput[c] *= share;
+    set_out_child(r, shape, r->origin, nowhere, select_vector(wanted, s.direction, way));
+    const lane_int ends = wanted & LANE_MASK(s.number != VXL_EMITTER_IS_SKY);
+    const lane_float metres = LANES_SELECT(ends, s.metres, one);
+    r->t_end = LANES_SELECT(ends, t_after(metres, r->direction, shape.edge), r->t_end);
+    r->emitter = s.number;
+    return wanted;
+}
+
+/// Adds the light at points 0 .. count-1 in the medium to the light of the sight rays that their
+/// paths began as, sends each path on, behind `taken` rays of the queue, unless it ends, and a ray
+/// to an emitter.
+kernel void extend_in_medium(PyramidShape shape, VXL_SCATTERING_PARAMETER PathSampling sampling,
+                             VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
+                             global uint* restrict counters, uint taken, VXL_QUEUE_PARAMETERS,
+                             VXL_EMITTER_PARAMETERS VXL_SOUGHT_SKY_PARAMETERS
+                                 VXL_EMITTER_QUEUE_PARAMETERS) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const RayBatch batch = VXL_BATCH;
+    const NodeLight nodes = VXL_NODES;
+    const RayQueue queue = VXL_QUEUE;
+    const MediumScattering medium = VXL_MEDIUM_SCATTERING;
+    const lane_int valid = below(first, count);
+    const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
+    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
+    const Segment came = {load_vector(batch.rays, stride, first),
+                          load_vector(batch.rays + VXL_RAY_DX * stride, stride, first),
+                          (lane_float)0.0f, (lane_float)0.0f};
+    NewRays ray = point_of(shape, &came, (lane_float)0.0f, target, state);
+    for (uint c = 0; c < 3; ++c) {
+        ray.throughput[c] = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
+        add_to_nodes(&nodes, c, valid, target,
+                     ray.throughput[c] * LANES_LOAD(radiance, c * stride + first), 0);
+    }
+    const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
+    lane_int goes_on = valid & LANE_MASK(bounces < sampling.bounces);
+    if (!lanes_any(goes_on)) return;
+    const PathSamples samples = path_samples(&sampling, target, state);
+    const Vector way = unit(scaled(came.direction, shape.edge));
+
+    const Emitters table = VXL_EMITTER_TABLE;
+    const SkyMap sky = VXL_SOUGHT_SKY;
+    const bool finds_light = VXL_SKY_RAYS ? true : table.count > 0u;
+    if (VXL_LOOKS && finds_light) {
+        const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        NewRays to = ray;
+        const lane_int wanted =
+            look_from_medium(shape, &medium, way, goes_on, &samples, &table, &sky, &to);
+        send_to_emitters(&sent, wanted, target, state, sampling.bounces, &to, counters);
+    }
+    goes_on &= keep_some(path_point(&samples, VXL_DECISION_LOBE).y, bounces, ray.throughput);
+    const Vector ahead =
+        phase_direction(medium.anisotropy, way, path_point(&samples, VXL_DECISION_DIRECTION));
+    const Vector nowhere = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
+    set_out_child(&ray, shape, ray.origin, nowhere, ahead);
+    if (VXL_LOOKS) {
+        const Vector direction = unit(scaled(ray.direction, shape.edge));
+        ray.emitter = LANES_AS_UINT(phase_density(medium.anisotropy, dot_product(way, direction)));
+    }
+    ray.state = met_after(state) | ((bounces + 1u) << VXL_STATE_BOUNCE_SHIFT) | VXL_STATE_DIFFUSE;
+    Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
+    slots.first += taken;
+    put_rays(&queue, &ray, &slots);
+}

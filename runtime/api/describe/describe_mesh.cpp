@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is in a mesh file.
+#include "runtime/api/describe/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/io/gltf/gltf_animation.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/memory/plan.hpp"
+
+namespace voxelume::api {
+namespace {
+
+/// What the mesh becomes as a smooth model.
+Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
+                     const MeshSummary& summary, const MeshShape& shape, int resolution) {
+    Model model;
+    model.mesh = path;
+    model.where = path.string();
+    model.resolution = resolution;
+    const GridPlan plan = plan_model(model, mesh);
+    const glm::ivec3 size = plan.frame.size - 2 * kModelMargin;
+    const SurfaceChoice choice = surface_for(summary, shape, plan.frame.voxel_edge.x);
+    return {{"resolution", resolution},
+            {"voxel edge", plan.frame.voxel_edge.x},
+            {"voxels", fmt::format("{}x{}x{}", size.x, size.y, size.z)},
+            {"surface voxels, about", uint64_t(std::llround(plan.voxels))},
+            {"MB smooth, about", std::stod(fmt::format("{:.3g}", plan.kept_bytes / 1e6))},
+            {"surface", kind_of(choice.surface).name},
+            {"because", choice.reason}};
+}
+
+/// The clips of a glTF file, and how many nodes each moves.
+Report clips_in(const GltfFile& file) {
+    Report clips = Report::array();
+    for (size_t number = 0; number < file.root().size("animations"); ++number) {
+        const GltfClip clip = gltf_clip(file, number);
+        std::set<int> nodes;
+        for (const GltfTrack& track : clip.tracks) nodes.insert(track.node);
+        clips.push_back({{"name", clip.name}, {"seconds", clip.seconds}, {"nodes", nodes.size()}});
+    }
+    return clips;
+}
+
+}  // namespace
+
+Report describe_mesh(const std::filesystem::path& path) {
+    Report clips = Report::array();
+    Mesh mesh;
+    if (is_gltf_file(path)) {
+        const GltfFile file(read_mesh_bytes(path), path);
+        mesh = gltf_mesh(file, 0);
+        clips = clips_in(file);
+    } else {
+        mesh = read_mesh(path);
+    }
+    const MeshSummary summary = summary_of(mesh);
+    const Bounds& box = summary.surface;
+    const uint64_t open = summary.topology.open_edges;
+    const MeshShape shape = shape_of(mesh);
+    Report report = {{"kind", "triangle mesh"},
+                     {"triangles", mesh.triangles.size()},
+                     {"vertices", mesh.positions.size()},
+                     {"vertex colors", !mesh.vertex_colors.empty()},
+                     {"groups", mesh.group_names},
+                     {"closed", open == 0},
+                     {"open edges", open},
+                     {"sharp edges, m", shape.sharp_length},
+                     {"thickness, m", shape.thickness.body},
+                     {"thickness of thin parts, m", shape.thickness.part}};
+    report["min"] = {box.min.x, box.min.y, box.min.z};
+    report["max"] = {box.max.x, box.max.y, box.max.z};
+    if (!mesh.triangle_colors.empty()) report["face colors"] = true;
+    if (!mesh.textures.empty()) report["textures"] = Report::array();
+    for (const Texture& texture : mesh.textures)
+        report["textures"].push_back({texture.image->width, texture.image->height});
+    if (summary.paint.mapped > 0)
+        report["texture maps"] = "roughness, metalness or emission, which \"cubes\" don't show";
+    if (summary.paint.has_alpha) report["texture alpha"] = "only \"exact\" surfaces show it";
+    if (!clips.empty()) report["clips"] = clips;
+    if (!mesh.notes.empty()) report["notes"] = mesh.notes;
+    if (box.min == box.max) return report;
+    report["as voxels"] = Report::array();
+    for (const int resolution : {128, 256, 512, 1024})
+        report["as voxels"].push_back(at_resolution(path, mesh, summary, shape, resolution));
+    return report;
+}
+
+}  // namespace voxelume::api

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/base/files/private_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t kOthersWrite = S_IWGRP | S_IWOTH;
+
+void make_folders(const fs::path& path) {
+    fs::path folder;
+    for (const fs::path& part : path) {
+        folder /= part;
+        mkdir(folder.c_str(), 0700);  // a failure shows when it is opened
+    }
+}
+
+}  // namespace
+
+PrivateFolder PrivateFolder::open(const fs::path& path) {
+    return open_trusted(path, false);
+}
+
+PrivateFolder PrivateFolder::open_base(const fs::path& path) {
+    return open_trusted(path, true);
+}
+
+PrivateFolder PrivateFolder::open_trusted(const fs::path& path, bool may_be_roots) {
+    PrivateFolder folder;
+    // With a slash at its end, a link's target would be opened.
+    const fs::path name = path.has_filename() ? path : path.parent_path();
+    folder.descriptor_ =
+        ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (folder.descriptor_ < 0) {
+        folder.is_missing_ = errno == ENOENT;
+        struct stat status {};
+        const bool is_link = lstat(name.c_str(), &status) == 0 && S_ISLNK(status.st_mode);
+        folder.refusal_ = is_link ? "a link in the place of a folder isn't followed"
+                                  : std::strerror(errno == ELOOP ? ENOTDIR : errno);
+        return folder;
+    }
+    struct stat status {};
+    if (fstat(folder.descriptor_, &status) != 0)
+        folder.refusal_ = std::strerror(errno);
+    else if (status.st_uid != geteuid() && !(may_be_roots && status.st_uid == 0))
+        folder.refusal_ = "it belongs to another user";
+    else if (status.st_mode & kOthersWrite)
+        folder.refusal_ = "other users may write to it; `chmod go-w` forbids them";
+    if (!folder.refusal_.empty()) close(std::exchange(folder.descriptor_, -1));
+    return folder;
+}
+
+PrivateFolder PrivateFolder::make(const fs::path& path) {
+    PrivateFolder folder = open(path);
+    if (!folder.is_missing()) return folder;
+    make_folders(path);
+    return open(path);
+}
+
+PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      refusal_(std::move(other.refusal_)),
+      is_missing_(other.is_missing_) {}
+
+PrivateFolder::~PrivateFolder() {
+    if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool make_safe_parent(const fs::path& path) {
+    make_folders(path);
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return false;
+    if (status.st_uid != geteuid() && status.st_uid != 0) return false;
+    return !(status.st_mode & kOthersWrite) || (status.st_mode & S_ISVTX);
+}
+
+}  // namespace voxelume

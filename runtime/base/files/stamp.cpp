@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/base/files/stamp.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace voxelume {
+namespace {
+
+constexpr std::string_view kStampBegin = "voxelume-frame=", kStampMiddle = " check=";
+constexpr size_t kHashDigits = 32, kCheckDigits = kStampCheckDigits;
+constexpr size_t kStampLength =
+    kStampBegin.size() + kHashDigits + kStampMiddle.size() + kCheckDigits;
+constexpr size_t kStampHeader = size_t{1} << 20;  // stamps lie in the headers of files
+constexpr std::string_view kPngStart = "\x89PNG\r\n\x1a\n";
+constexpr std::string_view kTextChunk = "tEXt";
+
+/// The CRC-32 of PNG's chunks, bit by bit: it is that of a hundred bytes.
+uint32_t crc_of(std::string_view bytes) {
+    uint32_t sum = ~0u;
+    for (const char byte : bytes) {
+        sum ^= static_cast<unsigned char>(byte);
+        for (int bit = 0; bit < 8; ++bit) sum = (sum & 1) ? (sum >> 1) ^ 0xedb88320u : sum >> 1;
+    }
+    return ~sum;
+}
+
+/// Where a stamp's check is, and how many bytes from there on no hash covers.
+struct StampPlace {
+    size_t hash = 0, check = 0;
+    size_t blank = kCheckDigits;
+    std::optional<size_t> chunk;  ///< of a PNG: where the type of the text's chunk begins
+};
+
+bool is_hex(std::string_view text) {
+    return text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
+std::optional<StampPlace> find_stamp(std::string_view header) {
+    const size_t begin = header.find(kStampBegin);
+    if (begin == header.npos || begin + kStampLength > header.size()) return {};
+    const size_t hash = begin + kStampBegin.size(), middle = hash + kHashDigits;
+    const size_t check = middle + kStampMiddle.size();
+    if (header.substr(middle, kStampMiddle.size()) != kStampMiddle ||
+        !is_hex(header.substr(hash, kHashDigits)) || !is_hex(header.substr(check, kCheckDigits)))
+        return {};
+    StampPlace place{hash, check, kCheckDigits, {}};
+    if (!header.starts_with(kPngStart)) return place;
+    // The text is the end of its chunk, whose checksum of four bytes follows.
+    place.blank += 4;
+    place.chunk = header.rfind(kTextChunk, begin);
+    if (*place.chunk == header.npos || check + place.blank > header.size()) return {};
+    return place;
+}
+
+/// The hash of bytes that arrive one after another, with zeros in the place of some.
+class StampHasher {
+  public:
+    StampHasher() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+
+    void add(std::string_view bytes) {
+        XXH3_64bits_update(state_.get(), bytes.data(), bytes.size());
+    }
+    std::string digits() const { return fmt::format("{:016x}", XXH3_64bits_digest(state_.get())); }
+
+  private:
+    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+};
+
+/// The first bytes of a file, and the rest in pieces.
+class StampReader {
+  public:
+    explicit StampReader(int descriptor) : descriptor_(descriptor) {}
+
+    bool read(std::string& bytes, size_t count) {
+        bytes.resize(count);
+        size_t filled = 0;
+        while (filled < count) {
+            const ssize_t now =
+                pread(descriptor_, bytes.data() + filled, count - filled, off_t(position_));
+            if (now < 0 && errno == EINTR) continue;
+            if (now < 0) return false;
+            if (now == 0) break;
+            filled += size_t(now);
+            position_ += size_t(now);
+        }
+        bytes.resize(filled);
+        return true;
+    }
+
+  private:
+    int descriptor_;
+    size_t position_ = 0;
+};
+
+/// The check of a file whose first bytes are `header`; empty when the rest can't be read.
+std::string check_of(std::string header, const StampPlace& place, StampReader& rest) {
+    std::memset(&header[place.check], 0, place.blank);
+    StampHasher hasher;
+    hasher.add(header);
+    std::string block;
+    do {
+        if (!rest.read(block, kStampHeader)) return {};
+        hasher.add(block);
+    } while (!block.empty());
+    return hasher.digits();
+}
+
+/// Puts the check, and the checksum of a PNG's chunk, into the header.
+void put_check(std::string& header, const StampPlace& place, const std::string& digits) {
+    header.replace(place.check, kCheckDigits, digits);
+    if (!place.chunk) return;
+    const size_t end = place.check + kCheckDigits;
+    const uint32_t sum = crc_of(std::string_view(header).substr(*place.chunk, end - *place.chunk));
+    for (size_t i = 0; i < 4; ++i) header[end + i] = char(sum >> (24 - 8 * i));
+}
+
+/// A file to read, and the stamp near its start.
+class StampedFile {
+  public:
+    explicit StampedFile(const std::filesystem::path& path)
+        : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)),
+          is_missing_(descriptor_ < 0 && errno == ENOENT),
+          rest_(descriptor_) {
+        struct stat status {};
+        if (descriptor_ >= 0 && fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
+            rest_.read(header_, kStampHeader))
+            place_ = find_stamp(header_);
+    }
+    ~StampedFile() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+    StampedFile(const StampedFile&) = delete;
+    StampedFile& operator=(const StampedFile&) = delete;
+
+    bool is_missing() const { return is_missing_; }
+    bool has_stamp() const { return place_.has_value(); }
+    std::string_view hash() const {
+        return std::string_view(header_).substr(place_->hash, kHashDigits);
+    }
+    /// Reads all of the file, once.
+    bool is_whole() {
+        const std::string_view check =
+            std::string_view(header_).substr(place_->check, kCheckDigits);
+        return check_of(header_, *place_, rest_) == check;
+    }
+
+  private:
+    int descriptor_;
+    bool is_missing_;
+    StampReader rest_;
+    std::string header_;
+    std::optional<StampPlace> place_;
+};
+
+}  // namespace
+
+std::string stamp_of(std::string_view hash) {
+    return fmt::format("{}{}{}{:016x}", kStampBegin, hash, kStampMiddle, 0);
+}
+
+std::optional<size_t> stamp_check_place(std::string_view header) {
+    const std::optional<StampPlace> place = find_stamp(header.substr(0, kStampHeader));
+    return place ? std::optional(place->check) : std::nullopt;
+}
+
+bool seal(std::string& bytes) {
+    const std::optional<StampPlace> place =
+        find_stamp(std::string_view(bytes).substr(0, kStampHeader));
+    if (!place) return false;
+    std::string blank = bytes;
+    std::memset(&blank[place->check], 0, place->blank);
+    StampHasher hasher;
+    hasher.add(blank);
+    put_check(bytes, *place, hasher.digits());
+    return true;
+}
+
+bool seal(int descriptor) noexcept try {
+    StampReader reader(descriptor);
+    std::string header;
+    if (!reader.read(header, kStampHeader)) return false;
+    const std::optional<StampPlace> place = find_stamp(header);
+    if (!place) return false;
+    const std::string digits = check_of(header, *place, reader);
+    if (digits.empty()) return false;
+    put_check(header, *place, digits);
+    return pwrite(descriptor, &header[place->check], place->blank, off_t(place->check)) ==
+           ssize_t(place->blank);
+} catch (const std::exception&) {
+    return false;
+}
+
+StampState check_stamp(const std::filesystem::path& file, std::string_view hash) {
+    StampedFile stamped(file);
+    if (stamped.is_missing()) return StampState::missing;
+    if (!stamped.has_stamp()) return StampState::damaged;
+    if (stamped.hash() != hash) return StampState::stale;
+    return stamped.is_whole() ? StampState::current : StampState::damaged;
+}
+
+std::optional<bool> is_as_written(const std::filesystem::path& file) {
+    StampedFile stamped(file);
+    return stamped.has_stamp() ? std::optional(stamped.is_whole()) : std::nullopt;
+}
+
+}  // namespace voxelume

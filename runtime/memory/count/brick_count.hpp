@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// solid and lattice -> the bricks that its surface is stored in, and its voxels: counted by
+// distances, from large cubes of bricks down to those that hold some of it.
+#pragma once
+
+#include <vector>
+
+#include "runtime/geometry/surface_extent.hpp"
+#include "runtime/grid/grid.hpp"
+#include "runtime/memory/count/solid_field.hpp"
+
+namespace voxelume {
+
+/// Which bricks a stage stores for a surface.
+struct BrickRule {
+    double first = 0, last = 0;  ///< the box that decides, in voxels from the brick's corner
+    double reach = 0;           ///< how far from it the surface may be, in shortest edges of voxels
+    bool keeps_inside = false;  ///< bricks inside of the solid are stored, too
+    bool fills = false;         ///< all voxels inside of the solid are stored, in bricks that are
+    bool closes_ends = false;   ///< where the lattice ends, the solid has a surface
+    /// How far outside of a voxel a surface may be that still counts as in it, in edges: at least
+    /// what rounding leaves of faces between two layers of voxels, which both meet.
+    double cover = 1e-6;
+
+    friend bool operator==(const BrickRule&, const BrickRule&) = default;
+};
+
+/// The rules of voxelizing a model in its own space, and of placing it in a world, where a brick
+/// extends over `spread` times its edges along the axes of the object.
+BrickRule model_rule(Surface surface, bool is_solid_set);
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread = 1);
+
+/// The bricks of a lattice that are stored for any object.
+class TakenBricks {
+  public:
+    explicit TakenBricks(const GridFrame& frame) : table_(frame.bricks()) {}
+
+    /// Takes a brick; true if it was not taken before. In a very large lattice each counts as new.
+    bool take(const glm::ivec3& brick);
+
+  private:
+    glm::ivec3 table_;
+    std::vector<bool> taken_;  ///< empty before the first
+};
+
+/// The voxels of a solid's surface and its bricks, and those of them that weren't taken before.
+struct BrickCount {
+    SurfaceExtent extent;
+    double new_bricks = 0;
+};
+
+/// Counts what a solid's surface takes in the `box` of `frame`'s voxels by such a rule. Large
+/// surfaces are counted in coarser lattices.
+BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
+                        const BrickRule& rule, TakenBricks& taken);
+
+}  // namespace voxelume

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/memory/count/count_display.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/analysis/medium_set.hpp"
+#include "runtime/analysis/scene_features.hpp"
+#include "runtime/stages/display/display_cover.hpp"
+#include "runtime/stages/display/display_frame.hpp"
+#include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/stages/display/display_rays.hpp"
+#include "runtime/stages/trace/sight.hpp"
+
+namespace voxelume {
+namespace {
+
+/// What light takes with batches of rays that begin at a display.
+struct DisplayLight {
+    RayArrays rays;
+    DensityGrid density;
+    Buffer<uint8_t> tables;
+};
+
+DisplayLight count_light(const Device& device, const Scene& scene, const Features& features,
+                         RayCounts counts, const DensityPlan& medium) {
+    DisplayLight light;
+    light.rays = allocate_rays(device, features, counts);
+    light.tables = count_tables(device, scene);
+    if (features.medium_grid) light.density = allocate_density(device, medium.size);
+    return light;
+}
+
+/// The number of voxels with surface that a lattice whose voxels have this `edge` has of the
+/// world's surface.
+double surface_voxels(const Pyramid& world, double edge) {
+    const glm::dvec3& e = world.frame.voxel_edge;
+    const double own = std::cbrt(e.x * e.y * e.z) / edge;
+    return double(world.voxel_count) * own * own;
+}
+
+/// The count as it is numbered on devices, which refuse larger ones.
+uint32_t numbered(double count) {
+    return uint32_t(std::min(count, double(UINT32_MAX - 16)));
+}
+
+double mean_edge(const glm::dvec3& edge) {
+    return std::cbrt(edge.x * edge.y * edge.z);
+}
+
+/// The number of points where probe lines cross surfaces. The lines are no further apart than the
+/// world's voxels.
+double probe_points(const VolumeFrame& frame, const Pyramid& world) {
+    const glm::dvec3& e = world.frame.voxel_edge;
+    const double widest = std::min({e.x, e.y, e.z});
+    const glm::dvec3 spacing = frame.edge / glm::max(glm::ceil(frame.edge / widest - 1e-6), 1.0);
+    return surface_voxels(world, mean_edge(spacing));
+}
+
+class DisplayCounter {
+  public:
+    DisplayCounter(const Device& device, const Scene& scene, const Pyramid& world,
+                   const DensityPlan& medium, Estimate estimate)
+        : device_(device),
+          scene_(scene),
+          world_(world),
+          medium_(medium),
+          frame_(display_frame(scene)),
+          features_(features_of(scene, world)),
+          is_least_(estimate == Estimate::minimum) {}
+
+    void run() {
+        if (frame_.layout == VolumeLayout::rays)
+            rays();
+        else
+            lattice();
+    }
+
+  private:
+    /// Follows VolumeRenderer in the layout `rays`.
+    void rays() {
+        const uint32_t tiles = tile_count(frame_.size.x, frame_.size.y), all = tiles * 16;
+        const uint32_t in_batch = batch_tiles(device_, features_, 1, tiles) * 16;
+        const DisplayLight light =
+            count_light(device_, scene_, features_, counts_of(in_batch), medium_);
+        const auto of = dilation_that_pays(features_, world_, all, pixel_width());
+        const DilatedOccupancy dilated_occupancy =
+            of ? count_dilated_occupancy(device_, world_, *of) : DilatedOccupancy();
+        const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
+        const RayDepths kept = allocate_ray_depths(device_, features_, all);
+        if (features_.transmission || features_.medium_grid) return;
+        const double steps = features_.medium && !is_least_ ? double(frame_.size.z) / 2 : 1;
+        const Buffer<uint32_t> starts(device_, "display counts",
+                                      size_t(frame_.size.y) * size_t(frame_.size.z));
+        allocate_voxels(device_, is_least_ ? 1 : numbered(steps * all));
+    }
+
+    /// Follows VolumeRenderer in the layout `lattice`. All arrays stay, except the points that
+    /// aren't shown.
+    void lattice() {
+        const Features features = begun_anywhere(features_, scene_);
+        const uint32_t batch = batch_rays(device_, features);
+        const DisplayLight light =
+            count_light(device_, scene_, features, counts_of(batch), medium_);
+        const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
+        const Buffer<float> crossings =
+            allocate_crossings(device_, scanned_lines(batch), kFirstSlots);
+        const Buffer<uint32_t> surfaces =
+            features.transmission ? allocate_surfaces(device_, scanned_lines(batch), kFirstSlots)
+                                  : Buffer<uint32_t>();
+        const Buffer<uint32_t> lines(device_, "probe counts", scanned_lines(batch));
+        const double found = is_least_ ? 16 : probe_points(frame_, world_);
+        const double shown =
+            is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
+        const ProbePoints points = allocate_points(device_, numbered(found));
+        choose(numbered(shown));
+    }
+
+    /// Counts the voxels that are shown, and their points.
+    void choose(uint32_t shown) const {
+        const VoxelArrays voxels = allocate_voxels(device_, shown);
+        const ProbePoints chosen = allocate_points(device_, shown);
+        const Buffer<uint32_t> distances(device_, "display distances", shown);
+        const Buffer<uint32_t> numbers(device_, "display numbers", shown);
+        if (!features_.transmission) return;
+        const Buffer<uint32_t> covers = allocate_covers(device_, shown);
+    }
+
+    RayCounts counts_of(uint32_t rays) const {
+        RayCounts counts = ray_counts(device_, scene_, features_);
+        counts.rays = rays;
+        if (is_least_) counts.depth = std::min<size_t>(counts.depth, 1);
+        return counts;
+    }
+
+    double pixel_width() const {
+        Scene scene = scene_;
+        scene.render.size = {frame_.size.x, frame_.size.y};
+        scene.render.crop = {};
+        scene.render.samples = 1;
+        return voxels_a_pixel(scene, camera_of(scene, world_.frame), world_.frame);
+    }
+
+    const Device& device_;
+    const Scene& scene_;
+    const Pyramid& world_;
+    const DensityPlan& medium_;
+    VolumeFrame frame_;
+    Features features_;
+    bool is_least_;
+};
+
+}  // namespace
+
+void count_volume(const Device& device, const Scene& scene, const Pyramid& world,
+                  const DensityPlan& medium, Estimate estimate) {
+    Scene all_channels = scene;
+    all_channels.render.channels = {};
+    all_channels.render.light = LightMode::local;
+    all_channels.observer.aperture = 0;
+    all_channels.render.filter = {};
+    DisplayCounter(device, all_channels, world, medium, estimate).run();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene + world on a counting device -> what rendering its volumetric image takes there.
+#pragma once
+
+#include "runtime/memory/count/count_image.hpp"
+#include "runtime/memory/count/object_counts.hpp"
+
+namespace voxelume {
+
+/// Makes the device count all that render_volume's image of a world takes, without the world.
+///
+/// The number of voxels that a display shows follows from the areas of surfaces: a lattice shows as
+/// many as a world of such voxels has, a ray shows one, and with a medium half of its steps.
+void count_volume(const Device& device, const Scene& scene, const Pyramid& world,
+                  const DensityPlan& medium, Estimate estimate);
+
+}  // namespace voxelume

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/memory/count/count_grids.hpp"
+
+#include "kernels/shared/normal.h"
+#include "kernels/shared/solid.h"
+#include "kernels/shared/texture.h"
+#include "runtime/stages/brick_arrays.hpp"
+#include "runtime/stages/voxelize/voxelize_steps.hpp"
+#include "runtime/stages/voxelize/voxelize_textures.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The number of bricks that a small triangle passes through, and the number that it is near.
+constexpr double kBinsPerTriangle = 1.3, kBinsInBand = 2.5;
+
+/// Follows bin_triangles.
+TriangleBins sort_triangles(const Device& device, const GridCounts& counts, double per_triangle) {
+    const glm::ivec3 bricks = counts.frame.bricks();
+    const size_t bins = size_t(bricks.x + 1) * size_t(bricks.y) * size_t(bricks.z);
+    const Buffer<uint32_t> cursors = allocate_cursors(device, bins);
+    const auto pairs = size_t(per_triangle * double(counts.triangles)) + counts.bricks;
+    return allocate_bins(device, {bins, counts.bricks, counts.bricks, pairs});
+}
+
+/// Follows find_inside.
+Buffer<uint16_t> count_inside(const Device& device, const GridCounts& counts) {
+    const Windings windings =
+        allocate_windings(device, counts.bricks, counts.bricks, brick_places(counts.frame));
+    return allocate_inside(device, counts.bricks);
+}
+
+/// Follows label_voxels.
+void count_labels(const Device& device, const GridCounts& counts, BrickGrid& grid) {
+    const TriangleBins lists = sort_triangles(device, counts, kBinsInBand);
+    const Buffer<uint32_t> nearest = allocate_words(device, "nearest triangles", counts.bricks);
+    const Buffer<float> shapes = allocate_shapes(device, counts.triangles);
+    if (counts.words) {
+        const Buffer<uint32_t> words(device, "triangle attributes", counts.triangles);
+        grid.attributes = allocate_words(device, "voxel attributes", counts.bricks);
+    }
+    if (counts.paint.is_there()) {
+        const MeshPaint& paint = counts.paint;
+        const Buffer<float> colors(device, "vertex colors", 3 * paint.colors);
+        const Buffer<uint32_t> indices(device, "corner colors",
+                                       paint.has_corner_colors ? 3 * counts.triangles : 0);
+        const Buffer<uint32_t> texels(device, kTexels, paint.texels);
+        const Buffer<float> uvs(device, kUvs, 2 * paint.uvs);
+        const Buffer<uint32_t> corners(device, kCornerUvs,
+                                       paint.has_corner_uvs ? 3 * counts.triangles : 0);
+        const Buffer<uint32_t> words(device, kTextureWords,
+                                     paint.texels > 0 ? counts.triangles : 0);
+        grid.colors = allocate_words(device, "voxel colors", counts.bricks);
+    }
+    if (!counts.cube_normals) return;
+    const Buffer<uint32_t> corners(device, "corner normals",
+                                   counts.normals ? VXL_TRIANGLE_NORMALS * counts.triangles : 0);
+    grid.normals = allocate_words(device, "voxel normals", counts.bricks);
+}
+
+BrickGrid empty_grid(const GridCounts& counts) {
+    BrickGrid grid;
+    grid.frame = counts.frame;
+    grid.brick_count = uint32_t(counts.bricks);
+    return grid;
+}
+
+void count_surface(const Device& device, const GridCounts& counts, BrickGrid& grid) {
+    if (counts.surface == Surface::smooth) {
+        const Buffer<uint16_t> inside = count_inside(device, counts);
+        const Buffer<float> shapes = allocate_shapes(device, counts.triangles);
+        grid.distance = allocate_distances(device, "distances", counts.bricks);
+        return;
+    }
+    const bool is_solid = counts.surface == Surface::cubes && counts.set == VoxelSet::solid;
+    const Buffer<uint16_t> inside = is_solid ? count_inside(device, counts) : Buffer<uint16_t>();
+    grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
+}
+
+/// Follows list_primitives, keep_triangles, keep_normals and keep_textures.
+void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& grid) {
+    const auto listed = size_t(kTrianglesPerVoxel * double(counts.voxels));
+    grid.primitive_first = allocate_list_starts(device, "primitive starts", counts.bricks);
+    grid.primitives = Buffer<uint32_t>(device, "primitives", listed);
+    grid.triangles =
+        Buffer<float>(device, "source triangles", kFloatsPerTriangle * counts.triangles);
+    grid.triangle_attributes = Buffer<uint32_t>(device, "source attributes", counts.triangles);
+    if (counts.normals)
+        grid.triangle_normals =
+            Buffer<uint32_t>(device, "source normals", VXL_TRIANGLE_NORMALS * counts.triangles);
+    if (counts.paint.texels == 0) return;
+    grid.triangle_textures =
+        Buffer<uint32_t>(device, "source texture places", VXL_WORN_WORDS * counts.triangles);
+    grid.textures = Buffer<uint32_t>(device, "source textures", texture_words(counts.paint));
+    grid.texture_key = counts.texture_key;
+    grid.texture_alpha = counts.paint.has_alpha;
+    grid.texture_maps = counts.paint.mapped > 0;
+}
+
+}  // namespace
+
+BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts) {
+    BrickGrid grid = empty_grid(counts);
+    const DeviceTriangles mesh = allocate_triangles(device, counts.vertices, counts.triangles);
+    const TriangleBins bins = sort_triangles(
+        device, counts, counts.surface == Surface::smooth ? kBinsInBand : kBinsPerTriangle);
+    grid.coordinates = bins.coordinates;
+    grid.slots = allocate_slots(device, "brick slots", counts.frame);
+    count_surface(device, counts, grid);
+    if (counts.surface == Surface::exact) count_triangles(device, counts, grid);
+    if (counts.words || counts.paint.is_there() || counts.cube_normals)
+        count_labels(device, counts, grid);
+    return grid;
+}
+
+BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
+    BrickGrid grid = empty_grid(counts);
+    const Buffer<uint32_t> solids(device, "solids", counts.shapes * VXL_SOLID_WORDS);
+    {
+        const Buffer<uint32_t> states(device, "brick states", brick_places(counts.frame));
+        grid.slots = allocate_slots(device, "slots", counts.frame);
+        grid.coordinates = Buffer<uint32_t>(device, "coordinates", counts.bricks);
+    }
+    if (counts.surface == Surface::smooth) {
+        grid.distance = allocate_distances(device, "distance", counts.bricks);
+        return grid;
+    }
+    {
+        grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
+        const Buffer<uint64_t> undecided =
+            allocate_masks(device, "undecided voxels", counts.bricks);
+    }
+    if (counts.cube_normals) grid.normals = allocate_words(device, "voxel normals", counts.bricks);
+    if (counts.surface != Surface::exact) return grid;
+    grid.primitive_first = allocate_list_starts(device, "primitive_first", counts.bricks);
+    grid.primitives = Buffer<uint32_t>(device, "primitives", counts.voxels);
+    grid.solids = solids;
+    return grid;
+}
+
+BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts) {
+    GridCounts space = counts;
+    space.words = false;
+    space.paint = {};
+    const bool is_shell = counts.surface != Surface::smooth && counts.set != VoxelSet::solid;
+    const BrickGrid rest = count_solid_grid(device, space);
+    const BrickGrid body = is_shell ? count_mesh_grid(device, space) : BrickGrid();
+    const BrickGrid inside = is_shell ? count_solid_grid(device, space) : BrickGrid();
+    BrickGrid grid = empty_grid(counts);
+    grid.slots = allocate_slots(device, "slots", counts.frame);
+    grid.coordinates = Buffer<uint32_t>(device, "coordinates", counts.bricks);
+    if (counts.surface == Surface::smooth)
+        grid.distance = allocate_distances(device, "distance", counts.bricks);
+    else
+        grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
+    const Buffer<uint32_t> sources(device, "source slots", 4 * counts.bricks);
+    if (!whole.attributes.empty())
+        grid.attributes = allocate_words(device, "voxel attributes", counts.bricks);
+    if (!whole.colors.empty()) grid.colors = allocate_words(device, "voxel colors", counts.bricks);
+    if (!whole.normals.empty())
+        grid.normals = allocate_words(device, "voxel normals", counts.bricks);
+    return grid;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene -> how many bricks and voxels its grids and its world are expected to hold, or hold at
+// least.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "runtime/analysis/object_lattice.hpp"
+#include "runtime/memory/count/brick_count.hpp"
+#include "runtime/memory/count/count_grids.hpp"
+#include "runtime/memory/count/count_world.hpp"
+#include "runtime/memory/count/plan_extent.hpp"
+#include "runtime/memory/count/plan_object.hpp"
+
+namespace voxelume {
+
+enum class Estimate : uint8_t {
+    expected,  ///< with a margin for what surfaces' areas and distances don't tell
+    minimum    ///< what can't be less
+};
+
+/// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
+class ObjectCounts {
+  public:
+    ObjectCounts(const Scene& scene, AssetStore& meshes)
+        : scene_(scene), meshes_(meshes), extents_(scene, meshes), lattices_(scene, meshes) {}
+
+    /// The grid of a model in its own space; of an object in the world's, or a part of it.
+    GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
+    GridCounts object_grid(const Object& object, const GridFrame& frame, Estimate estimate);
+
+    /// What the objects' voxels take of the world.
+    WorldCounts world(Estimate estimate);
+
+    /// The bricks that the objects are expected in for which `objects` is true.
+    PartBricks changed_bricks(const std::vector<bool>& objects);
+
+    /// As object_boxes.
+    const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
+
+  private:
+    const VoxelBox& box_of(const Object& object) {
+        return boxes()[size_t(&object - scene_.objects.data())];
+    }
+    /// The numbers of the objects in the world's voxels; those of smooth objects come last.
+    std::vector<size_t> placed_numbers();
+    bool is_smooth(size_t number) const;
+    WorldCounts expected_world();
+    WorldCounts least_world();
+    SurfaceExtent solid_extent(const Model& model, const GridFrame& frame);
+    SurfaceExtent object_extent(const Object& object, const GridFrame& frame);
+    BrickCount expected_in_world(const Object& object, TakenBricks& taken);
+    WorldExtent least_in_world(size_t number);
+    SurfaceExtent least_of_voxels(const Object& object, const VoxelModel& voxels);
+
+    const Scene& scene_;
+    AssetStore& meshes_;
+    ObjectExtents extents_;
+    ObjectLattices lattices_;
+    /// In their own spaces, by the edges of voxels.
+    std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
+    std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
+    std::optional<WorldCounts> expected_;                ///< in the world
+    std::vector<SurfaceExtent> in_world_;                ///< of each object, of these
+};
+
+/// The grid of a mesh whose surface has such an area.
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
+                     const SurfaceArea& area);
+
+/// The voxels that rays must see of a grid, and the primitives that these list.
+WorldCounts indexed_counts(const GridCounts& grid);
+
+}  // namespace voxelume

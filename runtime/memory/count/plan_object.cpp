@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/memory/count/plan_object.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/grid/world_frame.hpp"
+#include "runtime/memory/count/plan_grid.hpp"
+
+namespace voxelume {
+
+ObjectExtents::ObjectExtents(const Scene& scene, AssetStore& meshes)
+    : scene_(scene), meshes_(meshes), frame_(world_frame(scene.world)) {
+    box_ = {frame_.origin, frame_.origin + glm::dvec3(frame_.size) * frame_.voxel_edge};
+}
+
+const SurfaceArea& ObjectExtents::area_of(int model_number) {
+    const auto [entry, added] = areas_.try_emplace(model_number);
+    const Model& model = scene_.models[size_t(model_number)];
+    if (added) {
+        const MeshSummary* mesh = meshes_.summary_of(model);
+        entry->second =
+            mesh ? mesh->area
+                 : solid_area(*model.solid, glm::dmat4(1), {model.extent.min, model.extent.max});
+    }
+    return entry->second;
+}
+
+SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_least) {
+    const Model& model = scene_.models[size_t(object.model)];
+    const glm::dmat4& map = object.world_from_object;
+    if (model.solid) {
+        const SurfaceArea area = at_least ? min_solid_area(*model.solid, map, box_)
+                                          : solid_area(*model.solid, map, box_);
+        return surface_extent(area, glm::dmat4(1), frame_, band);
+    }
+    const SurfaceArea& area =
+        at_least ? meshes_.summary_of(model)->min_area : area_of(object.model);
+    const SurfaceExtent extent = surface_extent(area, map, frame_, band);
+    const double inside = part_in_world(object);
+    return {extent.voxels * inside, extent.bricks * inside};
+}
+
+SurfaceExtent ObjectExtents::minimum(const Object& object, double band) {
+    if (!scene_.models[size_t(object.model)].cuts.empty()) return {};
+    return extent(object, band, true);
+}
+
+double ObjectExtents::inside_voxels(const Object& object) {
+    const Model& model = scene_.models[size_t(object.model)];
+    const glm::dmat4& map = object.world_from_object;
+    const glm::dvec3& edge = frame_.voxel_edge;
+    const double voxel = edge.x * edge.y * edge.z;
+    if (!model.solid) {
+        const Bounds& box = meshes_.summary_of(model)->surface;
+        const glm::dvec3 size = box.max - box.min, world = box_.max - box_.min;
+        const double volume = size.x * size.y * size.z * std::abs(glm::determinant(map));
+        return std::min(volume, world.x * world.y * world.z) / voxel;
+    }
+    const SolidBounds box = bounds(*model.solid, map, box_);
+    const glm::dvec3 size = glm::max(box.max - box.min, 0.0);
+    return size.x * size.y * size.z / voxel;
+}
+
+bool ObjectExtents::lies_in_world(const glm::dvec3& low, const glm::dvec3& high,
+                                  const glm::dmat4& map) const {
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(map * glm::dvec4(corner & 1 ? high.x : low.x,
+                                            corner & 2 ? high.y : low.y,
+                                            corner & 4 ? high.z : low.z, 1.0));
+        if (glm::any(glm::lessThan(p, box_.min)) || glm::any(glm::greaterThan(p, box_.max)))
+            return false;
+    }
+    return true;
+}
+
+double ObjectExtents::part_in_world(const Object& object) {
+    const Model& model = scene_.models[size_t(object.model)];
+    const glm::dmat4& map = object.world_from_object;
+    const Bounds& box = meshes_.summary_of(model)->surface;
+    if (lies_in_world(box.min, box.max, map)) return 1;
+    const auto [part, added] = parts_.try_emplace(&object);
+    if (added) part->second = part_inside(*meshes_.mesh_of(model), map, box_);
+    return part->second;
+}
+
+const std::vector<VoxelBox>& ObjectExtents::boxes() {
+    if (boxes_.empty()) boxes_ = object_boxes(scene_, meshes_);
+    return boxes_;
+}
+
+}  // namespace voxelume

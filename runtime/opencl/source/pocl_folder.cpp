@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/opencl/source/pocl_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include "runtime/base/files/private_folder.hpp"
+#include "runtime/opencl/source/packed_files.hpp"
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The process's folder once it is made, for those who may not make it.
+std::atomic<const PoclFolder*> existing_folder = nullptr;
+
+constexpr const char* kPrefix = "pocl-";
+constexpr const char* kLock = "lock";
+
+std::atomic<bool> folder_is_allowed = true;
+
+/// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
+/// than a minute old is left, since its process may not have locked it yet; so are other users'.
+void remove_stale_folders(const fs::path& parent) {
+    std::error_code error;
+    const auto now = fs::file_time_type::clock::now();
+    for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
+        if (!entry.path().filename().string().starts_with(kPrefix)) continue;
+        if (now - entry.last_write_time(error) < std::chrono::minutes(1) || error) continue;
+        const PrivateFolder folder = PrivateFolder::open(entry.path());
+        if (!folder) continue;
+        const int lock = openat(folder.descriptor(), kLock,
+                                O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
+        if (lock < 0) continue;
+        if (flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), error);
+        close(lock);
+    }
+}
+
+/// A new folder in `parent` that only this user can read. Empty if that fails, if others could put
+/// another in its place, or if the disk is so full that PoCL might end the program.
+fs::path make_folder(const fs::path& parent) {
+    constexpr uintmax_t kRoom = 32u << 20;
+    std::error_code error;
+    if (!make_safe_parent(parent)) return {};
+    if (fs::space(parent, error).available < kRoom || error) return {};
+    std::string name = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
+    return mkdtemp(name.data()) ? fs::path(name) : fs::path();
+}
+
+/// The files of a program that a later run needs, by path from `root`: its bitcode, its kernels and
+/// the compiler's messages.
+std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& folder) {
+    std::set<fs::path> files;  // sorted, so that equal contents make equal entries
+    std::error_code error;
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(root / folder, error)) {
+        const fs::path& path = entry.path();
+        if (path.filename() == "program.bc" || path.filename() == "build.log" ||
+            path.extension() == ".so")
+            files.insert(path.lexically_relative(root));
+    }
+    return {files.begin(), files.end()};
+}
+
+/// The files of a compiled kernel, by path from the program's folder.
+std::vector<fs::path> kernels_of(const fs::path& program, const ProgramPart& part) {
+    return files_worth_keeping(program, part.kernel);
+}
+
+/// Writes a file that appears only when it is whole, since PoCL may look for it meanwhile.
+void write_whole(const fs::path& path, std::string_view text) {
+    const fs::path unfinished = path.string() + ".part";
+    std::ofstream file(unfinished, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (!file) {
+        fs::remove(unfinished);
+        throw fs::filesystem_error("not written", path, std::make_error_code(std::errc::io_error));
+    }
+    fs::permissions(unfinished, fs::perms::owner_all);
+    fs::rename(unfinished, path);
+}
+
+/// Writes the files that an entry packs below `root`, except those that exist, since kernels run
+/// from them. Returns the paths of all files relative to `root`. Throws PackedFileError, before
+/// anything is written, for an entry that isn't one of ours.
+std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
+    std::vector<fs::path> paths;
+    for (const auto& [name, content] : packed_files(bytes)) {
+        paths.emplace_back(name);
+        const fs::path path = root / name;
+        fs::create_directories(path.parent_path());
+        if (!fs::exists(path)) write_whole(path, content);
+    }
+    return paths;
+}
+
+}  // namespace
+
+void PoclFolder::allow(bool is_allowed) {
+    folder_is_allowed = is_allowed;
+}
+
+PoclFolder& PoclFolder::instance() {
+    static PoclFolder folder;
+    return folder;
+}
+
+void PoclFolder::remove() {
+    const PoclFolder* const folder = existing_folder;
+    if (folder == nullptr || folder->folder_.empty()) return;
+    // PoCL may be compiling in another thread, and makes its folders again where they are missing.
+    // A file in their place prevents that.
+    const fs::path moved = folder->folder_.string() + "-ended";
+    constexpr int kAttempts = 20;
+    std::error_code error;
+    int place = -1;
+    for (int i = 0; i < kAttempts && place < 0; ++i) {
+        fs::rename(folder->folder_, moved, error);
+        place = open(folder->folder_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        fs::remove_all(moved, error);
+    }
+    if (place < 0) return;  // the next run removes what is left
+    close(place);
+    unlink(folder->folder_.c_str());
+}
+
+PoclFolder::PoclFolder() : process_(getpid()) {
+    if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
+    // PoCL loads compiled kernels from this folder. Some systems forbid programs in the temporary
+    // folder but allow them at home, so the cache folder is tried first.
+    std::error_code error;
+    for (const fs::path& parent : {cache_folder(), fs::temp_directory_path(error)}) {
+        if (parent.empty()) continue;
+        remove_stale_folders(parent);
+        folder_ = make_folder(parent);
+        if (!folder_.empty()) break;
+    }
+    if (folder_.empty()) return;
+    existing_folder = this;
+    lock_ = open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
+}
+
+void PoclFolder::announce(const std::function<void()>& first_call) const {
+    if (folder_.empty()) return first_call();
+    setenv("POCL_CACHE_DIR", folder_.c_str(), 1);
+    first_call();
+    unsetenv("POCL_CACHE_DIR");  // a child process must not mistake it for its user's choice
+}
+
+PoclFolder::~PoclFolder() {
+    if (folder_.empty() || getpid() != process_) return;
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    if (lock_ >= 0) close(lock_);
+}
+
+/// The folder that PoCL used in the build that just ended, unless it is another program's. PoCL
+/// names it by a hash of its own, two letters and the rest, and leaves `last_accessed` in it.
+fs::path PoclFolder::new_program_folder() const {
+    std::set<fs::path> known;
+    for (const auto& [key, files] : programs_) known.insert(files.folder);
+    std::error_code error;
+    for (const fs::directory_entry& letters : fs::directory_iterator(folder_, error))
+        for (const fs::directory_entry& rest : fs::directory_iterator(letters.path(), error)) {
+            fs::path folder = rest.path().lexically_relative(folder_);
+            if (fs::exists(rest.path() / "last_accessed", error) && !known.contains(folder))
+                return folder;
+        }
+    return {};
+}
+
+/// Restores the kernels of the program's parts that were compiled for other programs.
+void PoclFolder::take_kernels(const DiskCache& cache, ProgramFiles& program) const {
+    try {
+        for (ProgramPart& part : program.parts)
+            if (const auto bytes = cache.read(part.key))
+                part.published = unpack(folder_ / program.folder, *bytes).size();
+    } catch (const std::exception&) {
+        return;  // the disk is full by now: PoCL compiles the missing files
+    }
+}
+
+bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
+                                  const std::function<std::vector<ProgramPart>()>& parts,
+                                  const std::function<void()>& build) {
+    // One build at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
+    const std::lock_guard guard(mutex_);
+    if (folder_.empty()) {
+        build();
+        return false;
+    }
+    const auto known = programs_.find(key);
+    if (known != programs_.end()) {
+        build();
+        return true;
+    }
+    std::vector<fs::path> unpacked;
+    try {
+        if (const auto bytes = turn_.read(cache, key)) unpacked = unpack(folder_, *bytes);
+    } catch (const std::exception&) {
+        unpacked.clear();  // the disk is full by now: PoCL compiles the missing files
+    }
+    build();
+    // An entry for a folder other than PoCL's is useless, and is replaced.
+    const fs::path folder = new_program_folder();
+    if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
+        unpacked.clear();
+    ProgramFiles program = {folder, unpacked.size(), {}};
+    if (!folder.empty()) {
+        program.parts = parts();
+        publish_changes(cache);  // includes kernels that this process compiled
+        take_kernels(cache, program);
+        if (!unpacked.empty())
+            program.published = files_worth_keeping(folder_, program.folder).size();
+    }
+    programs_[key] = std::move(program);
+    return !unpacked.empty();
+}
+
+void PoclFolder::publish_kernels(const DiskCache& cache, ProgramFiles& program) const {
+    const fs::path own = folder_ / program.folder;
+    for (ProgramPart& part : program.parts) {
+        if (kernels_of(own, part).size() <= part.published) continue;
+        const auto bytes = cache.read(part.key);  // other processes may have added to it since
+        size_t known = 0;
+        try {
+            if (bytes) known = unpack(own, *bytes).size();
+        } catch (const PackedFileError&) {
+            known = 0;  // it is replaced
+        }
+        const std::vector<fs::path> files = kernels_of(own, part);
+        if (files.size() > known) cache.write(part.key, packed(own, files));
+        part.published = files.size();
+    }
+}
+
+void PoclFolder::publish_changes(const DiskCache& cache) {
+    for (auto& [key, program] : programs_) {
+        if (program.folder.empty()) continue;
+        std::vector<fs::path> files = files_worth_keeping(folder_, program.folder);
+        if (files.size() <= program.published) continue;
+        program.published = files.size();
+        try {
+            publish_kernels(cache, program);
+        } catch (const std::exception&) {
+            continue;  // the disk is full
+        }
+        std::erase_if(files, [](const fs::path& file) { return file.extension() == ".so"; });
+        cache.write(key, packed(folder_, files));
+    }
+}
+
+void PoclFolder::publish(const DiskCache& cache) {
+    const std::lock_guard guard(mutex_);
+    publish_changes(cache);
+    turn_.release();
+}
+
+bool PoclFolder::has_turn() {
+    const std::lock_guard guard(mutex_);
+    return turn_.is_taken();
+}
+
+void PoclFolder::share(const DiskCache& cache) {
+    const std::lock_guard guard(mutex_);
+    if (!turn_.is_taken()) return;
+    publish_changes(cache);
+    turn_.release();
+}
+
+}  // namespace voxelume

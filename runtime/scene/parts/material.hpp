@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a surface looks like: the values of Whitted's model or of a physically based one, and a
+// checker.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "runtime/scene/parts/value_row.hpp"
+
+namespace voxelume {
+
+/// A second colour in every other block of a lattice that stands still in the world.
+struct Checker {
+    glm::vec3 color{0};    ///< linear Rec. 709, 0..1
+    glm::dvec3 size{0};    ///< edges of a block, metres; 0: no change along that axis
+    glm::dvec3 origin{0};  ///< a corner of a block of the material's own colour, metres
+
+    friend bool operator==(const Checker&, const Checker&) = default;
+};
+
+/// The roughness of physically based materials that give none, and of their coats.
+inline constexpr double kRoughness = 0.5, kCoatRoughness = 0;
+
+struct Material {
+    std::string name;
+    glm::vec3 color{0.8f};  ///< linear Rec. 709, 0..1
+    float diffuse = 1;      ///< 0..1
+    /// 0..1: the part of Blinn and Phong's highlight, otherwise 0; of a physically based material
+    /// what the reflectance of what isn't metal is multiplied by, otherwise 1
+    std::optional<double> specular;
+    float shininess = 50;     ///< Blinn-Phong exponent, 1..1e6
+    float reflection = 0;     ///< R_i, 0..1
+    float refraction = 0;     ///< F_i, 0..1
+    float ior = 1.5f;         ///< 0.1..10
+    bool fresnel = false;     ///< the exact unpolarised reflectance scales the two ratios
+    float opacity = 1;        ///< share of the light behind that the surface covers, 0..1
+    glm::vec3 absorption{0};  ///< inside, per metre, >= 0
+    glm::vec3 emission{0};    ///< radiance, >= 0
+    std::optional<Checker> checker;
+    // One of these makes a material physically based:
+    std::optional<glm::dvec3> base_color;  ///< 0..1; otherwise `color`
+    std::optional<double> metallic;        ///< 0..1; otherwise 0
+    std::optional<double> roughness;       ///< 0..1; otherwise 0.5
+    std::optional<double> transmission;    ///< of what isn't metal, the share of glass, 0..1
+    std::optional<double> coat;            ///< the share under a clear coat, 0..1; otherwise 0
+    std::optional<double> coat_roughness;  ///< 0..1; otherwise 0
+
+    friend bool operator==(const Material&, const Material&) = default;
+};
+
+/// What a material's values switch on in rays and kernels, as bits.
+enum MaterialEffect : uint32_t {
+    kReflects = 1,        ///< sends rays back
+    kRefracts = 2,        ///< sends rays on into the object
+    kIsSeenThrough = 4,   ///< covers only a part of what lies behind
+    kHasReflectance = 8,  ///< of Fresnel: by the angle
+    kAbsorbs = 16,        ///< dims light on its way inside
+    kEmits = 32,
+    kIsPhysical = 64,  ///< physically based
+    kHasCoat = 128,    ///< ... under a coat
+};
+
+/// The values of a material but its checker. A value is added with a member above, a row here, and
+/// the kernels that show it.
+std::span<const ValueRow<Material>> material_rows();
+std::span<const ValueRow<Checker>> checker_rows();
+
+/// The effects of the values that differ from the defaults.
+uint32_t effects_of(const Material& material);
+
+bool is_physical(const Material& material);
+
+/// Whether a physically based surface reflects less than its index of refraction says.
+bool is_weak(const Material& material);
+
+/// The share of a physically based surface that is glass.
+double glass_share(const Material& material);
+
+/// Whether the maps of textures change the material's roughness and metalness: those of physically
+/// based ones without glass and coat, whose tables are made for one roughness.
+bool takes_gloss_map(const Material& material);
+
+/// The surface's own colour, whichever of the two keys names it.
+glm::vec3 color_of(const Material& material);
+
+/// A physically based material's place in Whitted's model, by which local light shows it; others as
+/// they are. Mirrors are sharp there, so a rough metal mirrors less, and shows its own colour in
+/// the place of what it would reflect from all around.
+Material whitted_material(const Material& material);
+
+/// The shares of a material's highlight and mirror image, in local light, that have its colour.
+struct MetalTint {
+    double highlight = 0, mirror = 0;
+};
+MetalTint metal_tint(const Material& material);
+
+/// The keys that make a material physically based, and those of Whitted's model that they are in
+/// the place of.
+std::span<const std::string_view> physical_keys();
+std::span<const std::string_view> whitted_keys();
+
+/// Refuses a checker without blocks.
+void check_checker(const Checker& checker, const Refuse& refuse);
+
+}  // namespace voxelume

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The observer E as values. Its volumetric display VD_E is in display_shape.hpp.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+#include "runtime/base/source_place.hpp"
+#include "runtime/scene/parts/display_shape.hpp"
+#include "runtime/scene/parts/value_row.hpp"
+
+namespace voxelume {
+
+/// How flat images show what an observer sees.
+enum class Projection : uint8_t {
+    display,       ///< through the display that the scene gives
+    orthographic,  ///< by parallel rays: the display is the box to the end of the world
+    panoramic      ///< all directions: the display is the ball to the end of the world
+};
+
+/// E: looks along +Z_E with Y_E up, so the right-hand side of the image is -X_E.
+struct Observer {
+    glm::dvec3 position{0};             ///< metres
+    glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
+    double aperture = 0;  ///< metres: diameter of the lens; 0: flat images are sharp everywhere
+    double focus = 0;     ///< metres along Z_E to what the lens shows sharp
+    int blades = 0;       ///< corners of the lens, from 3 on; 0: it is round
+    Projection projection = Projection::display;
+    Display display;
+    SourcePlace where;
+
+    friend bool operator==(const Observer&, const Observer&) = default;
+};
+
+/// The least sine of the angle between where an observer looks and what is up.
+inline constexpr double kMinUpSine = 1e-6;
+
+/// What a scene says of where the observer stands and looks, and of the display.
+struct ObserverParameters {
+    glm::dvec3 position{0};  ///< metres
+    std::optional<glm::dvec3> look_at, up;
+    std::optional<glm::dvec3> turn;       ///< degrees; instead of both
+    double aperture = 0;                  ///< metres
+    std::optional<double> focus;          ///< metres; otherwise the distance of `look_at`
+    int blades = 0;                       ///< from 3 on; 0: round
+    std::optional<double> width, height;  ///< metres that an orthographic image shows
+    DisplayParameters display;
+
+    friend bool operator==(const ObserverParameters&, const ObserverParameters&) = default;
+};
+
+std::span<const ValueRow<ObserverParameters>> observer_rows();
+
+/// Sets where an observer stands and looks.
+void place_observer(const ObserverParameters& parameters, const Refuse& refuse, Observer& observer);
+
+/// Lets the measure of a display with square pixels that follows the image's size do so.
+void make_pixels_square(glm::ivec2 size, Display& display);
+
+/// Sets shape and measures of the display of an observer whose projection decides them.
+void project(const ObserverParameters& parameters, const DisplaySetting& setting,
+             const Refuse& refuse, Observer& observer);
+
+}  // namespace voxelume

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/stages/trace/medium_paths.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "runtime/grid/grid_arguments.hpp"
+
+namespace voxelume {
+
+MediumPathStage::MediumPathStage(const Device& device, const Features& features,
+                                 const float4& absorption, MediumScattering scattering,
+                                 DensityGrid density)
+    : absorption_(absorption),
+      scattering_(std::move(scattering)),
+      density_(std::move(density)),
+      counters_(device, "path counters", kPathCounters),
+      program_(device, "medium_paths.cl", features.defines(device)),
+      scatter_(program_.kernel("scatter_in_medium")),
+      add_light_(program_.kernel("add_light_to_medium")),
+      extend_(program_.kernel("extend_in_medium")) {
+    if (features.area_samples) add_area_light_.emplace(program_.kernel("add_area_light_to_medium"));
+}
+
+uint32_t MediumPathStage::scatter(const Pyramid& pyramid, const PathSampling& sampling,
+                                  RayBatch& entries, uint32_t count, RayBatch& points) {
+    counters_.fill(0);
+    scatter_.launch_packets(count, shape_of(pyramid), absorption_, scattering_, density_, sampling,
+                            entries, count, counters_, static_cast<const RayQueue&>(points),
+                            points.hits, points.radiance);
+    return counters_.read()[kCountChildren];
+}
+
+void MediumPathStage::add_light(const Pyramid& pyramid, const LightRecord& light, RayBatch& points,
+                                uint32_t count, ShadowQueue& queue) {
+    queue.count.fill(0);
+    add_light_.launch_packets(count, shape_of(pyramid), light, scattering_, queue, points, count);
+}
+
+void MediumPathStage::add_area_light(const Pyramid& pyramid, const LightRecord& light,
+                                     const LightAreaRecord& area, const PathSampling& sampling,
+                                     uint32_t number, RayBatch& points, uint32_t count,
+                                     ShadowQueue& queue) {
+    queue.count.fill(0);
+    add_area_light_->launch_packets(count, shape_of(pyramid), light, area, sampling, number,
+                                    scattering_, queue, points, count);
+}
+
+NextRays MediumPathStage::paths(const Pyramid& pyramid, const PathSampling& sampling,
+                                const EmitterTable& emitters, RayBatch& points, uint32_t count,
+                                NodeLight& nodes, RayQueue& next, uint32_t taken,
+                                RayQueue& to_emitters) {
+    counters_.fill(0);
+    extend_.launch_packets(count, shape_of(pyramid), scattering_, sampling, points, count, nodes,
+                           counters_, taken, next, emitters, sky_, to_emitters);
+    const std::vector<uint32_t> counts = counters_.read();
+    return {counts[kCountChildren], counts[kCountToEmitters]};
+}
+
+}  // namespace voxelume

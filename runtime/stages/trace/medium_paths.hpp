@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// paths in a medium that scatters light -> the points where it does, the light there, and the
+// paths' next rays.
+#pragma once
+
+#include <optional>
+
+#include "kernels/shared/paths.h"
+#include "kernels/shared/scene.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/emitter_table.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/medium_scattering.hpp"
+#include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/sky_map.hpp"
+#include "runtime/stages/trace/extend.hpp"
+#include "runtime/stages/trace/scatter.hpp"
+
+namespace voxelume {
+
+/// The kernels of medium_paths.cl for one feature set with `scattering`.
+class MediumPathStage {
+  public:
+    /// `absorption` is the medium's, per metre at density 1.
+    MediumPathStage(const Device& device, const Features& features, const float4& absorption,
+                    MediumScattering scattering, DensityGrid density);
+
+    /// Says which sky paths send rays to. Needed for features with `sky_rays` only.
+    void set_sky(SkyMap sky) { sky_ = std::move(sky); }
+
+    /// Finds the paths of entries 0 .. count-1, whose hits are known, that are scattered before
+    /// these hits. Marks the entries, and writes the points to `points`, which has room for all.
+    /// Returns their number.
+    uint32_t scatter(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& entries,
+                     uint32_t count, RayBatch& points);
+
+    /// Queues rays from points 0 .. count-1 to a light without an area, or to one with it.
+    void add_light(const Pyramid& pyramid, const LightRecord& light, RayBatch& points,
+                   uint32_t count, ShadowQueue& queue);
+    void add_area_light(const Pyramid& pyramid, const LightRecord& light,
+                        const LightAreaRecord& area, const PathSampling& sampling, uint32_t number,
+                        RayBatch& points, uint32_t count, ShadowQueue& queue);
+
+    /// Adds the light of points 0 .. count-1 to the nodes of their sight rays, and writes the next
+    /// rays of their paths to `next`, behind `taken` rays, and those to emitters or to the sky to
+    /// `to_emitters`. Both have room for them.
+    NextRays paths(const Pyramid& pyramid, const PathSampling& sampling,
+                   const EmitterTable& emitters, RayBatch& points, uint32_t count, NodeLight& nodes,
+                   RayQueue& next, uint32_t taken, RayQueue& to_emitters);
+
+  private:
+    float4 absorption_;
+    MediumScattering scattering_;
+    DensityGrid density_;
+    SkyMap sky_;
+    Buffer<uint32_t> counters_;
+    Program program_;
+    Kernel scatter_, add_light_;
+    std::optional<Kernel> add_area_light_;  ///< only for features with `area_samples`
+    Kernel extend_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of MagicaVoxel files: materials, animations, and worlds far larger than their models.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+
+#include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/io/voxels/vox_voxels.hpp"
+#include "tests/support/vox_fixture.hpp"
+#include "tests/support/writers/lighthouse_vox.hpp"
+
+namespace voxelume {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class VoxSceneTest : public VoxFileTest {};
+
+TEST_F(VoxSceneTest, FramesAndKeyframesBecomeAnAnimation) {
+    const VoxSample sample;
+    VoxWriter pack;
+    pack.chunk("PACK", VoxWriter::number(3));
+    for (int i = 0; i < 3; ++i) pack.model({1, 1, 1 + i}, {{0, 0, uint8_t(i), 7}});
+    AssetStore assets;
+    const Scene frames = scene_of(put(pack.bytes()), assets);
+    EXPECT_EQ(frames.animation.frames, 3);
+    EXPECT_EQ(frames.objects.size(), 4u);
+    EXPECT_TRUE(frames.objects[0].visible);
+    EXPECT_FALSE(frames.objects[1].visible);
+
+    VoxWriter keyed;
+    keyed.model(sample.size, sample.voxels);
+    keyed.transform(0, 1, -1, {{"_name", "a.b"}},
+                    {{{"_f", "0"}, {"_t", "1 2 3"}}, {{"_f", "4"}, {"_t", "5 2 3"}, {"_r", "17"}}});
+    keyed.shape(1, {{0, {}}});
+    const auto file = put(keyed.bytes());
+    AssetStore others;
+    const Scene moving = scene_of(file, others);
+    EXPECT_EQ(moving.animation.frames, 5);
+    ASSERT_TRUE(moving.motion);
+    EXPECT_EQ(read_vox_file(file).frames, 5);
+    EXPECT_THAT(scene_of_file(file, "a.vox", {}, others),
+                HasSubstr(R"("value": [1, 3, -2]}, {"frame": 5, "value": [5, 3, -2]})"));
+}
+
+TEST_F(VoxSceneTest, MaterialsOfBothKindsAreGroupsAndMaterialsOfTheScene) {
+    VoxWriter writer;
+    writer.model(
+        {6, 1, 1},
+        {{0, 0, 0, 1}, {1, 0, 0, 2}, {2, 0, 0, 3}, {3, 0, 0, 4}, {4, 0, 0, 5}, {5, 0, 0, 6}});
+    writer.palette(odd_palette());
+    writer.material(1, {{"_type", "_diffuse"}});
+    writer.material(2, {{"_type", "_metal"}, {"_metal", "0.8"}, {"_rough", "0.1"}});
+    writer.material(3, {{"_type", "_glass"}, {"_trans", "0.75"}, {"_ior", "0.4"}});
+    writer.material(4, {{"_type", "_emit"}, {"_emit", "0.5"}, {"_flux", "1"}});
+    writer.material(9, {{"_type", "_glass"}});  // of no voxel
+    const auto number = [](auto value) { return VoxWriter::number(value); };
+    // Glass with roughness, index of refraction and attenuation.
+    writer.chunk("MATT", number(5) + number(2) + number(0.6f) + number(2 | 8 | 16) + number(0.2f) +
+                             number(0.5f) + number(0.25f));
+    writer.chunk("MATT", number(6) + number(0) + number(1.0f) + number(0));
+    const auto file = put(writer.bytes());
+    const VoxelModel model = read_voxel_model(file, Surface::cubes, 1);
+    EXPECT_THAT(model.groups, ElementsAre("diffuse", "metal 2", "glass 3", "emit 4", "glass 5"));
+    const VoxelCells cells = cells_of(model);
+    const char* groups[] = {"diffuse", "metal 2", "glass 3", "emit 4", "glass 5", "diffuse"};
+    for (int x = 0; x < 6; ++x) {
+        EXPECT_EQ(cells.at({x - 3, 0, -1}).group, groups[x]) << x;
+        EXPECT_EQ(cells.at({x - 3, 0, -1}).color, odd_palette()[size_t(x + 1)] & 0xFFFFFF) << x;
+    }
+    AssetStore assets;
+    const Scene scene = scene_of(file, assets);
+    const auto material = [&](const std::string& name) {
+        for (const Material& m : scene.materials)
+            if (m.name == name) return m;
+        ADD_FAILURE() << name;
+        return Material();
+    };
+    EXPECT_DOUBLE_EQ(material("metal 2").metallic.value(), 0.8);
+    EXPECT_DOUBLE_EQ(material("metal 2").roughness.value(), 0.1);
+    EXPECT_GT(whitted_material(material("metal 2")).reflection, 0.3f);
+    EXPECT_FLOAT_EQ(material("glass 3").ior, 1.4f);
+    EXPECT_FLOAT_EQ(material("glass 3").refraction, 0.75f);
+    EXPECT_TRUE(material("glass 3").fresnel);
+    EXPECT_FLOAT_EQ(material("glass 5").ior, 1.5f);
+    EXPECT_FLOAT_EQ(material("glass 5").refraction, 0.6f);
+    EXPECT_GT(material("emit 4").emission.g, 0.5f);
+    EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), Not(HasSubstr("glass 9")));
+    ASSERT_EQ(scene.objects[0].groups.size(), 4u);
+    // With a size of its own the file is one model.
+    ImportOptions sized;
+    sized.fit = 3;
+    const std::string whole = scene_of_file(file, "a.vox", sized, assets);
+    EXPECT_THAT(whole, HasSubstr("\"fit\": 3"));
+    EXPECT_THAT(whole, HasSubstr("\"materials\": {\"metal 2\": \"metal 2\""));
+}
+
+TEST_F(VoxSceneTest, WorldsThatAreFarLargerThanTheirModelsWorkOrAreRefused) {
+    const auto far_apart = [&](int distance) {
+        VoxWriter writer;
+        writer.model({3, 3, 3}, {{0, 0, 0, 1}, {2, 2, 2, 9}});
+        writer.transform(0, 1, -1, {}, {{}});
+        writer.group(1, {2, 3});
+        writer.shape(2, {{0, {}}});
+        writer.transform(3, 2, 0, {}, {{{"_t", fmt::format("{0} {0} 0", distance)}}});
+        return put(writer.bytes());
+    };
+    AssetStore near, far, farther;
+    EXPECT_EQ(scene_of(far_apart(3000), near).objects.size(), 3u);
+    // There is no room for a ground.
+    EXPECT_EQ(scene_of(far_apart(40000), far).objects.size(), 2u);
+    const auto file = far_apart(900000);
+    const Error error = error_of([&] { scene_of(file, farther); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), HasSubstr("are more than 65536"));
+}
+
+TEST_F(VoxSceneTest, TheShippedLighthouseIsTheOneThatIsWrittenHere) {
+    const std::string bytes = lighthouse_bytes();
+    EXPECT_EQ(bytes_of(VXL_SOURCE_DIR "/scenes/lighthouse.vox") == bytes, true)
+        << "a new one is in " << folder / "lighthouse.vox";
+    const auto file = put(bytes);
+    const VoxFile vox = read_vox_file(file);
+    EXPECT_EQ(vox.objects.size(), 11u);
+    EXPECT_EQ(
+        std::ranges::count_if(vox.objects,
+                              [](const VoxObject& o) { return o.poses[0].rotation.is_mirrored(); }),
+        4);
+    // Models without special materials have no groups, the whole file has some.
+    const auto colors_of = [](const VoxelCells& cells) {
+        std::map<std::array<int, 3>, uint32_t> colors;
+        for (const auto& [cell, shown] : cells) colors[cell] = shown.color;
+        return colors;
+    };
+    EXPECT_TRUE(colors_of(shown_cells(file)) ==
+                colors_of(cells_of(read_voxel_model(file, Surface::cubes))));
+}
+
+}  // namespace voxelume

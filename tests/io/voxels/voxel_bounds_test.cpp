@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small files that stand for much work or memory are refused by their counts, before either.
+#include <gmock/gmock.h>
+
+#include "runtime/assets/voxel_model_file.hpp"
+#include "runtime/io/arrays/array_voxels.hpp"
+#include "runtime/io/voxel_art/cell_bricks.hpp"
+#include "runtime/io/voxel_file_table.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/writers/array_writer.hpp"
+#include "tests/support/writers/art_writer.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+
+class VoxelBoundsTest : public FileTest {
+  protected:
+    std::string refusal(const std::string& name, const std::string& bytes,
+                        Surface surface = Surface::cubes, const VoxelValues& values = {}) {
+        const auto file = folder / name;
+        put_bytes(file, bytes);
+        return error_of([&] { read_voxel_model(file, surface, 0, values); }).what();
+    }
+};
+
+/// A compressed Qubicle matrix of one slice, all of one colour.
+std::string full_slice(uint32_t side) {
+    return std::string(1, '\0') +
+           bytes_of_all(side, side, 1u, 0, 0, 0, 2u, side * side, 0xFF0000FFu, 6u);
+}
+
+std::string qb_of(uint32_t compressed, uint32_t matrices) {
+    return bytes_of_all(257u, 0u, 1u, compressed, 0u, matrices);
+}
+
+TEST_F(VoxelBoundsTest, QubicleCellsAreCountedBeforeTheyAreSet) {
+    EXPECT_THAT(refusal("a.qb", qb_of(1, 1) + full_slice(32768)), HasSubstr("268435456 cells"));
+    std::string many = qb_of(1, 17);
+    for (int i = 0; i < 17; ++i) many += full_slice(4096);
+    EXPECT_THAT(refusal("b.qb", many), HasSubstr("268435456 cells"));
+    // Matrices without cells have slices without end.
+    std::string none = qb_of(0, 30000);
+    for (int i = 0; i < 30000; ++i)
+        none += std::string(1, '\0') + bytes_of_all(0u, 65536u, 65536u, 0, 0, 0);
+    EXPECT_THAT(refusal("c.qb", none), HasSubstr("no voxels"));
+}
+
+TEST_F(VoxelBoundsTest, BricksAreCountedBeforeMemoryIsTaken) {
+    // 16384 x 16384 cells lie in 2^20 bricks of 16 KiB.
+    EXPECT_THAT(refusal("a.qb", qb_of(1, 1) + full_slice(16384)), HasSubstr("262144 are possible"));
+    put_bytes(folder / "b", "x");
+    const InputFile file(folder / "b");
+    CellBricks bricks({0, 0, 0}, {40, 16, 16}, file);
+    int rounds = 0;
+    bricks.fill([&] {
+        ++rounds;
+        bricks.set({0, 0, 0}, 1);
+        bricks.set({39, 15, 15}, 2);
+    });
+    EXPECT_EQ(rounds, 2);
+    EXPECT_EQ(bricks.model().voxels(), 2u);
+}
+
+TEST_F(VoxelBoundsTest, BinvoxRunsAreAddedUpFirst) {
+    std::string runs = "#binvox 1\ndim 510 510 511\nscale 1\ndata\n";
+    for (int i = 0; i < 510 * 2 * 511; ++i) runs += "\1\xff";
+    runs.resize(runs.size() - 2);
+    EXPECT_THAT(refusal("a.binvox", runs), HasSubstr("truncated"));
+}
+
+TEST_F(VoxelBoundsTest, SmoothSurfacesOfGzipHaveFewerCells) {
+    const std::string head = "NRRD0005\ntype: uchar\ndimension: 3\nencoding: gzip\n";
+    const std::string zeros = gzipped(std::string(1 << 20, '\0'));
+    std::string members;
+    for (int i = 0; i < 300; ++i) members += zeros;
+    EXPECT_THAT(refusal("a.nrrd", head + "sizes: 1024 1024 257\n\n" + members, Surface::smooth),
+                HasSubstr("at most: save it raw"));
+    EXPECT_THAT(
+        refusal("b.nrrd", head + "sizes: 1024 1024 1\n\n" + zeros, Surface::smooth, {.iso = 0.5}),
+        HasSubstr("its values go from 0 to 0"));
+}
+
+TEST_F(VoxelBoundsTest, SchematicsOfAirAndOfLongNamesAreRefusedAtOnce) {
+    using W = NbtWriter;
+    const auto schematic = [](int side, const std::string& name, const std::string& data) {
+        return W::compound("Schematic", W::whole("Width", int16_t(side)) +
+                                            W::whole("Height", int16_t(side)) +
+                                            W::whole("Length", int16_t(side)) +
+                                            W::compound("Palette", W::whole(name, int32_t{0})) +
+                                            W::bytes("BlockData", data));
+    };
+    EXPECT_THAT(refusal("a.schem", schematic(640, "air", "")), HasSubstr("no voxels"));
+    EXPECT_THAT(refusal("b.schem", schematic(646, "air", "")), HasSubstr("268435456 at most"));
+    EXPECT_THAT(refusal("c.schem", schematic(1, std::string(257, 'o'), std::string(1, '\0'))),
+                HasSubstr("more than 256 bytes"));
+    EXPECT_THAT(refusal("d.schem", gzipped(std::string((1 << 27) + 1, '\0'))),
+                HasSubstr("134217728 bytes"));
+}
+
+TEST_F(VoxelBoundsTest, FarApartAndTinyValuesHaveAThreshold) {
+    const auto put = [&](const std::string& shape, const std::vector<double>& values) {
+        put_bytes(folder / "a.npy", npy_bytes("<f8", shape, bytes_of_values(values)));
+        return folder / "a.npy";
+    };
+    const auto threshold = [&](double low, double high) {
+        const auto file = put("2, 2, 2", {low, high, low, high, high, low, high, low});
+        return summary_of_array(voxel_file_format(file)->array(file)).threshold;
+    };
+    EXPECT_EQ(threshold(-1.7e308, 1.7e308), 0);
+    EXPECT_EQ(threshold(0, 5e-324), 5e-324);
+    // The surface between them is found too.
+    const auto file = put("4, 1, 1", {-1.7e308, 1.7e308, -1.7e308, 1.7e308});
+    EXPECT_FALSE(read_voxel_model(file, Surface::smooth, 0, {.iso = 0.0}).coordinates.empty());
+}
+
+TEST_F(VoxelBoundsTest, VoxelsAreLongEnoughForTheirPlace) {
+    const auto nrrd = [](const std::string& edge, const std::string& origin) {
+        return "NRRD0005\ntype: uchar\ndimension: 3\nspace: 3D-right-handed\n"
+               "sizes: 1 1 1\nencoding: raw\nspace units: \"m\" \"m\" \"m\"\n"
+               "space directions: (" +
+               edge + ",0,0) (0,1,0) (0,0,1)\nspace origin: (" + origin + ",0,0)\n\n\1";
+    };
+    put_bytes(folder / "a.nrrd", nrrd("1e-8", "0"));
+    EXPECT_EQ(read_voxel_model(folder / "a.nrrd", Surface::cubes).frame.voxel_edge.x, 1e-8);
+    EXPECT_THAT(refusal("b.nrrd", nrrd("1e-10", "0")), HasSubstr("at least 1e-09 m"));
+    EXPECT_THAT(refusal("c.nrrd", nrrd("1e-6", "1e7")), HasSubstr("c.nrrd"));
+}
+
+TEST_F(VoxelBoundsTest, ALayerHasEachBlockOnce) {
+    const auto chunk = [](const std::string& letters, const std::string& content) {
+        return letters + bytes_of_all(int32_t(content.size())) + content + bytes_of_all(0);
+    };
+    EXPECT_THAT(refusal("a.gox", "GOX " + bytes_of_all(2) + chunk("BL16", "x") +
+                                     chunk("LAYR", bytes_of_all(2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0))),
+                HasSubstr("two blocks at one place"));
+}
+
+}  // namespace voxelume

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// A textured rectangle of 8 x 6 m in the plane y = 0 of its object, as 256 exact bilinear values a
+// pixel show it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <optional>
+#include <random>
+
+#include "runtime/scene/scene.hpp"
+#include "tests/pictures/textures/texture_image.hpp"
+
+namespace voxelume {
+
+inline constexpr int kEach = 16;  // values of the oracle in each direction of a pixel
+
+/// A picture with large and small patterns and sharp edges, of three different channels.
+inline oracle::Picture picture_of(int width, int height) {
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> grain(-24, 24);
+    oracle::Picture picture{width, height, {}};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const bool is_light = (x / 12 + y / 9) % 2 == 1;
+            const double wave = 60 * std::sin(0.05 * x + 0.11 * y);
+            const auto code = [&](double base) {
+                return uint8_t(std::clamp(base + wave + grain(random), 0.0, 255.0));
+            };
+            picture.texels.push_back({code(is_light ? 180 : 70), code(120), code(x % 90 + 60)});
+        }
+    return picture;
+}
+
+/// Where a pixel's part looks, by the scene's own words: the way, and for boxes the start.
+struct Sight {
+    glm::dvec3 from, way;
+};
+
+inline Sight sight_of(const Scene& scene, double column, double row) {
+    const Observer& o = scene.observer;
+    const glm::dvec2 half = half_extent(o.display);
+    const glm::dvec2 part = 2.0 * glm::dvec2(column, row) / glm::dvec2(scene.render.size) - 1.0;
+    const glm::dvec2 at = -part * half;  // rows run down, and X_E points to the left
+    const glm::dmat3& axes = o.world_from_observer;
+    if (o.display.shape == DisplayShape::box)
+        return {o.position + axes[0] * at.x + axes[1] * at.y, axes[2]};
+    return {o.position, axes * glm::dvec3(at, 1)};
+}
+
+/// The colour that the sheet shows along a ray; negative beside it, or closer than `margin` to its
+/// border.
+inline glm::dvec3 color_along(const oracle::Picture& picture, const glm::dmat4& object_from_world,
+                              const Sight& sight, double margin = 0) {
+    const glm::dvec3 from(object_from_world * glm::dvec4(sight.from, 1));
+    const glm::dvec3 way(object_from_world * glm::dvec4(sight.way, 0));
+    const glm::dvec3 at = from - way * (from.y / way.y);
+    if (from.y / way.y > 0 || std::abs(at.x) > 4 - margin || std::abs(at.z) > 3 - margin)
+        return glm::dvec3(-1);
+    return oracle::bilinear(picture, {(at.x + 4) / 8 * 3, 1 - (at.z + 3) / 6 * 2});
+}
+
+/// The root of the mean square of the differences from the oracle, in 1/255, of the pixels that see
+/// nothing but the sheet. With `mirror` the sheet is seen in a mirror at this z.
+struct Difference {
+    double squares = 0, largest = 0;
+    size_t pixels = 0;
+    double codes() const { return 255 * std::sqrt(squares / double(3 * pixels)); }
+};
+
+inline Difference compare(const Image& image, const Scene& scene, const oracle::Picture& picture,
+                          std::optional<double> mirror = {}, double margin = 0) {
+    const glm::dmat4 inverse = glm::inverse(scene.objects[0].world_from_object);
+    Difference difference;
+    for (int row = 0; row < image.height; ++row)
+        for (int column = 0; column < image.width; ++column) {
+            const size_t pixel = size_t(row) * size_t(image.width) + size_t(column);
+            glm::dvec3 sum(0);
+            bool is_inside = true;
+            for (int i = 0; i < kEach * kEach && is_inside; ++i) {
+                const int part_x = i % kEach, part_y = i / kEach;
+                Sight sight =
+                    sight_of(scene, column + (part_x + 0.5) / kEach, row + (part_y + 0.5) / kEach);
+                if (mirror) {
+                    const bool sees_sheet = color_along(picture, inverse, sight).x >= 0;
+                    sight.from.z = 2 * *mirror - sight.from.z;
+                    sight.way.z = -sight.way.z;
+                    is_inside = !sees_sheet;
+                }
+                const glm::dvec3 color = color_along(picture, inverse, sight, margin);
+                is_inside = is_inside && color.x >= 0;
+                sum += color / double(kEach * kEach);
+            }
+            if (!is_inside) continue;
+            const glm::dvec3 seen(image.planes.at("R")[pixel], image.planes.at("G")[pixel],
+                                  image.planes.at("B")[pixel]);
+            difference.squares += glm::dot(seen - sum, seen - sum);
+            difference.largest = std::max(difference.largest, glm::length(seen - sum));
+            ++difference.pixels;
+        }
+    return difference;
+}
+
+}  // namespace voxelume
