@@ -173,7 +173,7 @@ std::vector<KnownPicture> known_pictures() {
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
-         false, "1580ec99b3ef267d"},
+         false, "b5f160171e4c5af8"},
         {"meshes", kMeshes, false, "d0f5f6be5e68e8f8"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},

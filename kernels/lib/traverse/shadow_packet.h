@@ -80,6 +80,8 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
     if (VXL_EXACT)
         ray_state->within_source =
             LANES_SELECT(fresh, ray_state->within_source, was->within_source);
+    if (VXL_SCATTERING)
+        ray_state->on_surface = LANES_SELECT(fresh, ray_state->on_surface, was->on_surface);
     if (!VXL_FILTER) return;
     ray_state->goes_on = LANES_SELECT(fresh, ray_state->goes_on, was->goes_on);
     if (VXL_SOURCES) ray_state->source = LANES_SELECT(fresh, ray_state->source, was->source);
