@@ -10,6 +10,7 @@
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field.h"
+#include "lib/surface/glass_faces.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_alpha.h"
 #include "lib/surface/triangle.h"
@@ -150,13 +151,38 @@ static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
     return select_vector(h->of_instance, on_ray, in_cell);
 }
 
+/// VXL_SIDE_* bits of the faces at which the glass of two `cubes` touches.
+static inline lane_uint glass_side(const WorldView* world, const ShadedHit* h,
+                                   const MediumSet* before, lane_int cubes,
+                                   global const float* restrict materials,
+                                   global const uint* restrict ranks) {
+    const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
+    const lane_int exit = is_exit(h->face);
+    const Vector d = h->ray.direction;
+    const lane_float along =
+        LANES_SELECT(LANE_MASK(axis == 0u), d.x, LANES_SELECT(LANE_MASK(axis == 1u), d.y, d.z));
+    const lane_int ahead =
+        LANES_SELECT(exit, LANE_MASK((h->face & VXL_FACE_UP) != 0u), LANE_MASK(along >= 0.0f));
+    const FaceCell cell = {LANES_INT(h->cell.x), LANES_INT(h->cell.y), LANES_INT(h->cell.z)};
+    const lane_uint beyond =
+        glass_in(&world->pyramid, &world->surface, neighbor_of(cell, axis, ~(exit ^ ahead)),
+                 materials, cubes & LANE_MASK(axis != 3u) & is_joined(h->packed, materials));
+    const lane_int between = are_between_glass(before, h->packed, beyond, exit, ranks);
+    const lane_int hidden = between & (~exit | bend_alike(h->packed, beyond, materials));
+    const lane_uint inside = ((beyond >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u;
+    return (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN) |
+           (LANES_AS_UINT(between) & (inside << VXL_SIDE_BEYOND_SHIFT));
+}
+
 /// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. Sets the opacity
 /// of hidden surfaces to 0.
-static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lane_int behind,
-                                lane_uint material, global const float* restrict materials,
+static inline lane_uint side_of(const WorldView* world, const ShadedHit* h, const MediumSet* before,
+                                lane_int behind, lane_uint material,
+                                global const float* restrict materials,
                                 global const uint* restrict ranks, lane_float* opacity) {
     lane_int leaving = medium_set_holds(before, h->packed) | behind;
     lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
+    lane_uint glass = (lane_uint)0;
     if (VXL_CUBE_BODIES) {
         const lane_int cube = is_cube(h->packed, h->primitive) & h->hit;
         exit = cube & is_exit(h->face);
@@ -172,11 +198,15 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
         const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
         hidden |= is_cube(h->packed, h->primitive) & LANE_MASK(axis == 3u) &
                   is_joined(h->packed, materials);
+        glass = glass_side(world, h, before, is_cube(h->packed, h->primitive) & h->hit & ~inner,
+                           materials, ranks);
+        hidden |= LANE_MASK((glass & VXL_SIDE_HIDDEN) != 0u);
     }
     hidden &= h->hit & (transmits(materials, material, *opacity) | exit);
     if (VXL_TEXTURE_ALPHA) hidden &= have_bodies(materials, h->packed, h->primitive, h->hit);
     *opacity = LANES_SELECT(hidden, (lane_float)0.0f, *opacity);
-    return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
+    return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN) |
+           (glass & ~VXL_SIDE_HIDDEN);
 }
 
 /// Starts the radiance of the rays. Maps multiply emission by `emission_factors`.
@@ -258,7 +288,7 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
     if (VXL_TRANSMISSION) {
         const MediumSet before = load_medium_set(paths, stride, first, h.hit);
-        side = side_of(&h, &before, behind, material, materials, ranks, &opacity);
+        side = side_of(&world, &h, &before, behind, material, materials, ranks, &opacity);
     }
     if (VXL_PATHS) LANES_STORE(side, sides, first);
     const Emitters table = VXL_EMITTER_TABLE;

@@ -129,5 +129,8 @@
 // How a ray meets a surface: bits of RayBatch::sides.
 #define VXL_SIDE_LEAVING 1u  // from inside the object
 #define VXL_SIDE_HIDDEN 2u   // where another object is what counts before and behind it
+// From here on a RayBatch::inside: the glass of other cubes behind the face of glass cubes; 0 if
+// there is none.
+#define VXL_SIDE_BEYOND_SHIFT 2
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voxels from a file of one format to one of another, for callers.
+#include <algorithm>
+
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
@@ -71,10 +73,19 @@ VoxelModel model_of(const std::filesystem::path& path, WriterNotes& notes) {
     return cubes_inside(smooth);
 }
 
-void note_materials(const std::filesystem::path& from, const VoxelModel& model,
-                    WriterNotes& notes) {
-    if (ending_of(from) == ".vox" && !model.groups.empty())
-        notes.emplace_back("metal, glass, and what gives off light became plain colours");
+/// The materials of a MagicaVoxel file's palette, numbered as in the model's attributes; none of
+/// other files.
+std::vector<CubeMaterial> materials_of(const std::filesystem::path& from, const VoxelModel& model) {
+    if (ending_of(from) != ".vox" || model.groups.empty()) return {};
+    const VoxFile file = read_vox_file(from);
+    std::vector<CubeMaterial> materials(model.groups.size());
+    for (int entry = 0; entry < 256; ++entry) {
+        const std::string name = material_name(file, entry);
+        const auto group = std::ranges::find(model.groups, name);
+        if (!name.empty() && group != model.groups.end())
+            materials[size_t(group - model.groups.begin())].vox = file.materials[size_t(entry)];
+    }
+    return materials;
 }
 
 WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -86,9 +97,11 @@ WriterNotes write_voxels(const std::filesystem::path& from, const std::filesyste
     if (!is_grid_name(to) && !holds_model(from)) return write(to, cubes_of_volume(from));
     WriterNotes notes;
     VoxelModel model = model_of(from, notes);
-    note_materials(from, model, notes);
+    const std::vector<CubeMaterial> materials = materials_of(from, model);
+    if (!materials.empty() && ending_of(to) != ".vox")
+        notes.emplace_back("metal, glass, and what gives off light became plain colours");
     const WriterNotes of_writer = is_grid_name(to) ? write_cubes(to, VoxelExport(std::move(model)))
-                                                   : write(to, cube_list(model));
+                                                   : write(to, cube_list(model, materials));
     notes.insert(notes.end(), of_writer.begin(), of_writer.end());
     return notes;
 }

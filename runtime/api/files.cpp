@@ -8,6 +8,7 @@
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
+#include "runtime/assets/cube_materials.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/assets/voxel_paint.hpp"
 #include "runtime/base/files/atomic_file.hpp"
@@ -112,15 +113,16 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
                               grid.brick_count,
                               seconds,
                               {}};
+    const std::vector<Material> materials = materials_of(path, mesh);
+    const std::vector<CubeMaterial> finishes = cube_materials(materials, plan.frame.voxel_edge.x);
     const auto painted = [&] {
         VoxelModel cubes = voxels.cubes();
-        const std::vector<Material> materials = materials_of(path, mesh);
         if (!materials.empty()) paint_voxels(materials, grid.attribute, cubes);
         return cubes;
     };
     for (const fs::path& output : outputs) {
         if (const auto write = cube_writer(output))
-            add_notes(write(output, cube_list(painted())), report);
+            add_notes(write(output, cube_list(painted(), finishes)), report);
         else if (ending_of(output) == ".vdb" && shows_voxels(model.surface))
             VoxelExport(painted()).write_vdb(output);
         else if (ending_of(output) == ".vdb")
@@ -131,14 +133,14 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
     return report;
 }
 
-/// What is lost of materials in files of voxels, which know colours alone.
-std::string note_of_materials(const Scene& scene) {
-    const bool has_more = std::ranges::any_of(scene.materials, [](const Material& material) {
-        return material.emission != glm::vec3(0) || material.refraction > 0 ||
-               material.transmission.value_or(0) > 0 || material.metallic.value_or(0) > 0 ||
-               material.reflection > 0;
-    });
-    return has_more ? "metal, glass, mirrors, and what gives off light became plain colours" : "";
+/// What is lost of materials in files of voxels other than .vox, which know colours alone.
+std::string note_of_materials(const std::vector<fs::path>& outputs,
+                              std::span<const CubeMaterial> materials) {
+    const bool keeps = std::ranges::all_of(
+        outputs, [](const fs::path& output) { return ending_of(output) == ".vox"; });
+    if (keeps || !has_more_than_colors(materials)) return {};
+    return "metal, glass, mirrors, and what gives off light became plain colours in files other "
+           "than .vox";
 }
 
 v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
@@ -163,13 +165,18 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
                               model.coordinates.size(),
                               seconds,
                               {}};
-    const VoxelExport voxels(std::move(model));
+    const std::vector<CubeMaterial> materials =
+        cube_materials(scene.materials, model.frame.voxel_edge.x);
     for (const fs::path& output : outputs) {
-        add_notes(write_cubes(output, voxels), report);
+        const auto write = cube_writer(output);
+        add_notes(write ? write(output, cube_list(model, materials))
+                        : write_cubes(output, VoxelExport(model)),
+                  report);
         if (const std::string note = note_of_edges(output, scene.world.voxel_size); !note.empty())
             add_notes({note}, report);
     }
-    if (const std::string note = note_of_materials(scene); !note.empty()) add_notes({note}, report);
+    if (const std::string note = note_of_materials(outputs, materials); !note.empty())
+        add_notes({note}, report);
     return report;
 }
 

@@ -89,8 +89,8 @@ void paint_voxels(std::span<const Material> materials, uint32_t attribute, Voxel
         }
     }
     model.full_colors = colors_of_full(model, colors);
+    if (model.attributes.empty()) model.attributes.assign(colors.size(), attribute);
     model.colors = std::move(colors);
-    model.attributes.clear();
 }
 
 }  // namespace voxelume

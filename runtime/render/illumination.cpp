@@ -111,7 +111,8 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
     if (sky_samples_ > 0) sky_lighting_.emplace(device, features, shade_.materials(), shade_.sky());
     if (features.absorbs)
-        medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials());
+        medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials(),
+                        scene.lights);
     if (features.medium) {
         surroundings_.absorption = medium_->extinction();
         surroundings_.density = medium_->density();

@@ -46,7 +46,10 @@ GridDensity read_scan(const SceneFields& fields, std::filesystem::path path) {
     if (const auto lit = fields.find("lit")) {
         if (density.transfer.empty())
             lit->fail("is of colours; give the density a \"transfer\", or leave it out");
-        density.lit = unit_vector(lit->vector(kCoordinate), "lit", fields.refusal());
+        if (lit->is(JsonType::boolean))
+            density.is_lit_by_scene = lit->boolean();
+        else
+            density.lit = unit_vector(lit->vector(kCoordinate), "lit", fields.refusal());
     }
     density.where = file.where();
     return density;

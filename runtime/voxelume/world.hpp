@@ -52,6 +52,7 @@ struct GridDensity {
     /// The file's values are no densities, but what these points say, linear between them.
     std::vector<TransferPoint> transfer{};
     std::optional<Vec3> lit{};  ///< with a transfer: where light travels that brings out surfaces
+    bool is_lit_by_scene = false;  ///< with a transfer: the scene's lights do, instead of `lit`
     /// Up to 15 further scans in the same medium, or windows of one, without others of their own.
     std::vector<GridDensity> others{};
 };

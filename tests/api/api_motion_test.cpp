@@ -94,6 +94,14 @@ TEST_F(ApiMotion, HasTransferFunctions) {
         "transfer": [{"value": -1.5, "absorption": 0},
                      {"value": 2, "absorption": 3, "color": [1, 2, 3]}]})";
     expect_same(scene, text_with("", observer, R"(, "medium": {)" + grid + "}"), options());
+    density.lit.reset();
+    density.is_lit_by_scene = true;
+    scene.world.medium = v1::Medium{.density = density};
+    std::string by_lights = grid;
+    by_lights.replace(by_lights.find("[1, -2, 3]"), 10, "true");
+    expect_same(scene, text_with("", observer, R"(, "medium": {)" + by_lights + "}"), options());
+    density.is_lit_by_scene = false;
+    density.lit = Vec3{1, -2, 3};
     v1::GridDensity window{.file = "s.nrrd", .position = {1, 0, 2}};
     window.transfer = {{.value = 1}, {.value = 3, .absorption = 1}};
     density.others = {window};

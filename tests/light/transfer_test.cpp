@@ -5,14 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <random>
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/grid/density_field.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
-#include "runtime/stages/medium/transfer_curve.hpp"
+#include "tests/light/transfer_windows.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_device.hpp"
 
@@ -20,26 +19,6 @@ namespace voxelume {
 namespace {
 
 using testing::HasSubstr;
-
-/// Two windows: one of soft things, one of hard ones, nothing between them.
-const std::vector<TransferPoint> kWindows = {
-    {-2, 0, {0, 0, 1}}, {-1, 2, {1, 0.5F, 0.25F}},   {0.5, 0.5F, {0, 1, 0}},  {1.25, 0, {0, 0, 0}},
-    {3, 0, {1, 1, 1}},  {3.5, 8, {0.5F, 1, 0.125F}}, {6, 4, {0.25F, 0.5F, 1}}};
-
-/// The absorption, or absorption times a colour, at a value: found by looking for its neighbours.
-double light_at(double value, int channel) {
-    const auto of = [&](const TransferPoint& p) {
-        return channel < 3 ? p.absorption * double(p.color[channel]) : p.absorption;
-    };
-    if (value <= kWindows.front().value) return of(kWindows.front());
-    for (size_t i = 1; i < kWindows.size(); ++i) {
-        const TransferPoint &a = kWindows[i - 1], &b = kWindows[i];
-        if (value > b.value) continue;
-        const double share = (value - a.value) / (b.value - a.value);
-        return of(a) * (1 - share) + of(b) * share;
-    }
-    return of(kWindows.back());
-}
 
 /// A NRRD file of floats in cells of an edge, the first around the origin.
 void write_nrrd(const std::filesystem::path& file, const glm::ivec3& size, double edge,
@@ -123,92 +102,6 @@ class TransferTest : public FileTest {
 
 }  // namespace
 
-TEST(TransferCurve, HasItsPointsAndLinesBetweenThem) {
-    const TransferCurve curve(kWindows);
-    for (double value = -4; value < 8; value += 0.03125)
-        for (int channel = 0; channel < 4; ++channel)
-            EXPECT_NEAR(curve.at(value)[channel], light_at(value, channel), 1e-13) << value;
-    EXPECT_TRUE(curve.is_zero_in(1.25, 3));
-    EXPECT_TRUE(curve.is_zero_in(-9, -2));
-    EXPECT_FALSE(curve.is_zero_in(1.2, 2));
-    EXPECT_FALSE(curve.is_zero_in(-9, 9)) << "both ends and both windows";
-    EXPECT_FALSE(curve.is_zero_in(2, 4));
-}
-
-TEST(TransferCurve, IsExactlyAveragedOverLinearValues) {
-    const TransferCurve curve(kWindows);
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> middle(-4, 7), rise(-3, 3);
-    constexpr int kSteps = 40;
-    for (int i = 0; i < 60; ++i) {
-        glm::dvec3 rises(rise(random), rise(random), rise(random));
-        if (i % 3 == 1) rises.y = rises.z = 0;
-        if (i % 3 == 2) rises.x *= 1e-5;
-        const double center = middle(random);
-        const auto value = [&](double x, double y, double z) {
-            return center + glm::dot(rises, glm::dvec3(x, y, z) - 0.5);
-        };
-        std::array<float, 8> corners{};
-        for (int c = 0; c < 8; ++c) corners[size_t(c)] = float(value(c & 1, c >> 1 & 1, c >> 2));
-        glm::dvec4 sum(0);
-        for (int x = 0; x < kSteps; ++x)
-            for (int y = 0; y < kSteps; ++y)
-                for (int z = 0; z < kSteps; ++z)
-                    for (int channel = 0; channel < 4; ++channel)
-                        sum[channel] += light_at(
-                            value((x + 0.5) / kSteps, (y + 0.5) / kSteps, (z + 0.5) / kSteps),
-                            channel);
-        const glm::dvec4 mean = curve.mean(corners), expected = sum / std::pow(kSteps, 3);
-        // Sums over points are as exact as the kinks of the function allow.
-        for (int channel = 0; channel < 4; ++channel)
-            EXPECT_NEAR(mean[channel], expected[channel], 4e-3) << i;
-    }
-    EXPECT_EQ(curve.mean({kOutsideScan, kOutsideScan, kOutsideScan, kOutsideScan, kOutsideScan,
-                          kOutsideScan, kOutsideScan, kOutsideScan}),
-              glm::dvec4(0));
-}
-
-TEST(TransferCurve, MayRiseBetweenTheClosestPoints) {
-    const std::array<float, 8> far = {200, 200, 200, 200, 200, 200, 200, 200};
-    for (const double gap : {1e-1, 1e-6, 1e-9, 1e-12, 1e-13}) {
-        const TransferCurve step(
-            std::vector<TransferPoint>{{100, 0.5F, {1, 1, 1}}, {100 + gap, 2, {1, 1, 1}}});
-        EXPECT_EQ(step.at(200), glm::dvec4(2)) << gap;
-        EXPECT_EQ(step.mean(far), glm::dvec4(2)) << gap;
-        // A box of whose values, from 96 to 104 along X, half lie below the step.
-        const glm::dvec4 mean = step.mean({96, 104, 96, 104, 96, 104, 96, 104});
-        EXPECT_NEAR(mean.w, 0.5 + 1.5 * (4 - gap / 2) / 8, 1e-7) << gap;
-        // A corner of the box, a sixth of it, lies below the step.
-        EXPECT_NEAR(step.mean({97, 100, 100, 103, 100, 103, 103, 106}).w,
-                    2 - 1.5 / 6 - 1.5 * gap / 12, gap * gap + 1e-6)
-            << gap;
-    }
-    for (const double gap : {1e-300, 1e-310}) {
-        const TransferCurve step(
-            std::vector<TransferPoint>{{0, 0.5F, {1, 1, 1}}, {gap, 2, {1, 1, 1}}});
-        EXPECT_EQ(step.mean(far), glm::dvec4(2)) << gap;
-        EXPECT_NEAR(step.mean({-1, 3, -1, 3, -1, 3, -1, 3}).w, 0.5 + 1.5 * 0.75, 1e-7) << gap;
-    }
-}
-
-TEST(TransferCurve, IsExactlyNothingBetweenPointsOfNothing) {
-    const TransferCurve curve(std::vector<TransferPoint>{{-200, 0, {1, 1, 1}},
-                                                         {40, 0.5F, {1, 0.9F, 0.3F}},
-                                                         {100, 0, {1, 1, 1}},
-                                                         {300, 0, {1, 1, 1}},
-                                                         {900, 4, {1, 1, 1}},
-                                                         {1000.1, 0, {1, 1, 1}}});
-    for (float value = 100; value <= 300; value += 0.37F) {
-        EXPECT_EQ(curve.at(value), glm::dvec4(0)) << value;
-        EXPECT_EQ(curve.mean({100, value, 300, value, 200, 200, value, value}), glm::dvec4(0));
-        EXPECT_TRUE(curve.is_zero_in(100, value));
-        EXPECT_FALSE(curve.is_zero_in(99.9, value));
-    }
-    EXPECT_EQ(curve.at(1e9), glm::dvec4(0));
-    EXPECT_TRUE(curve.is_zero_in(1001, INFINITY));
-    EXPECT_FALSE(curve.is_zero_in(-INFINITY, INFINITY));
-}
-
 TEST_F(TransferTest, LightOfARampIsNearlyThatOfThinLayers) {
     const Image image = picture(ramp_scene("[-4, 0.6875, 0.6875]"));
     // Inside of a voxel, light is mixed with the mean colour: here a voxel has depths of up to 1.
@@ -261,6 +154,47 @@ TEST_F(TransferTest, ThatIsLitIsDarkerOnTheSideAwayFromTheLight) {
     EXPECT_NEAR(color_of(picture(scene), 0, 0), 1, 1e-3);
     density.lit = {-1, 0, 0};
     EXPECT_NEAR(color_of(picture(scene), 0, 0), 0.25, 1e-3);
+}
+
+TEST_F(TransferTest, ThatIsLitByTheSceneHasTheLightOfItsLights) {
+    // Absorption rises along X, so that the surface faces lower X.
+    Scene scene = ramp_scene("[-4, 0.6875, 0.6875]");
+    auto& density = std::get<GridDensity>(scene.world.medium.density);
+    const glm::dvec3 color(1, 0.5, 0.25);
+    density.transfer = {{-4, 0, color}, {7, 44, color}};
+    density.is_lit_by_scene = true;
+    scene.world.ambient = {0.125F, 0.25F, 0.0625F};
+    scene.lights.resize(2);
+    scene.lights[0].position = {-3, 2, 0.6875};
+    scene.lights[0].intensity = {8, 4, 2};
+    scene.lights[1].kind = LightKind::directional;
+    scene.lights[1].direction = {0.6, -0.8, 0};
+    scene.lights[1].intensity = {0.5F, 1, 0.25F};
+    const Image image = picture(scene);
+    for (size_t pixel = 0; pixel < 16; ++pixel) {
+        const double y = 0.6875 + 0.5 * (0.375 - 0.25 * double(pixel / 4));
+        const double z = 0.5 * (0.375 - 0.25 * double(pixel % 4));  // from the light's plane
+        glm::dvec3 radiance(0);
+        double through = 1;
+        for (int i = 0; i < kCells; ++i) {
+            const double low = 4 * (ramp(i - 0.25) + 4), high = 4 * (ramp(i + 0.25) + 4);
+            const double share = std::min(4 * (high - low) / (high + low), 1.0);
+            const glm::dvec3 way(i * kEdge + 3, y - 2, z);
+            const double distance = glm::length(way);
+            const auto faced = [&](double cosine) { return 1 - share + share * cosine; };
+            const glm::dvec3 light =
+                glm::dvec3(0.125, 0.25, 0.0625) +
+                glm::dvec3(8, 4, 2) * faced(way.x / distance) / (distance * distance) +
+                glm::dvec3(0.5, 1, 0.25) * faced(0.6);
+            const double left = std::exp(-(low + high) / 2 * kEdge);
+            radiance += through * (1 - left) * color * light;
+            through *= left;
+        }
+        radiance += through * glm::dvec3(1, 2, 4);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(color_of(image, pixel, channel), radiance[channel], 1e-5)
+                << pixel << channel;
+    }
 }
 
 TEST_F(TransferTest, OfAFileWithoutOneItsValuesAreDensities) {

@@ -9,6 +9,7 @@ it. Exits with 77, which skips the test, where the modules aren't installed.
 Usage: array_readers_test.py PROGRAM
 """
 import itertools
+import json
 import pathlib
 import subprocess
 import sys
@@ -18,7 +19,7 @@ try:
     import nibabel
     import nrrd
     import numpy
-    from midvoxio.voxio import vox_to_arr
+    from midvoxio.voxio import get_vox, vox_to_arr
 except ImportError:
     sys.exit(77)
 
@@ -47,6 +48,25 @@ def written_places(path):
     values, header = nrrd.read(str(path))
     rows = header["space directions"].T * 1000
     return places(values, rows, header["space origin"] * 1000)
+
+
+def check_materials(program, folder):
+    """The materials of a scene in a MagicaVoxel file."""
+    materials = {"metal": {"base_color": [1, 0.7, 0.2], "metallic": 0.75, "roughness": 0.25},
+                 "glass": {"diffuse": 0.5, "refraction": 0.5, "ior": 1.5},
+                 "lamp": {"emission": [4, 2, 1]}}
+    scene = {"voxelume": 1, "world": {"voxel_size": 0.25}, "materials": materials,
+             "models": {"box": {"shape": "box", "size": [1, 1, 1]}},
+             "objects": [{"model": "box", "material": name, "position": [2 * i, 0, 0]}
+                         for i, name in enumerate(materials)]}
+    (folder / "m.json").write_text(json.dumps(scene))
+    subprocess.run([program, "voxelize", folder / "m.json", "-o", folder / "m.vox"], check=True)
+    found = {m.dic["_type"]: m.dic for m in get_vox(str(folder / "m.vox")).materials}
+    assert set(found) == {"_metal", "_glass", "_emit"}, found
+    for kind, key, value in (("_metal", "_metal", 0.75), ("_metal", "_rough", 0.25),
+                             ("_glass", "_trans", 0.5), ("_glass", "_ri", 1.5),
+                             ("_emit", "_emit", 1), ("_emit", "_flux", 1)):
+        assert float(found[kind][key]) == value, (kind, key, found[kind])
 
 
 def main():
@@ -82,6 +102,7 @@ def main():
             found = written_places(convert(folder / "b.nrrd", folder / "c.nrrd"))
             assert found == places(values, FROM_LPS @ rows, FROM_LPS @ origin), f"NRRD {i}"
 
+        check_materials(program, folder)
         colors = rng.integers(0, 256, (6, 5, 4, 3), dtype=numpy.uint8)
         colors[0, 0, 0] = colors[5, 4, 3] = (1, 2, 3)
         for order in "CF":

@@ -5,6 +5,7 @@
 
 #include "lib/lanes/fixed_point.h"
 #include "lib/light/surroundings.h"
+#include "lib/surface/glass_faces.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_alpha.h"
 #include "lib/traverse/instances.h"
@@ -76,6 +77,27 @@ static inline void add_depth(const WorldView* world, const Surroundings* around,
     for (int channel = 0; channel < 3; ++channel)
         filter->depth[channel] =
             fma((lane_float)per_metre[channel], amount, filter->depth[channel]);
+}
+
+/// Mask: `passing` rays meet hidden faces between the glass of two bodies of cubes.
+static inline lane_int passes_glass_face(const WorldView* world, const Surroundings* around,
+                                         const Packet* f, lane_uint packed, lane_int passing) {
+    const Walk* w = &f->walk;
+    const lane_int exit = f->found.exit;
+    // Rays that enter a body out of another one have left that at the same t.
+    const lane_int follows = f->ray_state.goes_on & LANE_MASK(f->found.t == f->ray_state.t_first);
+    const lane_int faces = passing & (exit | follows) & is_cube(packed, f->found.primitive) &
+                           LANE_MASK(w->axis != 3) & is_joined(packed, around->materials);
+    if (!lanes_any(faces)) return faces;
+    FaceCell other = {w->x, w->y, w->z};  // of rays that leave, the cell behind the face
+    const FaceCell before = neighbor_of(other, LANES_AS_UINT(w->axis), ~crossed_upwards(w));
+    other.x = LANES_SELECT(exit, other.x, before.x);
+    other.y = LANES_SELECT(exit, other.y, before.y);
+    other.z = LANES_SELECT(exit, other.z, before.z);
+    const lane_uint beyond =
+        glass_in(&world->pyramid, &world->surface, other, around->materials, faces);
+    return are_between_glass(&f->ray_state.media, packed, beyond, exit, around->ranks) &
+           (~exit | bend_alike(packed, beyond, around->materials));
 }
 
 /// Moves the `passing` rays across a surface: updates their medium sets. Returns the mask of those
@@ -190,8 +212,9 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
     filter->layers -= hit;
     lane_int passing = hit & LANE_MASK(filter->layers < VXL_MAX_LAYERS);
     passing &= LANE_MASK(opacity < 1.0f) | LANE_MASK(refraction > 0.0f) | found->exit;
-    lane_int leaving;
-    const lane_int hidden =
+    lane_int leaving, hidden = (lane_int)0;
+    if (VXL_CUBE_BODIES) hidden = passes_glass_face(world, around, f, packed, passing);
+    hidden |=
         cross_surface(around, found, packed, before, refraction, passing, &leaving, ray_state);
     tint_light(around, w, found->t, material, colors, opacity, refraction, passing & ~hidden,
                filter);

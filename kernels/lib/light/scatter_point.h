@@ -22,6 +22,7 @@ typedef struct {
     lane_int valid;         // mask: entries of the batch
     lane_int hit, leaving;  // masks: the surface is met; from inside of its object
     lane_uint packed, material, primitive;
+    lane_uint beyond;  // the glass behind the face of another, as VXL_SIDE_BEYOND_SHIFT has it
     lane_uint source;  // of the rays that leave the point
     Vector position, normal, way;
     Vector shading;     // the normal by which light is reflected and refracted
@@ -43,6 +44,7 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
     const lane_uint side = LANES_LOAD(batch->sides, first);
     p.hit = LANE_MASK(number != VXL_NO_VOXEL) & p.valid & LANE_MASK((side & VXL_SIDE_HIDDEN) == 0u);
     p.leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
+    p.beyond = VXL_CUBE_BODIES ? side >> VXL_SIDE_BEYOND_SHIFT : (lane_uint)0;
     p.packed = LANES_LOAD(batch->hit_attributes, first);
     p.material = material_offset(p.packed) & LANES_AS_UINT(p.hit);
     p.primitive = (lane_uint)VXL_NO_PRIMITIVE;
@@ -94,6 +96,7 @@ static inline void refract_light(const Surroundings* around, ScatterPoint* p, la
     const lane_uint from = medium_inside(&p->before, around->ranks);
     lane_uint to = medium_inside(&p->behind, around->ranks);
     to = LANES_SELECT(open, to, ((p->packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u);
+    if (VXL_CUBE_BODIES) to = LANES_SELECT(p->leaving & LANE_MASK(p->beyond != 0u), p->beyond, to);
     p->eta = exact_divide(medium_ior(materials, from),
                           medium_ior(materials, to & LANES_AS_UINT(p->hit)));
     p->bend = refraction_at(p->eta, p->cosine);

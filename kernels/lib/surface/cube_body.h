@@ -3,8 +3,9 @@
 //
 // The ray's medium set changes when the ray enters the first voxel of the body, and when it leaves
 // the last one to a cell that isn't the object's; voxels between don't change it. If the material
-// refracts, these two faces are all of its surface. Else every voxel entered covers what lies
-// behind by its opacity, and the face where the ray leaves does nothing.
+// refracts, the body is of this material alone, and these two faces are all of its surface. Else
+// every voxel entered covers what lies behind by its opacity, and the face where the ray leaves
+// does nothing.
 #ifndef VXL_CUBE_BODY_H
 #define VXL_CUBE_BODY_H
 
@@ -35,6 +36,13 @@ static inline lane_int is_joined(lane_uint body, global const float* restrict ma
     const lane_uint material = material_offset(body) & LANES_AS_UINT(some);
     return some &
            LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
+}
+
+/// Mask: the cubes of `packed` belong to the body that a ray is inside of. Other materials of the
+/// object aren't part of a body that is `joined`.
+static inline lane_int is_of_body(lane_uint body, lane_uint packed, lane_int joined) {
+    const uint material = VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT;
+    return is_medium(body, packed) & (~joined | LANE_MASK(((body ^ packed) & material) == 0u));
 }
 
 /// Mask: the surface of a hit whose VXL_HIT_FACE is `face` was met from inside, by leaving a cell.

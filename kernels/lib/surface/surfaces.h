@@ -228,8 +228,9 @@ static INLINED lane_int test_surfaces(const PyramidView* p, const SurfaceView* s
     if (VXL_CUBE_BODIES) {
         lane_int own = tested & LANE_MASK(ray_state->body != VXL_NO_MEDIUM);
         if (VXL_ATTRIBUTES)
-            own &= is_medium(ray_state->body,
-                             attributes_of_cubes(LANES_GATHER_UINT(s->attributes, voxel)));
+            own &= is_of_body(ray_state->body,
+                              attributes_of_cubes(LANES_GATHER_UINT(s->attributes, voxel)),
+                              ray_state->joined);
         left = tested & found->in_body & ~own;
         leave_body(found, w, left);
         tested &= ~left;

@@ -28,6 +28,7 @@ void add_scan(const v1::GridDensity& density, ObjectTree& object) {
         points.push_back(item.add("color", point.color).take());
     }
     if (!points.empty()) object.put("transfer", list_of(std::move(points)));
+    if (density.is_lit_by_scene) object.add("lit", true);
     add_pose(density, object.add("lit", density.lit));
 }
 

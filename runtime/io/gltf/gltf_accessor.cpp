@@ -208,7 +208,7 @@ std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, 
     const auto number = size_t(from.index(key, SIZE_MAX));
     if (const auto* const decoded = file.decoded_accessor(number)) {
         elements.type = kUnsignedInt;
-        count = std::min<uint64_t>(count, decoded->size() / 4);
+        count = decoded->size() / 4;  // of strips, Draco makes more indices than their accessor has
         take_decoded(file, accessor, number, count, elements);
     } else {
         place(file, accessor, count, elements);

@@ -79,13 +79,16 @@ constexpr std::array kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 DracoPrimitive draco_primitive(const GltfFile& file, const GltfValue& primitive) {
     const GltfValue from = primitive.extension(kDraco), attributes = primitive.at("attributes");
     const size_t accessors = file.root().size("accessors");
-    if (primitive.count("mode", 4) != 4)
-        primitive.fail("a mode other than 4, triangles, which is read of Draco's data");
+    const uint64_t mode = primitive.count("mode", 4);
+    if (mode != 4 && mode != 5)
+        primitive.fail("a mode other than 4, triangles, or 5, strips, which Draco's data have");
     const int indices = primitive.index("indices", accessors);
     if (indices < 0 || !attributes.has("POSITION")) primitive.fail("has no indices or no POSITION");
     DracoPrimitive found{{{}, file.view(from, "bufferView"), from.place()}, {size_t(indices)}};
     CodecTask& task = found.job.task;
     task.indices = count_gltf_values(file, primitive, "indices");
+    // A strip has a triangle for each index from the third on.
+    if (mode == 5) task.indices = task.indices < 3 ? 0 : 3 * (task.indices - 2);
     task.count = count_gltf_values(file, attributes, "POSITION");
     for (const auto& [key, id] : from.at("attributes").json().items()) {
         const int number = attributes.index(key.c_str(), accessors);

@@ -75,12 +75,13 @@ class MeshBuilder {
 
   private:
     void add_primitive(const GltfValue& primitive, const glm::dmat4& map) {
-        const uint64_t mode = primitive.count("mode", kTriangles);
+        uint64_t mode = primitive.count("mode", kTriangles);
         if (mode < kTriangles) {
             ++skipped_;
             return;
         }
         if (mode > kFan) primitive.fail(fmt::format("{} is no mode", mode));
+        if (primitive.has_extension("KHR_draco_mesh_compression")) mode = kTriangles;  // by now
         const GltfValue attributes = primitive.at("attributes");
         if (!attributes.has("POSITION")) return;  // nothing is drawn, says the format
         const GltfValues positions = gltf_values(file_, attributes, "POSITION", {3});

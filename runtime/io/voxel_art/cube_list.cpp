@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/vector_relational.hpp>
 
+#include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/grid/brick_cells.hpp"
@@ -23,8 +24,11 @@ void add_stored(const VoxelModel& model, size_t slot, CubeList& cubes) {
              bits &= bits - 1) {
             const glm::ivec3 in = leaf_corner(leaf) + cell_in_leaf(std::countr_zero(bits));
             cubes.cells.push_back(first + in);
-            if (!model.colors.empty())
-                cubes.colors.push_back(model.colors[slot * kVoxelsPerBrick + voxel_in_brick(in)]);
+            const size_t place = slot * kVoxelsPerBrick + voxel_in_brick(in);
+            if (!model.colors.empty()) cubes.colors.push_back(model.colors[place]);
+            if (!cubes.materials.empty())
+                cubes.material_numbers.push_back(
+                    uint16_t(model.attributes[place] >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK));
         }
 }
 
@@ -34,6 +38,10 @@ void add_full(const VoxelModel& model, size_t brick, CubeList& cubes) {
     if (!model.colors.empty())
         cubes.colors.resize(cubes.cells.size(),
                             model.full_colors.empty() ? 0xFFFFFF : model.full_colors[brick]);
+    if (!cubes.materials.empty()) {
+        const uint16_t last = cubes.material_numbers.empty() ? 0 : cubes.material_numbers.back();
+        cubes.material_numbers.resize(cubes.cells.size(), last);
+    }
 }
 
 [[noreturn]] void refuse_empty() {
@@ -109,8 +117,9 @@ VoxelModel cubes_inside(const VoxelModel& smooth) {
     return cubes;
 }
 
-CubeList cube_list(const VoxelModel& model) {
+CubeList cube_list(const VoxelModel& model, std::span<const CubeMaterial> materials) {
     CubeList cubes;
+    if (!model.attributes.empty()) cubes.materials.assign(materials.begin(), materials.end());
     size_t count = 0;
     for (const uint64_t bits : model.occupancy) count += size_t(std::popcount(bits));
     for (const uint32_t slot : model.slots) count += slot == kBrickInside ? kVoxelsPerBrick : 0;

@@ -3,12 +3,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
 
 namespace voxelume {
+
+/// A material of voxels, as MagicaVoxel has it.
+struct CubeMaterial {
+    VoxMaterial vox;
+    std::optional<uint32_t> color{};  ///< 0xBBGGRR of its voxels, instead of their own
+};
 
 /// Voxels in the smallest box that has all of them.
 struct CubeList {
@@ -17,6 +26,8 @@ struct CubeList {
     glm::dvec3 voxel_edge{1};       ///< metres
     std::vector<glm::ivec3> cells;  ///< from (0, 0, 0) to size - 1, Y up, in any order
     std::vector<uint32_t> colors;   ///< 0xTTBBGGRR, transparency on top; empty: all are white
+    std::vector<CubeMaterial> materials;
+    std::vector<uint16_t> material_numbers;  ///< of each voxel; empty: all are plain
 };
 
 /// The number of voxels along each axis of the smallest box that has all of a model. Throws
@@ -26,8 +37,10 @@ glm::ivec3 size_of_cubes(const VoxelModel& model);
 /// The inside of a smooth model as cubes, without its colours: the voxels whose middles lie inside.
 VoxelModel cubes_inside(const VoxelModel& smooth);
 
-/// The voxels of cubes, with those of bricks that are full. Throws Error::limit for more than 2^28.
-CubeList cube_list(const VoxelModel& model);
+/// The voxels of cubes, with those of bricks that are full, which have the material of what they
+/// touch at -X. `materials` are numbered as in the model's attributes. Throws Error::limit for more
+/// than 2^28.
+CubeList cube_list(const VoxelModel& model, std::span<const CubeMaterial> materials = {});
 
 /// Moves the voxels to the smallest box that has them all.
 void shrink(CubeList& cubes);
@@ -38,7 +51,7 @@ void shrink(CubeList& cubes);
 using WriterNotes = std::vector<std::string>;
 
 /// MagicaVoxel's .vox: a model of 256 voxels along each axis at most, or several that stand side by
-/// side. More than 255 colours become 255 by median cut.
+/// side. More than 255 colours become 255 by median cut, each material's for itself.
 WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes);
 
 /// KV6, which has the voxels of surfaces alone.

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "runtime/base/files/atomic_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_art/median_cut.hpp"
+#include "runtime/io/voxels/vox_materials.hpp"
 
 namespace voxelume {
 namespace {
@@ -42,16 +44,67 @@ glm::ivec3 floor_parts(const glm::ivec3& cell) {
     return {cell.x >> 8, cell.y >> 8, cell.z >> 8};
 }
 
-Palette palette_of(const CubeList& cubes) {
-    std::map<uint32_t, uint64_t> counts;
-    if (cubes.colors.empty()) counts[0xFFFFFF] = cubes.cells.size();
-    for (const uint32_t color : cubes.colors) ++counts[color & 0xFFFFFF];
-    return median_cut(counts, kMaxColors);
+/// A material's number and a colour of its voxels, 0xBBGGRR. Number 0 stands for all plain ones.
+using Paint = std::pair<size_t, uint32_t>;
+
+Paint paint_of(const CubeList& cubes, size_t voxel) {
+    const size_t material = cubes.material_numbers.empty() ? 0 : cubes.material_numbers[voxel];
+    const uint32_t own = cubes.colors.empty() ? 0xFFFFFF : cubes.colors[voxel] & 0xFFFFFF;
+    if (material >= cubes.materials.size()) return {0, own};
+    const CubeMaterial& of = cubes.materials[material];
+    const bool is_plain = of.vox.kind == VoxMaterialKind::diffuse;
+    return {is_plain ? 0 : material + 1, of.color.value_or(own)};
+}
+
+/// The file's colours, and of each the material.
+struct VoxPalette {
+    std::vector<uint32_t> colors;
+    std::vector<size_t> materials;
+    std::map<Paint, size_t> places;
+};
+
+/// Each material has its share of the colours.
+VoxPalette palette_of(const CubeList& cubes) {
+    std::map<size_t, std::map<uint32_t, uint64_t>> counts;
+    for (size_t i = 0; i < cubes.cells.size(); ++i) {
+        const Paint paint = paint_of(cubes, i);
+        ++counts[paint.first][paint.second];
+    }
+    size_t all = 0;
+    for (const auto& [material, colors] : counts) all += colors.size();
+    const size_t spare = kMaxColors - counts.size(), further = all - counts.size();
+    VoxPalette palette;
+    for (const auto& [material, colors] : counts) {
+        const size_t share =
+            all <= kMaxColors ? colors.size() : 1 + spare * (colors.size() - 1) / further;
+        const Palette own = median_cut(colors, share);
+        for (const auto& [color, number] : own.numbers)
+            palette.places[{material, color}] = palette.colors.size() + number;
+        palette.colors.insert(palette.colors.end(), own.colors.begin(), own.colors.end());
+        palette.materials.resize(palette.colors.size(), material);
+    }
+    return palette;
+}
+
+/// A chunk MATL for each colour whose material is more than a colour.
+void add_materials(std::string& bytes, const CubeList& cubes, const VoxPalette& palette) {
+    for (size_t i = 0; i < palette.colors.size(); ++i) {
+        if (palette.materials[i] == 0) continue;
+        const VoxDictionary values = values_of(cubes.materials[palette.materials[i] - 1].vox);
+        std::string content;
+        add_int(content, int32_t(i + 1));
+        add_int(content, int32_t(values.size()));
+        for (const auto& [key, value] : values) {
+            add_text(content, key);
+            add_text(content, value);
+        }
+        add_chunk(bytes, "MATL", content);
+    }
 }
 
 using Parts = std::map<std::array<int, 3>, VoxPart>;
 
-Parts parts_of(const CubeList& cubes, const Palette& palette) {
+Parts parts_of(const CubeList& cubes, const VoxPalette& palette) {
     Parts parts;
     for (size_t i = 0; i < cubes.cells.size(); ++i) {
         const glm::ivec3& c = cubes.cells[i];
@@ -59,8 +112,7 @@ Parts parts_of(const CubeList& cubes, const Palette& palette) {
         VoxPart& part = parts[{p.x, p.y, p.z}];
         part.low = glm::min(part.low, v);
         part.high = glm::max(part.high, v + 1);
-        const uint32_t color = cubes.colors.empty() ? 0xFFFFFF : cubes.colors[i] & 0xFFFFFF;
-        part.voxels.emplace_back(v, uint8_t(palette.numbers.at(color) + 1));
+        part.voxels.emplace_back(v, uint8_t(palette.places.at(paint_of(cubes, i)) + 1));
     }
     static_assert(kPartSide == 1 << 8);
     for (auto& [place, part] : parts)
@@ -117,10 +169,28 @@ void add_graph(std::string& bytes, const Parts& parts) {
     }
 }
 
+/// True if there are so many materials that plain voxels would have no colour left.
+bool has_too_many_materials(const CubeList& cubes) {
+    std::set<size_t> numbers;
+    for (size_t i = 0; i < cubes.material_numbers.size(); ++i)
+        numbers.insert(paint_of(cubes, i).first);
+    return numbers.size() > kMaxColors;
+}
+
 }  // namespace
 
 WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) {
-    const Palette palette = palette_of(cubes);
+    if (has_too_many_materials(cubes)) {
+        CubeList plain = cubes;
+        plain.materials.clear();
+        WriterNotes notes = write_vox(path, plain);
+        notes.push_back(
+            fmt::format("its materials became plain colours, since there are more than "
+                        "{}",
+                        kMaxColors));
+        return notes;
+    }
+    const VoxPalette palette = palette_of(cubes);
     const Parts parts = parts_of(cubes, palette);
     std::string inside;
     for (const auto& [place, part] : parts) add_model(inside, part);
@@ -130,6 +200,7 @@ WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) 
         add_int(colors,
                 int32_t(i < palette.colors.size() ? palette.colors[i] | 0xFF000000u : 0xFF000000u));
     add_chunk(inside, "RGBA", colors);
+    add_materials(inside, cubes, palette);
     std::string start = "VOX ";
     add_int(start, 150);
     start += "MAIN";
@@ -146,8 +217,8 @@ WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) 
     if (parts.size() > 1)
         notes.push_back(fmt::format("{} models of {} voxels a side stand side by side",
                                     parts.size(), kPartSide));
-    if (palette.numbers.size() > palette.colors.size() || palette.numbers.size() > kMaxColors)
-        notes.push_back(fmt::format("{} colours became {} by median cut", palette.numbers.size(),
+    if (palette.places.size() > palette.colors.size())
+        notes.push_back(fmt::format("{} colours became {} by median cut", palette.places.size(),
                                     palette.colors.size()));
     const auto is_clear = [](uint32_t color) { return color >> 24 != 0; };
     if (std::ranges::any_of(cubes.colors, is_clear))

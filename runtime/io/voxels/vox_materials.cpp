@@ -73,6 +73,37 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
     m.flux = std::clamp(number_in(values, "_flux", 0), 0.0f, 8.0f);
 }
 
+VoxDictionary values_of(const VoxMaterial& m) {
+    if (m.kind == VoxMaterialKind::diffuse) return {};
+    const auto text = [](float value) { return fmt::format("{}", value); };
+    VoxDictionary values = {{"_type", std::string("_") + kNames[size_t(m.kind)]},
+                            {"_weight", text(m.weight)},
+                            {"_rough", text(m.rough)},
+                            {"_sp", text(m.specular)},
+                            {"_ri", text(m.ior)},
+                            {"_ior", fmt::format("{:.4g}", m.ior - 1)},
+                            {"_d", text(m.density)},
+                            {"_att", text(m.density)},
+                            {"_flux", text(m.flux)}};
+    switch (m.kind) {
+        case VoxMaterialKind::metal:
+            values["_metal"] = text(m.weight);
+            break;
+        case VoxMaterialKind::emit:
+            values["_emit"] = text(m.weight);
+            break;
+        case VoxMaterialKind::blend:
+            values["_metal"] = text(m.metal);
+            [[fallthrough]];
+        case VoxMaterialKind::glass:
+            values["_trans"] = values["_alpha"] = text(m.weight);
+            break;
+        default:
+            break;
+    }
+    return values;
+}
+
 void take_old_material(VoxContent& content, std::array<VoxMaterial, 256>& materials) {
     VoxMaterial& m = entry_of(content.take_int(), content, materials);
     const int kind = content.take_int();

@@ -15,4 +15,8 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
 /// Takes a material of the kind before 2017, a row of numbers, from a chunk MATT.
 void take_old_material(VoxContent& content, std::array<VoxMaterial, 256>& materials);
 
+/// The values of a material in a chunk MATL, from which take_material makes it again; none for a
+/// diffuse one.
+VoxDictionary values_of(const VoxMaterial& material);
+
 }  // namespace voxelume

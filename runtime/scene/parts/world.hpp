@@ -56,6 +56,7 @@ struct GridDensity {
     std::vector<TransferPoint> transfer{};
     /// With a transfer: where light travels that brings out its surfaces, a unit vector; 0: none.
     glm::dvec3 lit{0};
+    bool is_lit_by_scene = false;  ///< with a transfer: by the scene's lights instead
     /// With a transfer: further scans, with transfers and places of their own and none of these.
     /// What they absorb adds up.
     std::vector<GridDensity> others{};

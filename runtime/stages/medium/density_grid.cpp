@@ -169,8 +169,9 @@ DensityGrid allocate_density(const Device& device, const DensitySize& size) {
     return grid;
 }
 
-DensityGrid form_density_grid(const Device& device, const World& world) {
-    const DensityLattice lattice(world);
+DensityGrid form_density_grid(const Device& device, const World& world,
+                              const std::vector<Light>& lights) {
+    const DensityLattice lattice(world, lights);
     const SlotCount slots = count_slots(lattice);
     DensityGrid grid =
         allocate_density(device, {slots.total(), lattice.brick_count(), lattice.has_colors()});

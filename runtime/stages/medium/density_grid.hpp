@@ -55,7 +55,8 @@ DensityGrid allocate_density(const Device& device, const DensitySize& size);
 bool has_no_medium(const World& world);
 
 /// Makes the density's lattice: a voxel has the density at its centre, or by a transfer function
-/// the mean over all of it. Throws as plan_density does.
-DensityGrid form_density_grid(const Device& device, const World& world);
+/// the mean over all of it, lit by `lights` where the scene lights it. Throws as plan_density does.
+DensityGrid form_density_grid(const Device& device, const World& world,
+                              const std::vector<Light>& lights = {});
 
 }  // namespace voxelume

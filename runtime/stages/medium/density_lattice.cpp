@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/medium/density_source.hpp"
@@ -18,29 +16,10 @@ constexpr int kWholeAxis = 16;
 /// Points of a brick's half voxels along an axis, with both ends.
 constexpr int kPoints = 2 * kBrickSize + 1;
 
-/// The light on a voxel whose eighths have such absorptions, from a light that travels along a unit
-/// vector: as on a surface, as far as the absorption rises from one side of the voxel to the other.
-double light_on(const std::array<double, 8>& eighths, const glm::dvec3& edge,
-                const glm::dvec3& lit) {
-    constexpr double kShadow = 0.25;  // what the side away from the light shows
-    glm::dvec3 rise(0);
-    double sum = 0;
-    for (size_t i = 0; i < 8; ++i) {
-        sum += eighths[i];
-        for (int axis = 0; axis < 3; ++axis)
-            rise[axis] += (i >> axis & 1) != 0 ? eighths[i] : -eighths[i];
-    }
-    const double contrast = glm::length(rise);
-    if (!(contrast > 0)) return 1;
-    const glm::dvec3 inward = glm::normalize(rise / edge);
-    const double shown = kShadow + (1 - kShadow) * std::max(glm::dot(inward, lit), 0.0);
-    // A difference of a quarter of the mean is a surface; smaller ones are parts of one.
-    return glm::mix(1.0, shown, std::min(4 * contrast / sum, 1.0));
-}
-
 }  // namespace
 
-DensityLattice::DensityLattice(const World& world) : frame_(world_frame(world)) {
+DensityLattice::DensityLattice(const World& world, const std::vector<Light>& lights)
+    : scene_lights_{lights, world.ambient}, frame_(world_frame(world)) {
     if (has_medium_colors(world.medium)) {
         const auto& first = std::get<GridDensity>(world.medium.density);
         add_scan(first);
@@ -68,7 +47,12 @@ void DensityLattice::add_scan(const GridDensity& grid) {
     else
         field = grid_field(grid);
     seen_.push_back(grid);
-    scans_.push_back({std::move(field), TransferCurve(grid.transfer), grid.lit});
+    Scan scan{std::move(field), TransferCurve(grid.transfer), {}};
+    if (grid.is_lit_by_scene)
+        scan.lights = scene_lights_;
+    else if (grid.lit != glm::dvec3(0))
+        scan.lights = lights_along(grid.lit);
+    scans_.push_back(std::move(scan));
 }
 
 double DensityLattice::field_bytes() const {
@@ -137,9 +121,12 @@ void DensityLattice::add_means(const Scan& scan, size_t number, std::span<glm::d
             absorptions[size_t(part)] = mean.w;
             sum += mean;
         }
-        const double light = scan.lit != glm::dvec3(0) && sum.w > 0
-                                 ? light_on(absorptions, frame_.voxel_edge, scan.lit)
-                                 : 1.0;
+        glm::dvec3 light(1);
+        if (scan.lights && sum.w > 0) {
+            const glm::dvec3 middle = 0.5 * glm::dvec3(x + 1, y + 1, z + 1);
+            light = light_on(medium_surface(absorptions, frame_.voxel_edge),
+                             first_corner(number) + frame_.voxel_edge * middle, *scan.lights);
+        }
         sums[size_t(cell)] += glm::dvec4(light * glm::dvec3(sum), sum.w);
     }
 }

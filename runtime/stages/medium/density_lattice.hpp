@@ -10,6 +10,7 @@
 
 #include "runtime/grid/density_field.hpp"
 #include "runtime/grid/grid.hpp"
+#include "runtime/stages/medium/medium_light.hpp"
 #include "runtime/stages/medium/transfer_curve.hpp"
 
 namespace voxelume {
@@ -18,7 +19,8 @@ inline constexpr size_t kBrickCells = 4096;
 
 class DensityLattice {
   public:
-    explicit DensityLattice(const World& world);
+    /// `lights` light the scans that are lit by the scene; what they light has the same size.
+    explicit DensityLattice(const World& world, const std::vector<Light>& lights = {});
 
     const glm::ivec3& bricks() const { return bricks_; }
     const glm::ivec3& shift() const { return shift_; }
@@ -38,7 +40,7 @@ class DensityLattice {
     struct Scan {
         std::shared_ptr<const DensityField> field;
         TransferCurve curve;
-        glm::dvec3 lit;
+        std::optional<MediumLights> lights;
     };
 
     void add_scan(const GridDensity& grid);
@@ -48,6 +50,7 @@ class DensityLattice {
     void average(size_t number, std::span<float, kBrickCells> densities,
                  std::span<float> colors) const;
 
+    MediumLights scene_lights_;
     std::shared_ptr<const DensityField> field_;  ///< of a medium without transfer functions
     std::vector<Scan> scans_;
     std::vector<GridDensity> seen_;  ///< the grids of the scans

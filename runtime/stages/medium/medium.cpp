@@ -17,12 +17,13 @@ Environment with_scattering(Environment environment, const MediumScattering& sca
 }  // namespace
 
 MediumStage::MediumStage(const Device& device, const Features& features, const World& world,
-                         const Environment& environment, const Buffer<MaterialRecord>& materials)
+                         const Environment& environment, const Buffer<MaterialRecord>& materials,
+                         const std::vector<Light>& lights)
     : environment_(environment),
       scattering_(scattering_of(features, world.medium)),
       extinction_(with_scattering(environment, scattering_)),
       materials_(materials),
-      density_(features.medium_grid ? form_density_grid(device, world) : DensityGrid{}),
+      density_(features.medium_grid ? form_density_grid(device, world, lights) : DensityGrid{}),
       program_(device, "medium.cl", features.defines(device)),
       camera_(program_.kernel("absorb_sight")),
       shadows_(program_.kernel("absorb_shadows")) {}

@@ -18,9 +18,10 @@ namespace voxelume {
 class MediumStage {
   public:
     /// Makes the density's lattice if the features have `medium_grid`. Throws as form_density_grid
-    /// does.
+    /// does. `lights` are the scene's.
     MediumStage(const Device& device, const Features& features, const World& world,
-                const Environment& environment, const Buffer<MaterialRecord>& materials);
+                const Environment& environment, const Buffer<MaterialRecord>& materials,
+                const std::vector<Light>& lights = {});
 
     /// Lets the medium absorb its part of the radiance of rays 0 .. count-1 and add its own. With
     /// `transmission`, rays inside an object pass through its material instead. With `paths`, the

@@ -13,6 +13,7 @@ namespace voxelume {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::IsEmpty;
 
 class CliVoxelFilesTest : public ProgramTest {
@@ -132,7 +133,11 @@ TEST_F(CliVoxelFilesTest, WhatCubesDontHoldIsSaid) {
         "materials": {"lamp": {"emission": [1, 1, 1]}},
         "models": {"ball": {"shape": "sphere", "radius": 0.3}},
         "objects": [{"model": "ball", "material": "lamp"}]})");
-    EXPECT_THAT(run("voxelize s.json -o s.vox").err, HasSubstr("became plain colours"));
+    EXPECT_THAT(run("voxelize s.json -o s.kv6").err, HasSubstr("became plain colours"));
+    EXPECT_THAT(run("voxelize s.json -o s.vox").err, Not(HasSubstr("plain colours")));
+    EXPECT_THAT(run("info s.vox").out, HasSubstr("emit"));
+    EXPECT_THAT(run("convert s.vox t.vox").err, Not(HasSubstr("plain colours")));
+    EXPECT_EQ(bytes_of(folder / "t.vox"), bytes_of(folder / "s.vox"));
     EXPECT_THAT(run("voxelize s.json -o s###.npy").err, HasSubstr("choose the frame by --frame"));
     EXPECT_FALSE(std::filesystem::exists(folder / "s###.npy"));
 }

@@ -83,6 +83,17 @@ TEST(Draco, DracoMeshesAreWithinHalfAStepOfTheirVertices) {
         }
 }
 
+TEST(Draco, StripsAreTheTrianglesThatTheirDataHold) {
+    const Sheet sheet;
+    const std::string data = draco_data(sheet, draco::MESH_EDGEBREAKER_ENCODING, 14);
+    GltfWriter writer = draco_gltf(data, 35, 50);  // 48 triangles
+    writer.json["meshes"][0]["primitives"][0]["mode"] = 5;
+    const Mesh mesh = gltf_mesh(parsed_gltf(writer), 0);
+    expect_same_triangles(sheet, mesh);
+    writer.json["accessors"][0]["count"] = 49;
+    EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("its accessors 35 and 141"));
+}
+
 TEST(Draco, DracoDataThatDontFitTheirAccessorsAreRefused) {
     const std::string data = draco_data(Sheet(), draco::MESH_EDGEBREAKER_ENCODING, 12);
     const GltfWriter writer = draco_gltf(data, 35, 144);
@@ -101,7 +112,7 @@ TEST(Draco, DracoDataThatDontFitTheirAccessorsAreRefused) {
                 HasSubstr("3 components, and its accessor 4"));
     EXPECT_THAT(changed(extension + "/attributes/COLOR_0", 9), HasSubstr("have no attribute 9"));
     EXPECT_THAT(changed(extension + "/bufferView", 9), HasSubstr("the file has 1 of these"));
-    EXPECT_THAT(changed("/meshes/0/primitives/0/mode", 5), HasSubstr("a mode other than 4"));
+    EXPECT_THAT(changed("/meshes/0/primitives/0/mode", 6), HasSubstr("a mode other than 4"));
     EXPECT_THAT(refusal_of_gltf(draco_gltf(data, 2'000'000'000, 144)),
                 HasSubstr("compressed ones can hold; it is damaged"));
     EXPECT_THAT(refusal_of_gltf(draco_gltf("DRACO", 35, 144)), HasSubstr("Draco data"));

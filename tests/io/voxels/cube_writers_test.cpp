@@ -126,6 +126,85 @@ TEST_F(CubeWritersTest, MagicaVoxelKeepsUpTo255Colours) {
     EXPECT_LT(sum / double(3 * given.size()), 12);
 }
 
+/// A material of a kind, whose values tell it from others.
+CubeMaterial material_of(VoxMaterialKind kind, float value) {
+    CubeMaterial material;
+    material.vox = {kind, value, 0, value / 2, 0.25F, 1 + value, value / 4, 0};
+    if (kind == VoxMaterialKind::emit) material.vox.flux = 3 * value;
+    if (kind == VoxMaterialKind::media) material.vox.weight = 1;
+    if (kind == VoxMaterialKind::blend || kind == VoxMaterialKind::metal)
+        material.vox.metal = kind == VoxMaterialKind::metal ? value : value / 3;
+    return material;
+}
+
+TEST_F(CubeWritersTest, MagicaVoxelKeepsMaterials) {
+    CubeList cubes = odd_cubes(4000, 8);
+    for (const VoxMaterialKind kind :
+         {VoxMaterialKind::diffuse, VoxMaterialKind::metal, VoxMaterialKind::glass,
+          VoxMaterialKind::emit, VoxMaterialKind::blend, VoxMaterialKind::media})
+        cubes.materials.push_back(material_of(kind, 0.375F + 0.0625F * float(kind)));
+    cubes.materials[3].color = 0x123456;
+    for (size_t i = 0; i < cubes.cells.size(); ++i)
+        cubes.material_numbers.push_back(uint16_t(cubes.cells[i].x % 6));
+    EXPECT_THAT(write(cubes, "a.vox"), IsEmpty());
+    const VoxFile file = read_vox_file(folder / "a.vox");
+    ASSERT_EQ(file.models.size(), 1u);
+    std::map<std::array<int, 3>, int> entries;
+    const VoxelModel model = read_voxel_model(folder / "a.vox", Surface::cubes);
+    std::set<int> kinds;
+    for (size_t entry = 1; entry < 256; ++entry) {
+        const VoxMaterial& found = file.materials[entry];
+        if (found.kind == VoxMaterialKind::diffuse) continue;
+        kinds.insert(int(found.kind));
+        const VoxMaterial& given = cubes.materials[size_t(found.kind)].vox;
+        EXPECT_EQ(found.weight, given.weight) << entry;
+        EXPECT_EQ(found.metal, given.metal) << entry;
+        EXPECT_EQ(found.rough, given.rough) << entry;
+        EXPECT_EQ(found.specular, given.specular) << entry;
+        EXPECT_EQ(found.ior, given.ior) << entry;
+        EXPECT_EQ(found.density, given.density) << entry;
+        EXPECT_EQ(found.flux, given.flux) << entry;
+        if (found.kind == VoxMaterialKind::emit) {
+            EXPECT_EQ(file.palette[entry] & 0xFFFFFF, 0x123456u);
+        }
+    }
+    EXPECT_EQ(kinds, (std::set<int>{1, 2, 3, 4, 5}));
+    // Voxel by voxel, the kind is that of its column.
+    std::map<std::array<int, 3>, std::string> shown;
+    for (const auto& [at, cell] : cells_of(model)) shown[at] = cell.group;
+    ASSERT_EQ(shown.size(), cubes.cells.size());
+    const std::array kNames = {"", "metal", "glass", "emit", "blend", "media"};
+    for (const glm::ivec3& c : cubes.cells) {
+        const std::string kind = kNames[size_t(c.x % 6)];
+        EXPECT_EQ(shown.at({c.x, c.y, c.z}).substr(0, kind.size()), kind);
+    }
+}
+
+TEST_F(CubeWritersTest, MagicaVoxelSharesItsColoursAmongMaterials) {
+    CubeList cubes = odd_cubes(4000, 2000);
+    cubes.materials = {
+        {}, material_of(VoxMaterialKind::metal, 0.5F), material_of(VoxMaterialKind::glass, 0.5F)};
+    for (const glm::ivec3& c : cubes.cells)
+        cubes.material_numbers.push_back(uint16_t(c.x == 9 ? 2 : c.x % 2));
+    EXPECT_THAT(write(cubes, "a.vox"), HasSubstr("by median cut"));
+    const VoxFile file = read_vox_file(folder / "a.vox");
+    std::array<int, 6> entries{};
+    for (size_t entry = 1; entry < 256; ++entry) ++entries[size_t(file.materials[entry].kind)];
+    EXPECT_GT(entries[1], 100);
+    EXPECT_GE(entries[2], 1);
+}
+
+TEST_F(CubeWritersTest, MagicaVoxelHasNoMoreMaterialsThanColours) {
+    CubeList cubes = odd_cubes(4000, 8);
+    cubes.materials.assign(300, {});
+    for (size_t i = 0; i < cubes.cells.size(); ++i)
+        cubes.material_numbers.push_back(uint16_t(i % 300));
+    EXPECT_THAT(write(cubes, "a.vox"), IsEmpty()) << "plain ones are one";
+    cubes.materials.assign(300, material_of(VoxMaterialKind::glass, 0.5F));
+    EXPECT_THAT(write(cubes, "b.vox"), HasSubstr("became plain colours, since there are more"));
+    EXPECT_EQ(read_back("b.vox"), read_back("a.vox"));
+}
+
 TEST_F(CubeWritersTest, MagicaVoxelHasPartsOf256) {
     CubeList cubes;
     cubes.size = {600, 300, 257};
