@@ -8,7 +8,8 @@
 // Build constants: VXL_BASE: there are cubes or exact voxels, too. VXL_BASE_ATTRIBUTES,
 // VXL_PRIMITIVES: these have attributes of their own, primitives. VXL_COLORS: the world has
 // colours. VXL_VOXEL_NORMALS: its cubes have normals. VXL_ATTRIBUTES, VXL_OWN_COLORS: the object
-// whose fields are written has them.
+// whose fields are written has them. VXL_LINK: how the field is joined to those of the object
+// before it (VXL_LINK_*), or 0.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
 #include "lib/voxelize/brick_grid.h"
@@ -26,6 +27,60 @@ kernel void append_masks(const uint count, const uint first, global const ulong*
                          global ulong* restrict to) {
     const uint item = work_item();
     if (item < count) to[(size_t)first * 64 + item] = from[item];
+}
+
+// One brick of a part of a solid, number `first` + its slot among all fields' bricks: the masks of
+// the cells that lie inside of it.
+kernel void mark_inside(const uint count, const uint first, global const short* restrict distance,
+                        global const ulong* restrict masks, global ulong* restrict inside) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        ulong mask = 0;
+        for (int bit = 0; bit < 64; ++bit)
+            if (distance[(size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit)] < 0)
+                mask |= 1ul << bit;
+        const size_t at = (size_t)(first + slot) * 64 + leaf;
+        inside[at] = mask & ~masks[at];
+    }
+}
+
+// One brick of a solid: takes the cells from its parts' masks in which a part's surface is not the
+// solid's, since another part decides there. Entries chain_first[b] .. chain_first[b + 1] are the
+// parts in brick b, in their order: the number of a part's brick among all fields', or that it has
+// none (x), and how the part is joined to those before it (y).
+kernel void join_parts(const uint count, global const uint* restrict chain_first,
+                       global const uint* restrict chain, global const ulong* restrict inside,
+                       global ulong* masks) {
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint begin = chain_first[item], end = chain_first[item + 1];
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        ulong within = 0, crossed = 0;  // the cells inside of what is joined so far, and on it
+        for (uint e = begin; e < end; ++e) {
+            const uint own = chain[2 * e], link = chain[2 * e + 1];
+            const size_t at = (size_t)own * 64 + leaf;
+            ulong on = brick_is_stored(own) ? masks[at] : 0;
+            const ulong in = brick_is_stored(own) ? inside[at] : own == VXL_BRICK_INSIDE ? ~0ul : 0;
+            ulong open = ~0ul;  // where what is joined so far still matters
+            if (link == VXL_LINK_UNION) {
+                open = ~in;
+                on &= ~within;
+                within |= in;
+            } else if (link == VXL_LINK_INTERSECTION) {
+                open = on | in;
+                on &= within | crossed;
+                within &= in;
+            } else {
+                within = in;
+            }
+            for (uint before = begin; before < e && ~open != 0; ++before)
+                if (brick_is_stored(chain[2 * before]))
+                    masks[(size_t)chain[2 * before] * 64 + leaf] &= open;
+            crossed = (crossed & open) | on;
+            if (brick_is_stored(own)) masks[at] = on;
+        }
+    }
 }
 
 // The kind of an occupied voxel of the grid of cubes and exact voxels.
@@ -194,10 +249,16 @@ kernel void write_fields(const uint count, const uint first, VXL_BRICK_GRID_PARA
         for (; mask != 0; mask &= mask - 1) {
             const int bit = lowest_bit(mask);
             uint record = number + (uint)popcount(all & ((1ul << bit) - 1));
+            uint rank_before = 0xFFFFFFFFu, rank = 0;
             if (lists >> bit & 1) {
                 record = voxel_fields[(size_t)record * VXL_FIELD_WORDS];
-                for (uint e = entry_first[brick]; entries[2 * e] != own; ++e)
-                    record += (uint)(masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1);
+                uint e = entry_first[brick];
+                for (; entries[2 * e] != own; ++e) {
+                    if (!(masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1)) continue;
+                    ++record;
+                    rank_before = entries[2 * e + 1];
+                }
+                rank = entries[2 * e + 1];
             }
             const int in_brick = voxel_in_brick(leaf, bit);
             const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + in_brick;
@@ -206,7 +267,9 @@ kernel void write_fields(const uint count, const uint first, VXL_BRICK_GRID_PARA
                                                                                 << VXL_KIND_SHIFT;
             if (VXL_COLORS) voxel_colors[record] = VXL_OWN_COLORS ? grid.colors[voxel] : 0xFFFFFFu;
             const int4 cell = (int4)(in_brick & 15, in_brick >> 4 & 15, in_brick >> 8, 0);
-            vstore8(field_record(nodes, cell), record, voxel_fields);
+            uint8 words = field_record(nodes, cell);
+            if (VXL_LINK && rank == rank_before) words.s4 |= (uint)VXL_LINK << VXL_LINK_SHIFT;
+            vstore8(words, record, voxel_fields);
         }
         number += (uint)popcount(all);
     }

@@ -27,6 +27,18 @@ kernel void append_numbers(const uint count, const uint start, const uint first,
     if (i < count) to[start + i] = from[i] & kept ? from[i] : from[i] + first;
 }
 
+// Copies the record of a field, or of a list of fields, which `first` records now precede. Zeros
+// list none.
+kernel void append_fields(const uint count, const uint first,
+                          global const uint* restrict attributes, global const uint* restrict from,
+                          global uint* restrict to) {
+    const uint i = work_item();
+    if (i >= count) return;
+    uint8 record = vload8(i, from);
+    if (attributes[i] >> VXL_KIND_SHIFT >= VXL_KIND_EXACT && record.s1 != 0) record.s0 += first;
+    vstore8(record, first + i, to);
+}
+
 // Copies one brick record. Its halves' first leaves get new numbers, unless it is empty.
 kernel void append_bricks(const uint count, const uint start, const uint first_leaf,
                           global const uint* restrict from, global uint* restrict to) {

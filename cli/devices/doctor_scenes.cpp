@@ -15,13 +15,16 @@ constexpr const char* kMatt = R"({"voxelume": 1,
           "sky": {"kind": "gradient", "samples": 2}},
 "materials": {"glow": {"emission": [3, 2, 1]}},
 "models": {"ball": {"shape": "sphere", "radius": 0.4, "surface": "smooth"},
+           "nut": {"shape": "difference", "surface": "smooth", "parts": [
+               {"shape": "sphere", "radius": 0.4},
+               {"shape": "sphere", "radius": 0.3, "position": [0.1, 0.3, -0.2]}]},
            "egg": {"shape": "sphere", "radius": 0.3, "surface": "exact"},
            "box": {"shape": "box", "size": [0.5, 0.4, 0.3], "surface": "cubes", "set": "solid"}},
 "objects": [{"model": "ball", "position": [-0.4, 0.1, 0.2]},
             {"model": "egg", "position": [0.3, -0.3, 0.1]},
             {"model": "box", "position": [0.6, 0.5, 0.4]},
             {"model": "box", "position": [-0.6, -0.7, 0.4], "material": "glow"},
-            {"model": "ball", "position": [0.7, -0.6, 0.6], "placement": "instance"}],
+            {"model": "nut", "position": [0.7, -0.6, 0.6], "placement": "instance"}],
 "lights": [{"type": "directional", "direction": [1, -1, 1], "group": "key"}],
 "observer": {"position": [0.1, 0.3, -3], "look_at": [0, 0, 0],
              "display": {"shape": "pyramid", "angle": 40}},
@@ -169,7 +172,7 @@ std::vector<KnownFile> known_files() {
 
 std::vector<KnownPicture> known_pictures() {
     return {
-        {"matt", kMatt, false, "105c18b0f243990d"},
+        {"matt", kMatt, false, "567757ad1547fd83"},
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),

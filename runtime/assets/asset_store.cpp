@@ -104,17 +104,37 @@ const MeshSummary& AssetStore::summary_of_file(const MeshName& name, const FileM
                  [&] { return voxelume::summary_of(mesh(name.first, {}, name.second)); });
 }
 
-const MeshShape& AssetStore::shape_of_file(const MeshName& name) {
+/// Measures no more of a file's shape than is asked for, unless it is known.
+const MeshShape& AssetStore::shape_of_file(const MeshName& name, bool is_whole) {
     MeshFile& file = this->file(name);
-    return known(file.shape, file.source, &ModelCache::shape,
-                 [&] { return voxelume::shape_of(mesh(name.first, {}, name.second)); });
+    const auto measure = [&] {
+        const Mesh& of_file = mesh(name.first, {}, name.second);
+        return is_whole ? voxelume::shape_of(of_file)
+                        : MeshShape{-1, voxelume::thickness_of(of_file)};
+    };
+    if (is_whole && file.shape && file.shape->sharp_length < 0) file.shape.reset();
+    const MeshShape& shape = known(file.shape, file.source, &ModelCache::shape, measure);
+    if (!is_whole || shape.sharp_length >= 0) return shape;
+    double seconds = 0;
+    {
+        const LoadTimer timer(seconds);
+        file.shape = measure();
+    }
+    cache_.keep(file.source, *file.shape, seconds);
+    return *file.shape;
 }
 
 MeshShape AssetStore::shape_of(const Model& model) {
-    const MeshShape& shape = shape_of_file({model.mesh, model.part});
+    const MeshShape& shape = shape_of_file({model.mesh, model.part}, true);
     const double scale = model.object_from_file.scale;
     return {scale * shape.sharp_length,
             {scale * shape.thickness.body, scale * shape.thickness.part}};
+}
+
+MeshThickness AssetStore::thickness_of(const Model& model) {
+    const MeshThickness& thickness = shape_of_file({model.mesh, model.part}, false).thickness;
+    const double scale = model.object_from_file.scale;
+    return {scale * thickness.body, scale * thickness.part};
 }
 
 const MeshSummary& AssetStore::morphed_summary(const Model& model) {

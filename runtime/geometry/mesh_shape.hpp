@@ -24,7 +24,7 @@ inline constexpr double kThinPartVoxels = 1;
 
 /// What is asked of a mesh besides its summary.
 struct MeshShape {
-    double sharp_length = 0;  ///< metres, of sharp_length_of()
+    double sharp_length = 0;  ///< metres, of sharp_length_of(); below 0 if it isn't measured
     MeshThickness thickness;
 };
 

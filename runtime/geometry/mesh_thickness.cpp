@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/ext/vector_int3_sized.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <tuple>
 #include <vector>
 
 #include "runtime/geometry/mesh_summary.hpp"
@@ -21,7 +25,39 @@ constexpr size_t kMaxCrossings = size_t{1} << 22;
 /// Lines lie off the middles of their squares, where few meshes have edges.
 constexpr double kOffset = 0.4142135623730950;
 
+/// Where a mesh's vertices lie between the lines along each axis: twice a line's number for those
+/// on it, one more for those behind it. Most triangles of large meshes lie between the same lines.
+class Places {
+  public:
+    Places(const Mesh& mesh, const Bounds& box) {
+        const glm::dvec3 step =
+            glm::max((box.max - box.min) / double(kLines), std::numeric_limits<double>::min());
+        places_.reserve(mesh.positions.size());
+        glm::i16vec3 place;
+        for (const glm::vec3& position : mesh.positions) {
+            const glm::dvec3 p = (glm::dvec3(position) - box.min) / step - kOffset;
+            const glm::ivec3 whole(p);
+            for (int axis = 0; axis < 3; ++axis)
+                place[axis] =
+                    int16_t(2 * whole[axis] + (p[axis] > whole[axis]) - (p[axis] < whole[axis]));
+            places_.push_back(place);
+        }
+    }
+
+    /// Whether some line of those that lie side by side along `axis` may cross the triangle.
+    bool may_cross(const glm::uvec3& t, int axis) const {
+        const auto [low, high] =
+            std::minmax({places_[t.x][axis], places_[t.y][axis], places_[t.z][axis]});
+        return low < high || low % 2 == 0;
+    }
+
+  private:
+    std::vector<glm::i16vec3> places_;
+};
+
 struct Crossing {
+    size_t line = 0;
+    size_t number = 0;        ///< in the order of the triangles
     double at = 0;            ///< along the axis
     double normal = 0;        ///< the face's normal along the axis, 1 if it looks forwards
     bool turns_here = false;  ///< its normal is more along this axis than along the others
@@ -50,7 +86,7 @@ class AxisLines {
         const glm::dvec2 first = glm::ceil(glm::min(glm::min(p[0], p[1]), p[2]));
         const glm::dvec2 last = glm::floor(glm::max(glm::max(p[0], p[1]), p[2]));
         const glm::dvec3 size = glm::abs(normal);
-        const Crossing crossing{0, normal[axis_] / length,
+        const Crossing crossing{0, 0, 0, normal[axis_] / length,
                                 size[axis_] >= size[u_] && size[axis_] >= size[v_]};
         for (double y = std::max(first.y, 0.0); y <= std::min(last.y, kLines - 1.0); ++y)
             for (double x = std::max(first.x, 0.0); x <= std::min(last.x, kLines - 1.0); ++x)
@@ -58,15 +94,19 @@ class AxisLines {
     }
 
     /// True if there are too many crossings to tell anything.
-    bool is_full() const { return crossings_ >= kMaxCrossings; }
+    bool is_full() const { return crossings_.size() >= kMaxCrossings; }
 
     void add_chords(std::vector<Chord>& chords) {
         const double square = step_.x * step_.y;
-        for (std::vector<Crossing>& line : lines_) {
-            std::ranges::stable_sort(line, {}, &Crossing::at);
+        std::ranges::sort(crossings_, {}, [](const Crossing& crossing) {
+            return std::tuple(crossing.line, crossing.at, crossing.number);
+        });
+        for (size_t i = 0; i < crossings_.size();) {
+            const size_t line = crossings_[i].line;
             int depth = 0;
             const Crossing* entry = nullptr;
-            for (const Crossing& crossing : line) {
+            for (; i < crossings_.size() && crossings_[i].line == line; ++i) {
+                const Crossing& crossing = crossings_[i];
                 if (crossing.normal < 0 && depth++ == 0) entry = &crossing;
                 if (crossing.normal > 0 && --depth == 0 && entry && entry->turns_here)
                     chords.push_back(
@@ -86,15 +126,14 @@ class AxisLines {
         const double sum = weights.x + weights.y + weights.z;
         if (sum == 0 || weights.x * sum < 0 || weights.y * sum < 0 || weights.z * sum < 0) return;
         for (int i = 0; i < 3; ++i) crossing.at += weights[i] / sum * corners[size_t(i)][axis_];
-        lines_[size_t(line.x) + kLines * size_t(line.y)].push_back(crossing);
-        ++crossings_;
+        crossing.line = size_t(line.x) + kLines * size_t(line.y);
+        crossing.number = crossings_.size();
+        crossings_.push_back(crossing);
     }
 
     int axis_, u_, v_;
     glm::dvec2 low_, step_;
-    size_t crossings_ = 0;
-    std::vector<std::vector<Crossing>> lines_ =
-        std::vector<std::vector<Crossing>>(size_t(kLines) * kLines);
+    std::vector<Crossing> crossings_;
 };
 
 /// The thickness that `share` of the area doesn't reach, of chords in ascending order.
@@ -113,12 +152,16 @@ double quantile(const std::vector<Chord>& chords, double share) {
 
 MeshThickness thickness_of(const Mesh& mesh) {
     const Bounds box = mesh_bounds(mesh);
+    const Places places(mesh, box);
     std::vector<Chord> chords;
     for (int axis = 0; axis < 3; ++axis) {
         AxisLines lines(box, axis);
-        for (const glm::uvec3& t : mesh.triangles)
+        for (const glm::uvec3& t : mesh.triangles) {
+            if (!places.may_cross(t, (axis + 1) % 3) || !places.may_cross(t, (axis + 2) % 3))
+                continue;
             lines.cross({glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
                          glm::dvec3(mesh.positions[t.z])});
+        }
         if (lines.is_full()) return {};
         lines.add_chords(chords);
     }

@@ -7,7 +7,7 @@
 namespace voxelume {
 
 /// The shares of its area by which a body counts as thin, and by which it has a part that does.
-inline constexpr double kThinShare = 0.02, kThinPartShare = 0.005;
+inline constexpr double kThinShare = 0.02, kThinPartShare = 0.002;
 
 /// Metres.
 struct MeshThickness {

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "kernels/shared/instance.h"
@@ -32,6 +33,8 @@ inline constexpr int kDistanceUnitsPerVoxel = 8192;
 
 /// Set in an entry of `primitives` that names an analytic solid.
 inline constexpr uint32_t kSolidPrimitive = 0x80000000u;
+
+struct GridPart;
 
 /// A sparse grid of 16³ bricks, as `voxelize` and `place` make it. Buffers that aren't needed are
 /// empty.
@@ -66,6 +69,18 @@ struct BrickGrid {
     bool texture_alpha = false;            ///< true if the alpha of one of them counts
     bool texture_maps = false;             ///< true if one of them has maps
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
+
+    std::vector<GridPart> parts;  ///< of a solid of several, all but the first, which this grid is
+};
+
+/// How the distances of a solid's part are joined to those of the parts before it: by the lesser or
+/// the larger of the two; kernels/shared/voxel.h has the numbers.
+enum class FieldLink : uint8_t { none, least, largest };
+
+/// A part of a solid, in the same frame as the solid's first.
+struct GridPart {
+    std::shared_ptr<const BrickGrid> grid;
+    FieldLink link = FieldLink::none;
 };
 
 /// A model that instances share, and the place of its voxels in a pyramid's buffers.
@@ -135,6 +150,7 @@ struct Pyramid {
     Buffer<uint32_t> fields;     ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
     uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
                                  ///< of voxels that several surfaces pass
+    bool has_chains = false;     ///< true if some of them are linked
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
     Buffer<uint32_t> primitives;       ///< this and the next eight are as in BrickGrid
     Buffer<float> triangles;

@@ -60,7 +60,9 @@ std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view by
 }
 
 uint64_t device_bytes(const BrickGrid& grid) {
-    return buffer_bytes(grid_buffers(grid));
+    uint64_t bytes = buffer_bytes(grid_buffers(grid));
+    for (const GridPart& part : grid.parts) bytes += device_bytes(*part.grid);
+    return bytes;
 }
 
 }  // namespace voxelume

@@ -18,6 +18,7 @@ Features of_hits(const Features& all) {
     features.triangles = all.triangles;
     features.solids = all.solids;
     features.field_lists = all.field_lists;
+    features.field_chains = all.field_chains;
     features.attributes = all.attributes;
     features.instances = all.instances;
     features.transmission = all.transmission;

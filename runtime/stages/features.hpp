@@ -14,10 +14,11 @@ struct Features {
     bool corner_normals = false;  ///< some triangle has normals at its corners
     bool voxel_normals = false;   ///< some cube has the normal of the surface it stands for
     bool solids = false;          ///< some voxel lists analytic solids
-    int solid_kinds = 0xFF;    ///< 1 << VXL_SOLID_* of those that there may be, apart from spheres
-    bool field_lists = false;  ///< some voxel lists the distance fields in it
-    bool attributes = false;   ///< voxels differ in object, material or kind
-    bool colors = false;       ///< voxels have colours of their own
+    int solid_kinds = 0xFF;     ///< 1 << VXL_SOLID_* of those that there may be, apart from spheres
+    bool field_lists = false;   ///< some voxel lists the distance fields in it
+    bool field_chains = false;  ///< ... and some of them are of a solid's parts
+    bool attributes = false;    ///< voxels differ in object, material or kind
+    bool colors = false;        ///< voxels have colours of their own
     bool worn_triangles = false;  ///< some exact triangle wears a texture
     bool source_meshes = false;   ///< some smooth object shows the textures of its mesh
     bool texture_alpha = false;   ///< the alpha of some triangle's texture counts
@@ -88,6 +89,7 @@ struct Features {
                 {"VXL_SOLIDS", solids},
                 {"VXL_SOLID_KINDS", solid_kinds},
                 {"VXL_FIELD_LISTS", field_lists},
+                {"VXL_FIELD_CHAINS", field_chains},
                 {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},

@@ -123,6 +123,8 @@ BrickGrid GridCache::make(const Model& model, const Source& source) {
         return voxelize_solid(device_,
                               clipped_solid(*model.solid, source.frame_from_model, source.frame),
                               glm::dmat4(1), source.frame, options);
+    if (model.solid && stores_distances(model.surface))
+        return voxelize_parts(device_, *model.solid, source.frame_from_model, source.frame);
     if (model.solid)
         return voxelize_solid(device_, *model.solid, source.frame_from_model, source.frame,
                               options);

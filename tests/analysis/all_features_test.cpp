@@ -49,6 +49,9 @@ std::string scene_text(const std::string& light) {
            "floor": {"shape": "box", "size": [2.8, 0.2, 3], "surface": "cubes"},
            "thing": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
            "slick": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "smooth"},
+           "nut": {"shape": "union", "surface": "smooth", "parts": [
+               {"shape": "sphere", "radius": 0.4},
+               {"shape": "sphere", "radius": 0.3, "position": [0.3, 0.2, 0.1]}]},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(
@@ -60,7 +63,7 @@ std::string scene_text(const std::string& light) {
             {"model": "ice", "material": "brass", "position": [0.9, -0.5, 0.9]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
             {"model": "slick", "material": "glow", "position": [-0.6, 0.6, 0.4]},
-            {"model": "lens", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
+            {"model": "nut", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
 "lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
             "intensity": 9, "spots": 2}],

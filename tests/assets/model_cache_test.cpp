@@ -128,6 +128,18 @@ TEST_F(ModelCacheFiles, AWarmRunShowsTheSameAndNeitherReadsNorVoxelizes) {
     }
 }
 
+TEST_F(ModelCacheFiles, AThicknessIsKeptUntilTheWholeShapeIs) {
+    const Model model = scene_of(kModels[0]).models.front();
+    AssetStore first(cache()), second(cache()), third(cache());
+    const double part = first.thickness_of(model).part;
+    EXPECT_EQ(second.thickness_of(model).part, part);
+    EXPECT_EQ(second.meshes_read(), 0u);
+    EXPECT_GE(second.shape_of(model).sharp_length, 0);
+    EXPECT_EQ(second.meshes_read(), 1u);
+    EXPECT_EQ(third.shape_of(model).sharp_length, second.shape_of(model).sharp_length);
+    EXPECT_EQ(third.meshes_read(), 0u);
+}
+
 TEST_F(ModelCacheFiles, OtherParametersAreOtherEntries) {
     std::set<uint64_t> hashes;
     const std::string models[] = {

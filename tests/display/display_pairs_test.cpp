@@ -53,6 +53,22 @@ TEST(Pairs, CoverAlongEachAxisWhatTheFlatPictureDoes) {
             }
 }
 
+// A picture of 64 samples misses the opacity of its outlines as often as a lattice of 64 lines
+// does.
+TEST(Pairs, CoverOutlinesAsPreciselyAsPicturesOfAsManySamples) {
+    const CoverCase& c = kPairs[0];
+    for (const int axis : in_turn<int>({0, 1, 2}, 0)) {
+        const Image fine = picture_along(c, kKinds[0], axis, 1024);
+        const Image coarse = picture_along(c, kKinds[0], axis, 64);
+        const auto& alpha = coarse.planes.at("A");
+        const CoverDifference of_lattice = difference_of(covers_along(c, kKinds[0], axis), fine);
+        const CoverDifference of_picture = difference_of({alpha.begin(), alpha.end()}, fine);
+        fmt::print("{}; a picture of 64 samples {:.4f} far\n",
+                   text_of(c, kKinds[0], axis, of_lattice), of_picture.far_share());
+        EXPECT_LE(of_lattice.far_share(), 1.5 * of_picture.far_share());
+    }
+}
+
 TEST(Pairs, ShowNoVoxelWithoutAnObject) {
     for (const CoverKind& kind : kKinds) {
         const Volume volume = volume_of(cover_scene(

@@ -117,7 +117,8 @@ inline std::string box_keys(int axis, const std::string& more) {
                        size.z, more);
 }
 
-inline CoverDifference compare_along(const CoverCase& c, const CoverKind& kind, int axis) {
+/// What a lattice covers along an axis, in each pixel of a picture along it.
+inline std::vector<double> covers_along(const CoverCase& c, const CoverKind& kind, int axis) {
     const std::array names = {"x", "y", "z"};
     const std::string lattice = fmt::format(
         R"(, "voxels": [{}, {}, {}], "layout": "lattice", "visibility": "all", "seen_along": "{}")",
@@ -126,25 +127,45 @@ inline CoverDifference compare_along(const CoverCase& c, const CoverKind& kind, 
         volume_of(cover_scene(c, kind, kLookingAlong[2], box_keys(2, lattice), {8, 8}));
     const std::vector<float> dense = dense_opacities(volume);
     const int right = axis == 0 ? 2 : 0, down = axis == 1 ? 2 : 1;
-    RenderReport report;
-    const Image picture = render(shared_device(),
-                                 cover_scene(c, kind, kLookingAlong[size_t(axis)],
-                                             box_keys(axis, ""), {kSize[right], kSize[down]}),
-                                 report);
-    CoverDifference result;
-    for (int v = 0; v < picture.height; ++v)
-        for (int u = 0; u < picture.width; ++u) {
+    const glm::ivec2 size(kSize[right], kSize[down]);
+    std::vector<double> covers;
+    for (int v = 0; v < size.y; ++v)
+        for (int u = 0; u < size.x; ++u) {
             // Image right is -X_E, which is +Z for the first observer and -X for the others; down
             // is -Y_E, which is +Z for the second and -Y for the others.
             glm::ivec3 cell(0);
-            cell[right] = axis == 0 ? u : picture.width - 1 - u;
-            cell[down] = axis == 1 ? v : picture.height - 1 - v;
-            const double alpha = double(picture.planes.at("A")[size_t(v * picture.width + u)]);
-            const double covered = cover_of_column(volume.frame, dense, cell, axis);
-            if (alpha > 0 || covered > 0)
-                result.add(covered, alpha, alpha > 0 && is_even(picture, u, v));
+            cell[right] = axis == 0 ? u : size.x - 1 - u;
+            cell[down] = axis == 1 ? v : size.y - 1 - v;
+            covers.push_back(cover_of_column(volume.frame, dense, cell, axis));
+        }
+    return covers;
+}
+
+/// The flat picture along an axis.
+inline Image picture_along(const CoverCase& c, const CoverKind& kind, int axis, int samples) {
+    const int right = axis == 0 ? 2 : 0, down = axis == 1 ? 2 : 1;
+    Scene scene = cover_scene(c, kind, kLookingAlong[size_t(axis)], box_keys(axis, ""),
+                              {kSize[right], kSize[down]});
+    scene.render.samples = samples;
+    RenderReport report;
+    return render(shared_device(), scene, report);
+}
+
+/// How far opacities are from those of a picture.
+inline CoverDifference difference_of(const std::vector<double>& covers, const Image& picture) {
+    CoverDifference result;
+    for (int v = 0; v < picture.height; ++v)
+        for (int u = 0; u < picture.width; ++u) {
+            const size_t i = size_t(v) * size_t(picture.width) + size_t(u);
+            const double alpha = double(picture.planes.at("A")[i]);
+            if (alpha > 0 || covers[i] > 0)
+                result.add(covers[i], alpha, alpha > 0 && is_even(picture, u, v));
         }
     return result;
+}
+
+inline CoverDifference compare_along(const CoverCase& c, const CoverKind& kind, int axis) {
+    return difference_of(covers_along(c, kind, axis), picture_along(c, kind, axis, 64));
 }
 
 }  // namespace voxelume

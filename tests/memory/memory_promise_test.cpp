@@ -167,6 +167,22 @@ TEST(BuiltScene, OfMirrorsGlassLampsAndMediaTakesWhatIsPromised) {
     expect_image_kept("lamp, global", global);
 }
 
+TEST(BuiltScene, OfSmoothSolidsOfSeveralPartsTakesWhatIsPromised) {
+    for (const char* placement : {"world", "instance"})
+        for (const char* shape : {"union", "difference"}) {
+            const Scene scene = parsed(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.02, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}}}},
+"models": {{"nut": {{"shape": "{}", "surface": "smooth", "voxel_size": 0.02, "parts": [
+    {{"shape": "sphere", "radius": 0.7}}, {{"shape": "sphere", "radius": 0.6, "position": [0.3, 0.3, 0]}},
+    {{"shape": "torus", "radius": 0.6, "tube": 0.2}}, {{"shape": "capsule", "radius": 0.2, "height": 1.2}}]}}}},
+"objects": [{{"model": "nut", "placement": "{}"}}],
+"observer": {{"position": [0.2, 0.4, -2.9], "look_at": [0, 0, 0], "display": {{"shape": "pyramid", "angles": [40, 40]}}}},
+"render": {{"size": [100, 80]}}}})",
+                                                   shape, placement));
+            expect_image_kept(fmt::format("{} {}", shape, placement), scene);
+        }
+}
+
 TEST(BuiltScene, OfManyLampsThatShareAModelTakesWhatIsPromised) {
     nlohmann::json scene = nlohmann::json::parse(R"({"voxelume": 1,
         "world": {"voxel_size": 0.05, "bounds": {"min": [-2, -2, -2], "max": [2, 2, 2]}},

@@ -42,7 +42,7 @@ inline std::array<std::string, 2> random_solid(std::mt19937& random, const char*
         return std::uniform_real_distribution<double>(low, high)(random);
     };
     const std::string keys = [&]() -> std::string {
-        switch (random() % 5) {
+        switch (random() % 6) {
             case 0:
                 return fmt::format(R"("shape": "sphere", "radius": {})", in(.4, .7));
             case 1:
@@ -54,6 +54,10 @@ inline std::array<std::string, 2> random_solid(std::mt19937& random, const char*
             case 3:
                 return fmt::format(R"("shape": "cylinder", "radius": {}, "height": {})", in(.3, .6),
                                    in(.5, 1.2));
+            case 4:  // blunt: `smooth` loses points
+                return fmt::format(
+                    R"("shape": "cone", "radius": {}, "height": {}, "top_radius": {})", in(.4, .7),
+                    in(.6, 1.2), in(.1, .4));
             default:
                 return fmt::format(R"("shape": "ellipsoid", "radii": [{}, {}, {}])", in(.3, .7),
                                    in(.3, .7), in(.3, .7));

@@ -88,6 +88,14 @@ double distance_from_edges(const Scene& scene, const Object& object, const glm::
                               glm::length(object.world_from_object[2])),
                  std::abs(solid.height / 2 - p.y) * glm::length(object.world_from_object[1]),
                  INFINITY};
+    if (solid.kind == SolidKind::cone) {
+        const glm::dvec3 q(glm::inverse(object.world_from_object) * glm::dvec4(point, 1));
+        const double radius = glm::mix(solid.radius, solid.top_radius, q.y / solid.height + 0.5);
+        faces[0] = std::abs(radius - std::hypot(p.x, p.z)) *
+                   std::max(glm::length(object.world_from_object[0]),
+                            glm::length(object.world_from_object[2]));
+        faces[1] = std::abs(solid.height / 2 - p.y) * glm::length(object.world_from_object[1]);
+    }
     std::ranges::sort(faces);
     return faces[1];
 }
@@ -160,6 +168,9 @@ const std::array kPairs = {
     Pair{"ring and ball", R"("shape": "torus", "radius": 0.7, "tube": 0.2)",
          R"("shape": "sphere", "radius": 0.6)", R"("turn": [20, 35, 10])",
          R"("position": [0.12, 0.05, 0.2])", true},
+    Pair{"cone on plate", R"("shape": "cone", "radius": 0.5, "height": 1.1, "top_radius": 0.15)",
+         R"("shape": "cylinder", "radius": 1, "height": 0.3)", R"("position": [0.03, 0.31, 0.05])",
+         R"("position": [0, -0.4, 0])", false},
     Pair{"box in box", R"("shape": "box", "size": [1.1, 0.9, 1])",
          R"("shape": "box", "size": [1, 1.2, 0.7])", R"("turn": [10, 20, 30])",
          R"("position": [0.4, 0.1, 0.3])", false},

@@ -5,7 +5,7 @@
 
 #include "lib/display/line_order.h"
 #include "lib/solid/solid_surface.h"
-#include "lib/surface/smooth.h"
+#include "lib/surface/field_chain.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/transformed_ray.h"
@@ -126,6 +126,24 @@ static inline void scan_field(const SurfaceView* s, const Walk* w, lane_uint num
     if (lanes_any(twice)) cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
 }
 
+/// Keeps the crossings with a chain of fields.
+static inline void scan_chain(const FieldChain* c, const Walk* w, lane_int tested, ScanResult* r) {
+    const LocalRay ray = local_ray(w);
+    const lane_float zero = (lane_float)0.0f;
+    const lane_float end = fmax(exit_time(w) - w->t, 0.0f);
+    ChainWay way = chain_way();
+    lane_int inside = LANE_MASK(chain_behind(c, &ray, &way, zero, tested).value < 0.0f);
+    for (int i = 0; i < VXL_CHAIN_ZEROS && lanes_any(tested); ++i) {
+        tested &= next_zero(c, &ray, zero, end, tested, &way);
+        if (!lanes_any(tested)) return;
+        const lane_int behind = LANE_MASK(chain_behind(c, &ray, &way, zero, tested).value < 0.0f);
+        const lane_int crossed = tested & (inside ^ behind);
+        const lane_float enters = LANES_SELECT(behind, (lane_float)1.0f, (lane_float)-1.0f);
+        if (lanes_any(crossed)) keep_crossings(r, crossed, w->t + way.u, enters);
+        inside = behind;
+    }
+}
+
 /// Keeps the crossings with the fields of the `tested` lanes' voxels: one, or those that the record
 /// lists.
 static inline void scan_smooth(const WorldView* world, const Walk* w, lane_uint voxel,
@@ -142,9 +160,19 @@ static inline void scan_smooth(const WorldView* world, const Walk* w, lane_uint 
         if (VXL_TRANSMISSION)
             r->surface = surface_of(s, &world->instances, r->instance, number,
                                     (lane_uint)VXL_NO_PRIMITIVE, tested);
-        scan_field(s, w, number & LANES_AS_UINT(tested), tested, r);
+        number &= LANES_AS_UINT(tested);
+        lane_int alone = tested;
+        lane_uint next = number + 1u;
+        if (VXL_FIELD_CHAINS) {
+            const FieldChain chain = chain_from(s->fields, number, end, lists & tested);
+            next = chain.end;
+            const lane_int chained = tested & LANE_MASK(next - number > 1u);
+            if (lanes_any(chained)) scan_chain(&chain, w, chained, r);
+            alone &= ~chained;
+        }
+        if (!VXL_FIELD_CHAINS || lanes_any(alone)) scan_field(s, w, number, alone, r);
         if (!VXL_FIELD_LISTS) return;
-        number += 1u;
+        number = next;
         tested &= LANE_MASK(number < end);
     }
 }

@@ -3,59 +3,15 @@
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H
 
-#include "lib/light/medium_set.h"
 #include "lib/solid/solid_surface.h"
-#include "lib/surface/cube_behind.h"
 #include "lib/surface/cube_body.h"
-#include "lib/surface/smooth.h"
+#include "lib/surface/field_chain.h"
+#include "lib/surface/surface_hit.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/voxel_kinds.h"
 #include "shared/instance.h"
 #include "shared/voxel.h"
-
-/// How a packet's rays set out.
-typedef struct {
-    lane_int on_surface;     // mask: begins on a surface
-    lane_int goes_on;        // mask: continues an earlier ray, whose surface was met at t_first
-    lane_int refracted;      // mask: the surface that it begins on has refracted it
-    lane_uint source;        // the primitive it begins on, or see source_of_hit
-    lane_int within_source;  // mask: it travels on inside of that primitive's object
-    lane_float t_first;
-    MediumSet media;     // of scenes with transmitting objects; empty elsewhere
-    lane_uint body;      // the body of cubes in it, VXL_NO_MEDIUM for none
-    lane_int joined;     // mask: the body's inner faces are no surfaces
-    lane_int unsure;     // mask: it may begin inside of smooth objects unbeknown
-    lane_uint instance;  // whose surface it begins on, VXL_NO_INSTANCE for the world's
-    lane_int asks_side;  // mask: within_source isn't known yet, an instance's space will tell
-    lane_int on_cube;    // mask: cubes in the cell where it begins are behind it; of scenes with
-                         // instances, elsewhere on_surface tells
-    lane_int guesses;    // mask: fields' signs tell on which side it is, even where it begins on
-                         // them; of scenes with instances
-} RayState;
-
-/// What a packet has found so far.
-typedef struct {
-    lane_int hit;  // mask
-    lane_float t;
-    lane_uint leaf, voxel, primitive;
-    lane_uint solid;     // the last one tested
-    lane_float level;    // shift of smooth surfaces for rays that began on one, see hit_smooth
-    lane_int within;     // mask: the hit is on a field, met from inside of its object
-    lane_uint inside;    // packed attributes of a smooth object that an unsure ray was found to be
-                         // inside of, VXL_NO_MEDIUM for none
-    lane_int in_body;    // mask: the walk has been in a cell of the body that the ray is inside of
-    lane_int exit;       // mask: the hit is the face across which it left the body
-    CubeBehind behind;   // of scenes whose voxels may be exact and cubes at once
-    lane_uint instance;  // whose surface was hit, VXL_NO_INSTANCE for the world's
-} SurfaceHit;
-
-/// Takes a hit at `t` on a cube or field in the `accepted` lanes, unless a primitive is hit before.
-static inline void take_voxel_hit(SurfaceHit* found, lane_float t, lane_int accepted) {
-    const lane_int closer = accepted & LANE_MASK(t < found->t);
-    found->t = LANES_SELECT(closer, t, found->t);
-    found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
-}
 
 /// Ends the walks of `lanes` that have a cube behind there, where it is: the mask of these.
 static inline lane_int take_cube_behind(SurfaceHit* found, Walk* w, lane_int lanes) {
@@ -184,15 +140,19 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     return tested & LANE_MASK(found->t <= exit_time(w));
 }
 
-/// Tests field `number` of each lane in `tested`; closer hits than found->t replace it.
+/// Tests the field of each lane in `tested`, which is that of records `number` to before `end`;
+/// closer hits than found->t replace it.
 static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                 lane_uint number, lane_int tested, lane_int beginning,
-                                 const RayState* ray_state, SurfaceHit* found) {
-    const Field field = read_field(s->fields, number);
+                                 lane_uint number, lane_uint end, lane_int tested,
+                                 lane_int beginning, const RayState* ray_state, SurfaceHit* found) {
     FieldApproach from = {(lane_int)0, ray_state->unsure & tested, beginning, (lane_int)0};
     const int any_unsure = lanes_any(from.unsure);
     if (VXL_FIELD_LISTS) {
-        from.beginning &= LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
+        lane_int here = LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
+        if (VXL_FIELD_CHAINS)
+            here = LANE_MASK(ray_state->source >= (number | VXL_FIELD_SOURCE)) &
+                   LANE_MASK(ray_state->source < (end | VXL_FIELD_SOURCE));
+        from.beginning &= here;
         from.here = beginning & ~from.beginning;
     }
     lane_uint packed = (lane_uint)s->constant_attribute;
@@ -203,7 +163,20 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
         from.within |= from.unsure & (is_medium(found->inside, packed) |
                                       (from.beginning & ray_state->within_source));
     lane_float t = (lane_float)INFINITY;
-    const lane_int met = hit_smooth(&field, w, p->plane_bound, tested, &from, &found->level, &t);
+    lane_int met = (lane_int)0, alone = tested;
+    const lane_int unsure = from.unsure;
+    const Field field = read_field(s->fields, number);
+    if (VXL_FIELD_CHAINS) {
+        const lane_int chained = tested & LANE_MASK(end - number > 1u);
+        const FieldChain chain = {s->fields, number, end};
+        if (lanes_any(chained))
+            met = hit_chain(&chain, w, p->plane_bound, chained, &from, &found->level, &t, &number);
+        alone &= ~chained;
+        from.unsure &= alone;
+    }
+    if (!VXL_FIELD_CHAINS || lanes_any(alone))
+        met |= hit_smooth(&field, w, p->plane_bound, alone, &from, &found->level, &t);
+    from.unsure = unsure;
     if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
     // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
     if (VXL_TRANSMISSION)
@@ -221,9 +194,10 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
                                   lane_uint voxel, lane_int tested, lane_int lists,
                                   lane_int beginning, const RayState* ray_state,
                                   SurfaceHit* found) {
-    if (!VXL_FIELD_LISTS || !lanes_any(lists & tested))
-        return hit_field(p, s, w, voxel & LANES_AS_UINT(tested), tested, beginning, ray_state,
-                         found);
+    if (!VXL_FIELD_LISTS || !lanes_any(lists & tested)) {
+        const lane_uint only = voxel & LANES_AS_UINT(tested);
+        return hit_field(p, s, w, only, only + 1u, tested, beginning, ray_state, found);
+    }
     lists &= tested;
     const lane_uint record = (voxel & LANES_AS_UINT(lists)) * VXL_FIELD_WORDS;
     lane_uint number = LANES_SELECT(lists, LANES_GATHER_UINT(s->fields, record), voxel);
@@ -232,9 +206,11 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
     lane_int met = (lane_int)0;
     tested &= LANE_MASK(number < end);
     while (lanes_any(tested)) {
-        met |=
-            hit_field(p, s, w, number & LANES_AS_UINT(tested), tested, beginning, ray_state, found);
-        number += 1u;
+        number &= LANES_AS_UINT(tested);
+        const lane_uint next =
+            VXL_FIELD_CHAINS ? chain_from(s->fields, number, end, lists & tested).end : number + 1u;
+        met |= hit_field(p, s, w, number, next, tested, beginning, ray_state, found);
+        number = next;
         tested &= LANE_MASK(number < end);
     }
     return met;

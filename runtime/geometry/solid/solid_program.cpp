@@ -138,9 +138,9 @@ std::span<const uint32_t> SolidProgram::words() const {
 }
 
 SolidProgram make_solid_program(const Solid& solid, const glm::dmat4& frame_from_solid,
-                                const GridFrame& frame) {
+                                const GridFrame& frame, bool is_complement) {
     SolidProgram program;
-    ProgramWriter(frame, program).write(solid, frame_from_solid, false);
+    ProgramWriter(frame, program).write(solid, frame_from_solid, is_complement);
     program.shapes.front().shape_count = static_cast<uint32_t>(program.shapes.size());
     return program;
 }

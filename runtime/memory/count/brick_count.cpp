@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "runtime/geometry/solid/solid_parts.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -39,9 +41,10 @@ struct Cell {
 
 class BrickCounter {
   public:
+    /// With `parts`, a voxel counts once for each of them whose surface is in it.
     BrickCounter(const SolidField& field, const GridFrame& frame, const BrickRule& rule,
-                 TakenBricks& taken)
-        : field_(field), frame_(frame), rule_(rule), taken_(taken) {
+                 TakenBricks& taken, std::span<const SolidField> parts = {})
+        : field_(field), frame_(frame), rule_(rule), taken_(taken), parts_(parts) {
         const glm::dvec3& e = frame.voxel_edge;
         reach_ = rule.reach * std::min({e.x, e.y, e.z});
     }
@@ -188,15 +191,27 @@ class BrickCounter {
                 has_inside |= inside[size_t(at)];
                 has_outside |= outside[size_t(at)];
             }
-            count += has_inside && has_outside ? 1 : 0;
+            if (has_inside && has_outside) count += fields_in(leaf.low + glm::dvec3(voxel) + 0.5);
         }
         return count;
+    }
+
+    /// The parts whose surfaces are in the voxel around a point, as far as their distance from its
+    /// middle tells.
+    double fields_in(const glm::dvec3& middle) const {
+        constexpr double kReach = 0.7;  // edges
+        const glm::dvec3 p = frame_.origin + frame_.voxel_edge * middle;
+        double count = 0;
+        for (const SolidField& part : parts_)
+            count += std::abs(part.distance(p)) < kReach * frame_.voxel_edge.x ? 1 : 0;
+        return std::max(count, 1.0);
     }
 
     const SolidField& field_;
     const GridFrame& frame_;
     BrickRule rule_;
     TakenBricks& taken_;
+    std::span<const SolidField> parts_;
     double reach_;  ///< metres
     glm::ivec3 first_{0}, last_{0};
     std::vector<glm::ivec3> stored_;  ///< with surface
@@ -243,16 +258,39 @@ BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, doub
 }
 
 BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
-                        const BrickRule& rule, TakenBricks& taken) {
+                        const BrickRule& rule, TakenBricks& taken,
+                        std::span<const SolidField> parts) {
     if (glm::any(glm::greaterThan(box.low, box.high))) return {};
-    if (max_bricks(box) <= kMaxCounted) return BrickCounter(field, frame, rule, taken).count(box);
+    if (max_bricks(box) <= kMaxCounted)
+        return BrickCounter(field, frame, rule, taken, parts).count(box);
     GridFrame coarse = frame;
     coarse.voxel_edge *= 2;
     coarse.size = (frame.size + 1) / 2;
     TakenBricks apart(coarse);
     const SurfaceExtent quarter =
-        count_bricks(field, coarse, {0.5 * box.low, 0.5 * box.high}, rule, apart).extent;
+        count_bricks(field, coarse, {0.5 * box.low, 0.5 * box.high}, rule, apart, parts).extent;
     return {{4 * quarter.voxels, 4 * quarter.bricks}, 4 * quarter.bricks};
+}
+
+BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
+                       const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
+                       TakenBricks& taken) {
+    // What lies outside of a part is closed where the box around the solid ends.
+    constexpr double kComplementMargin = 1.25;
+    const std::vector<SolidPart> divided = parts_of(solid);
+    std::vector<SolidField> parts;
+    for (const SolidPart& part : divided) parts.emplace_back(part.solid, frame_from_solid);
+    const SolidField whole(solid, frame_from_solid);
+    if (parts.size() == 1) return count_bricks(whole, frame, box, rule, taken);
+    BrickCount count = count_bricks(whole, frame, box, rule, taken, parts);
+    double bricks = 0;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        TakenBricks own(frame);
+        bricks += (divided[i].is_complement ? kComplementMargin : 1) *
+                  count_bricks(parts[i], frame, box, rule, own).extent.bricks;
+    }
+    count.extent.bricks = std::max(bricks, count.extent.bricks);
+    return count;
 }
 
 }  // namespace voxelume

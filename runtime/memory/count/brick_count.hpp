@@ -3,6 +3,7 @@
 // distances, from large cubes of bricks down to those that hold some of it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "runtime/geometry/surface_extent.hpp"
@@ -50,8 +51,16 @@ struct BrickCount {
 };
 
 /// Counts what a solid's surface takes in the `box` of `frame`'s voxels by such a rule. Large
-/// surfaces are counted in coarser lattices.
+/// surfaces are counted in coarser lattices. A voxel counts once for each of the solid's `parts`
+/// whose surface is in it.
 BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
-                        const BrickRule& rule, TakenBricks& taken);
+                        const BrickRule& rule, TakenBricks& taken,
+                        std::span<const SolidField> parts = {});
+
+/// Does so for a smooth solid: each of its parts has bricks of its own, and voxels in which parts
+/// meet have a field of each.
+BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
+                       const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
+                       TakenBricks& taken);
 
 }  // namespace voxelume

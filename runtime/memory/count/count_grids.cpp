@@ -121,6 +121,11 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
         grid.slots = allocate_slots(device, "slots", counts.frame);
         grid.coordinates = Buffer<uint32_t>(device, "coordinates", counts.bricks);
     }
+    for (size_t part = 1; part < counts.parts; ++part) {  // their bricks are among those of `grid`
+        BrickGrid of_part;
+        of_part.slots = allocate_slots(device, "slots", counts.frame);
+        grid.parts.push_back({std::make_shared<const BrickGrid>(std::move(of_part)), {}});
+    }
     if (counts.surface == Surface::smooth) {
         grid.distance = allocate_distances(device, "distance", counts.bricks);
         return grid;

@@ -23,6 +23,7 @@ struct GridCounts {
     size_t voxels = 0;                   ///< that the surface passes through
     size_t vertices = 0, triangles = 0;  ///< of a mesh
     size_t shapes = 0;                   ///< of an analytic solid
+    size_t parts = 1;                    ///< ... whose distances are kept apart
 };
 
 /// The number of triangles that a voxel of an exact mesh lists.

@@ -79,6 +79,10 @@ bool is_smooth(const PlacedObject& object) {
     return stores_distances(surface_of(*object.grid));
 }
 
+bool has_parts(const PlacedObject& object) {
+    return !object.grid->parts.empty();
+}
+
 /// Follows WorldPlacer's fields: makes their grids, and returns the other objects.
 std::vector<PlacedObject> count_fields(const Device& device, std::span<const PlacedObject> objects,
                                        size_t bricks, CountedWorld& world) {
@@ -88,6 +92,8 @@ std::vector<PlacedObject> count_fields(const Device& device, std::span<const Pla
     const auto own = [](const PlacedObject& object) { return !object.grid->attributes.empty(); };
     const auto colored = [](const PlacedObject& object) { return !object.grid->colors.empty(); };
     world.fields.brick_count = uint32_t(bricks);
+    for (const PlacedObject& object : smooth)
+        if (has_parts(object)) world.fields.parts = object.grid->parts;
     world.fields.distance = allocate_distances(device, "world distances", bricks);
     if (std::ranges::any_of(smooth, own))
         world.fields.attributes = allocate_words(device, "world attributes", bricks);
@@ -110,7 +116,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     }
     std::vector<PlacedObject> others(objects.begin(), objects.end());
     size_t bricks = counts.bricks;
-    if (objects.size() > 1 && std::ranges::any_of(objects, is_smooth)) {
+    if (std::ranges::any_of(objects, objects.size() > 1 ? is_smooth : has_parts)) {
         others = count_fields(device, objects, std::max(counts.field_bricks, size_t{1}), world);
         bricks = counts.other_bricks;
     }
@@ -182,6 +188,8 @@ Pyramid count_uniting(const Device& device, const CountedWorld& world, const Wor
     const size_t bricks = world.fields.brick_count;
     { const MarkArrays marks = allocate_marks(device, bricks); }
     const Buffer<uint64_t> joined = allocate_masks(device, "field masks", bricks);
+    if (!world.fields.parts.empty())
+        const Buffer<uint64_t> inside = allocate_masks(device, "inside masks", bricks);
     const Buffer<uint64_t> united = allocate_masks(device, "united masks", counts.bricks);
     const Buffer<uint64_t> listing = allocate_masks(device, "list masks", counts.bricks);
     const Buffer<uint64_t> of_base =
@@ -217,11 +225,26 @@ Pyramid count_reindexing(const Device& device, const CountedWorld& world, const 
     return count_packing(device, world.grid, counts);
 }
 
+namespace {
+
+/// Follows index_model.
+Pyramid count_model_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    if (grid.parts.empty()) return count_index(device, grid, counts).pyramid;
+    CountedWorld world;
+    world.parts = {.attributes = true, .fields = true};
+    world.grid.frame = grid.frame;
+    world.fields.brick_count = grid.brick_count;
+    world.fields.parts = grid.parts;
+    return count_index(device, world, counts).pyramid;
+}
+
+}  // namespace
+
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
                       std::span<const WorldCounts> counts, std::vector<ModelPyramid>& kept) {
     if (listed.list.empty()) return world;
     for (size_t i = 0; i < listed.grids.size(); ++i)
-        kept.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i]).pyramid});
+        kept.push_back({.pyramid = count_model_index(device, *listed.grids[i], counts[i])});
     Pyramid joined = allocate_joined(device, world, kept);
     joined.instances.list = listed.list;
     for (const ModelPyramid& model : kept)

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count/plan_grid.hpp"
 #include "runtime/memory/count/voxel_bricks.hpp"
@@ -65,10 +66,12 @@ VoxelBox whole_of(const GridFrame& frame) {
     return {glm::dvec3(0), glm::dvec3(frame.size)};
 }
 
-uint32_t count_shapes(const Solid& solid) {
-    uint32_t count = 1;
-    for (const Solid& part : solid.parts) count += count_shapes(part);
-    return count;
+BrickCount count_model(const Model& model, const glm::dmat4& frame_from_model,
+                       const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
+                       TakenBricks& taken) {
+    if (stores_distances(model.surface))
+        return count_parts(*model.solid, frame_from_model, frame, box, rule, taken);
+    return count_bricks(SolidField(*model.solid, frame_from_model), frame, box, rule, taken);
 }
 
 /// `mesh` is null for a model that has none.
@@ -76,10 +79,13 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
                      const SurfaceExtent& extent) {
     GridCounts counts{.frame = frame, .surface = model.surface, .set = model.set};
     const glm::dvec3 table(frame.bricks());
-    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, table.x * table.y * table.z));
+    if (model.solid && stores_distances(model.surface))
+        counts.parts = parts_of(*model.solid).size();
+    const double all = table.x * table.y * table.z * double(counts.parts);
+    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, all));
     counts.voxels = size_t(std::max(extent.voxels, 1.0));
     counts.cube_normals = shows_voxels(model.surface) && model.normals == CubeNormals::surface;
-    if (model.solid) counts.shapes = count_shapes(*model.solid);
+    if (model.solid) counts.shapes = count_nodes(*model.solid);
     if (!mesh) return counts;
     counts.words = mesh->group_names.size() > 1;
     counts.paint = mesh->paint;
@@ -121,8 +127,8 @@ SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& fr
     if (!added) return entry->second;
     TakenBricks taken(frame);
     return entry->second =
-               with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                        model_rule(model.surface, is_solid_set(model)), taken)
+               with_margin(count_model(model, kOwnSpace, frame, whole_of(frame),
+                                       model_rule(model.surface, is_solid_set(model)), taken)
                                .extent);
 }
 
@@ -133,10 +139,9 @@ SurfaceExtent ObjectCounts::object_extent(const Object& object, const GridFrame&
     const Model& model = scene_.models[size_t(object.model)];
     const VoxelBox box = in_part(box_of(object), world_frame(scene_.world), frame);
     TakenBricks taken(frame);
-    return entry->second =
-               with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                        box, model_rule(model.surface, false), taken)
-                               .extent);
+    return entry->second = with_margin(count_model(model, object.world_from_object, frame, box,
+                                                   model_rule(model.surface, false), taken)
+                                           .extent);
 }
 
 GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, Estimate estimate) {
@@ -180,8 +185,8 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
         const double spread =
             lattices_.lattice_of(object) == Lattice::world ? 1 : spread_of(object);
         const BrickRule rule = world_rule(model.surface, is_solid_set(model), keeps_inside, spread);
-        return count_bricks(SolidField(*model.solid, object.world_from_object),
-                            world_frame(scene_.world), box_of(object), rule, taken);
+        return count_model(model, object.world_from_object, world_frame(scene_.world),
+                           box_of(object), rule, taken);
     }
     SurfaceExtent extent =
         extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);

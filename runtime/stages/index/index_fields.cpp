@@ -10,6 +10,7 @@
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/index/index.hpp"
+#include "runtime/stages/index/index_parts.hpp"
 #include "runtime/stages/index/numbering.hpp"
 
 namespace voxelume {
@@ -124,6 +125,7 @@ Defines features_of(const PlacedWorld& world, const PlacedField* field) {
             {"VXL_PRIMITIVES", !base.primitive_first.empty()},
             {"VXL_COLORS", !base.colors.empty() || std::ranges::any_of(world.fields, has_colors)},
             {"VXL_VOXEL_NORMALS", !base.normals.empty()},
+            {"VXL_LINK", field ? int(field->link) : 0},
             {"VXL_ATTRIBUTES", field && !field->grid.attributes.empty()},
             {"VXL_OWN_COLORS", field && !field->grid.colors.empty()}};
 }
@@ -183,6 +185,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
             .launch(WorkItem::light, leaves, leaves, first,
                     marks_.at(world.fields[field].version).masks, arrays.masks);
     }
+    if (has_parts(world)) join_parts(device_, program, world, bricks.first_of, arrays.masks);
     const Buffer<uint64_t> leaf_masks(device_, "united leaf masks", arrays.count);
     const Buffer<uint32_t> counts(device_, "united counts", arrays.count * kCounts);
     program.kernel("unite_marks")
@@ -194,6 +197,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
     Pyramid pyramid = allocate_pyramid(device_, base, parts_of(world, numbers),
                                        {numbers.bricks.size() / kWordsPerRecord / kRecordsPerSector,
                                         numbers.leaf_count, numbers.totals[0], numbers.totals[1]});
+    pyramid.has_chains = has_parts(world) && pyramid.listed_fields > 0;
     pyramid.sectors.write(numbers.sectors);
     pyramid.bricks.write(numbers.bricks);
     const Buffer<uint32_t> starts(device_, "index starts", numbers.starts);

@@ -63,10 +63,24 @@ void find_box(ModelPyramid& model) {
     model.high = glm::min(model.high, p.frame.size);
 }
 
+/// The parts of a solid, as fields of a world in their own frame.
+PlacedWorld world_of_parts(const BrickGrid& grid) {
+    PlacedWorld world;
+    world.voxels.frame = grid.frame;
+    world.ranks = {0};
+    world.fields.push_back({.grid = grid, .version = 0});
+    for (const GridPart& part : grid.parts)
+        world.fields.push_back(
+            {.grid = *part.grid, .link = part.link, .version = world.fields.size()});
+    return world;
+}
+
 }  // namespace
 
 ModelPyramid index_model(const Device& device, const BrickGrid& grid) {
-    ModelPyramid model{.pyramid = build_index(device, grid)};
+    ModelPyramid model{.pyramid = grid.parts.empty()
+                                      ? build_index(device, grid)
+                                      : FieldIndexer(device).index(world_of_parts(grid))};
     find_box(model);
     return model;
 }

@@ -72,6 +72,7 @@ class Total {
         joined.leaf_count = uint32_t(total_.leaves);
         joined.voxel_count = voxel_count_;
         joined.listed_fields = uint32_t(total_.voxels) - voxel_count_;
+        joined.has_chains = has_chains_;
         joined.sectors = Buffer<uint32_t>(device, "sectors", total_.sectors);
         joined.bricks = Buffer<uint32_t>(device, "brick records", total_.records * kWordsPerRecord);
         joined.leaves = Buffer<uint32_t>(device, "leaves", total_.leaves * 2);
@@ -112,6 +113,7 @@ class Total {
         parts_.exact |= !p.primitive_first.empty();
         parts_.normals |= !p.triangle_normals.empty();
         parts_.textures.add(p.texture_key, p.textures.size());
+        has_chains_ |= p.has_chains;
         transparent_ |= p.transparent;
         texture_alpha_ |= p.texture_alpha;
         texture_maps_ |= p.texture_maps;
@@ -121,7 +123,7 @@ class Total {
     Extent total_;
     uint32_t voxel_count_ = 0;
     Parts parts_;
-    bool transparent_ = false, texture_alpha_ = false, texture_maps_ = false;
+    bool has_chains_ = false, transparent_ = false, texture_alpha_ = false, texture_maps_ = false;
 };
 
 class Joiner {
@@ -199,7 +201,11 @@ class Joiner {
         else if (parts_.voxel_normals)
             copies(p.records(), full_.voxels, VXL_NO_NORMAL, joined_.normals);
         // An exact voxel may list fields; zeros mean that it lists none.
-        if (!p.fields.empty())
+        if (p.listed_fields > 0)
+            program_.kernel("append_fields")
+                .launch(WorkItem::light, p.records(), p.records(), uint32_t(full_.voxels),
+                        p.attributes, p.fields, joined_.fields);
+        else if (!p.fields.empty())
             words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
         else if (parts_.fields)
             copies(uint64_t(p.records()) * VXL_FIELD_WORDS, full_.voxels * VXL_FIELD_WORDS, 0,

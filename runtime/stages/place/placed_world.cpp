@@ -14,6 +14,10 @@ bool is_smooth(const PlacedObject& object) {
     return stores_distances(surface_of(*object.grid));
 }
 
+bool has_parts(const PlacedObject& object) {
+    return !object.grid->parts.empty();
+}
+
 /// The places of objects in the order of priorities, by their numbers.
 std::vector<uint32_t> ranks_of(std::span<const PlacedObject> objects) {
     std::vector<size_t> order(objects.size());
@@ -59,6 +63,23 @@ std::optional<PlacedField> WorldPlacer::place_field(const PlacedObject& object,
     return field;
 }
 
+/// The fields of an object's parts, linked as its grids are.
+std::vector<PlacedField> WorldPlacer::place_fields(const PlacedObject& object,
+                                                   const GridFrame& world) {
+    std::vector<PlacedField> fields;
+    const auto add = [&](const BrickGrid& grid, FieldLink link) {
+        PlacedObject part = object;
+        part.grid = &grid;
+        std::optional<PlacedField> field = place_field(part, world);
+        if (!field) return;
+        field->link = link;
+        fields.push_back(std::move(*field));
+    };
+    add(*object.grid, FieldLink::none);
+    for (const GridPart& part : object.grid->parts) add(*part.grid, part.link);
+    return fields;
+}
+
 void WorldPlacer::place_voxels(std::span<const PlacedObject> objects, const GridFrame& world) {
     world_.voxels = {};  // or lists that are replaced would stay beside the new ones
     world_.voxels = voxels_.place(objects, world);
@@ -76,7 +97,8 @@ const PlacedWorld& WorldPlacer::place(std::span<const PlacedObject> objects,
     world_.fields.clear();
     world_.ranks = ranks_of(objects);
     // One that is left alone stays apart, since others may come back.
-    const bool apart = (objects.size() > 1 || (had_fields && frame_ == world)) &&
+    const bool apart = (objects.size() > 1 || (had_fields && frame_ == world) ||
+                        std::ranges::any_of(objects, has_parts)) &&
                        std::ranges::any_of(objects, is_smooth);
     if (!apart || frame_ != world) fields_.clear();
     frame_ = world;
@@ -98,13 +120,13 @@ const PlacedWorld& WorldPlacer::place(std::span<const PlacedObject> objects,
             continue;
         }
         is_same = false;
-        fields_.emplace(object.object, Kept{object, place_field(object, world)});
+        fields_.emplace(object.object, Kept{object, place_fields(object, world)});
     }
     is_same &= before.empty();
     for (const auto& [number, kept] : fields_)
-        if (kept.field) world_.fields.push_back(*kept.field);
-    std::ranges::sort(world_.fields, {},
-                      [&](const PlacedField& field) { return world_.ranks[field.object]; });
+        world_.fields.insert(world_.fields.end(), kept.fields.begin(), kept.fields.end());
+    std::ranges::stable_sort(world_.fields, {},
+                             [&](const PlacedField& field) { return world_.ranks[field.object]; });
     changed_.reset();
     if (is_same) changed_.emplace();
     return world_;

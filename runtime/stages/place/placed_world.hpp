@@ -13,9 +13,9 @@ namespace voxelume {
 
 /// Places one list of objects after another, of any kinds.
 ///
-/// Cubes and exact objects are placed as `place` does. Where there are several objects, each smooth
-/// one gets a grid of its own, in the part of the world's lattice around it, so that the fields of
-/// objects that touch don't merge.
+/// Cubes and exact objects are placed as `place` does. Where there are several objects, or parts of
+/// one, each smooth one gets a grid of its own, in the part of the world's lattice around it, so
+/// that the fields of objects that touch don't merge.
 class WorldPlacer {
   public:
     explicit WorldPlacer(const Device& device);
@@ -35,11 +35,12 @@ class WorldPlacer {
   private:
     struct Kept {
         PlacedObject object;
-        std::optional<PlacedField> field;  ///< empty for an object outside of the world
+        std::vector<PlacedField> fields;  ///< its parts'; empty for an object outside of the world
     };
 
     void place_voxels(std::span<const PlacedObject> objects, const GridFrame& world);
     std::optional<PlacedField> place_field(const PlacedObject& object, const GridFrame& world);
+    std::vector<PlacedField> place_fields(const PlacedObject& object, const GridFrame& world);
 
     Device device_;
     std::shared_ptr<NearLeaves> near_;

@@ -24,6 +24,7 @@ Features features_of(const Pyramid& pyramid) {
     features.voxel_normals = !pyramid.normals.empty();
     features.solids = !pyramid.solids.empty();
     features.field_lists = pyramid.listed_fields > 0;
+    features.field_chains = pyramid.has_chains;
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
     features.instances = !pyramid.instances.empty();
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;

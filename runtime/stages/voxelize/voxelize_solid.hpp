@@ -31,4 +31,9 @@ BrickGrid voxelize_solid(const Device& device, const Solid& solid,
                          const glm::dmat4& frame_from_solid, const GridFrame& frame,
                          const VoxelizeOptions& options);
 
+/// Does what voxelize_solid does for a `smooth` solid, and gives each of its parts, as parts_of has
+/// them, a grid of its own where its surface passes through the frame.
+BrickGrid voxelize_parts(const Device& device, const Solid& solid,
+                         const glm::dmat4& frame_from_solid, const GridFrame& frame);
+
 }  // namespace voxelume

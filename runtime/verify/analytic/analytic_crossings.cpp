@@ -76,6 +76,39 @@ Line shifted(Line line, double y) {
     return line;
 }
 
+/// A cone's radius is that of its middle and grows by a slope along Y.
+double middle_radius(const Solid& cone) {
+    return (cone.radius + cone.top_radius) / 2;
+}
+double slope(const Solid& cone) {
+    return (cone.top_radius - cone.radius) / cone.height;
+}
+
+/// The part of a line inside a cone. Beyond its tip is a second cone, which the planes cut off.
+Span in_cone(const Solid& cone, const Line& line) {
+    using Real = long double;
+    const Span planes = between_planes(line, 1, cone.height / 2);
+    const Real k = slope(cone), r = middle_radius(cone) + k * line.origin.y,
+               growth = k * line.direction.y;
+    const glm::dvec3 &o = line.origin, &d = line.direction;
+    const Real a = Real(d.x) * d.x + Real(d.z) * d.z - growth * growth;
+    const Real b = Real(o.x) * d.x + Real(o.z) * d.z - r * growth;
+    const Real c = Real(o.x) * o.x + Real(o.z) * o.z - r * r;
+    const Real rest = b * b - a * c;
+    if (a == 0 && b == 0) return c < 0 ? planes : kNowhere;
+    if (a == 0) {
+        const double only = double(-c / (2 * b));
+        return intersection(planes, b > 0 ? Span{-kInfinity, only} : Span{only, kInfinity});
+    }
+    if (rest <= 0) return a > 0 ? kNowhere : planes;
+    const Real q = -(b + std::copysign(std::sqrt(rest), b)), one = q / a,
+               other = q == 0 ? one : c / q;
+    const Span between{double(std::min(one, other)), double(std::max(one, other))};
+    if (a > 0) return intersection(planes, between);
+    const Span before = intersection(planes, {-kInfinity, between.first});
+    return before.first < before.last ? before : intersection(planes, {between.last, kInfinity});
+}
+
 Span in_convex(const Solid& solid, const Line& line) {
     switch (solid.kind) {
         case SolidKind::sphere:
@@ -91,6 +124,8 @@ Span in_convex(const Solid& solid, const Line& line) {
         case SolidKind::cylinder:
             return intersection(in_endless_cylinder(line, solid.radius),
                                 between_planes(line, 1, solid.height / 2));
+        case SolidKind::cone:
+            return in_cone(solid, line);
         case SolidKind::capsule: {
             Span side = intersection(in_endless_cylinder(line, solid.radius),
                                      between_planes(line, 1, solid.height / 2));
@@ -135,6 +170,10 @@ glm::dvec3 gradient(const Solid& solid, const glm::dvec3& p) {
             return p / (solid.radii * solid.radii);
         case SolidKind::cylinder:
             return {p.x, 0, p.z};
+        case SolidKind::cone: {
+            const double across = std::hypot(p.x, p.z);
+            return {p.x / across, -slope(solid), p.z / across};
+        }
         case SolidKind::capsule:
             return {p.x, p.y - std::clamp(p.y, -solid.height / 2, solid.height / 2), p.z};
         case SolidKind::torus: {
@@ -150,7 +189,7 @@ glm::dvec3 gradient(const Solid& solid, const glm::dvec3& p) {
 
 PlacedSolid::PlacedSolid(const Solid& solid, const glm::dmat4& world_from_solid)
     : solid_(solid), solid_from_world_(glm::inverse(world_from_solid * solid.parent_from_solid)) {
-    if (is_combination(solid.kind) || solid.kind == SolidKind::cone)
+    if (is_combination(solid.kind))
         throw std::invalid_argument("the analytic tracer doesn't know this kind of solid");
 }
 

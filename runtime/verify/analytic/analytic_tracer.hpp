@@ -21,8 +21,8 @@ struct Seen {
     double t = std::numeric_limits<double>::infinity();  ///< metres to that object
 };
 
-/// Traces one scene. Its objects have to be spheres, ellipsoids, boxes, cylinders, tori, capsules
-/// or slabs, as `exact` surfaces. They don't form unions with each other, and the world's lattice
+/// Traces one scene. Its objects have to be shapes, not combinations of them, as `exact` surfaces.
+/// They don't form unions with each other, and the world's lattice
 /// cuts them open.
 ///
 /// It follows Whitted 1980 with the meaning that scenes/manual/materials.md gives to materials.

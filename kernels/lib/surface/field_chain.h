@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface of a solid's parts that pass one voxel: several fields, of which each point has the
+// least or the largest (shared/voxel.h), so that edges between parts stay sharp.
+#ifndef VXL_FIELD_CHAIN_H
+#define VXL_FIELD_CHAIN_H
+
+#include "lib/surface/smooth.h"
+
+// A ray goes through at most so many zeros of a chain's records in search of the chain's own.
+#define VXL_CHAIN_ZEROS 16
+
+#define VXL_NO_RECORD 0xFFFFFFFFu
+
+/// A voxel's chain of records, for each lane: those from `begin` to before `end`.
+typedef struct {
+    global const uint* restrict fields;
+    lane_uint begin, end;
+} FieldChain;
+
+/// Records `begin` of lists that end at `list_end`, with those that are linked to them.
+static inline FieldChain chain_from(global const uint* restrict fields, lane_uint begin,
+                                    lane_uint list_end, lane_int tested) {
+    FieldChain c = {fields, begin, begin + 1u};
+    lane_int open = tested & LANE_MASK(c.end < list_end);
+    while (lanes_any(open)) {
+        const lane_uint word = (c.end & LANES_AS_UINT(open)) * VXL_FIELD_WORDS + VXL_LINK_WORD;
+        open &= LANE_MASK((LANES_GATHER_UINT(fields, word) >> VXL_LINK_SHIFT) != 0u);
+        c.end += LANES_AS_UINT(open) & 1u;
+        open &= LANE_MASK(c.end < list_end);
+    }
+    return c;
+}
+
+/// A chain's value at a point, and the record that it is the value of.
+typedef struct {
+    lane_float value;
+    lane_uint record;
+} ChainValue;
+
+/// A way along a ray through a chain's fields, from one record's zero to the next.
+typedef struct {
+    lane_float u;       // where it is
+    lane_uint record;   // whose zero lies there; VXL_NO_RECORD at the start
+    lane_float beyond;  // that record's sign from there on
+} ChainWay;
+
+static inline ChainWay chain_way(void) {
+    const ChainWay way = {(lane_float)0.0f, (lane_uint)VXL_NO_RECORD, (lane_float)1.0f};
+    return way;
+}
+
+/// The value just behind a point of a way, where all records have `shift` added to them.
+static INLINED ChainValue chain_behind(const FieldChain* c, const LocalRay* ray,
+                                       const ChainWay* way, lane_float shift, lane_int tested) {
+    ChainValue sum = {(lane_float)0.0f, c->begin};
+    lane_uint number = c->begin;
+    for (lane_int left = tested; lanes_any(left); left &= LANE_MASK(number < c->end)) {
+        const lane_uint here = number & LANES_AS_UINT(left);
+        const Field field = read_field(c->fields, here);
+        const lane_uint link =
+            LANES_GATHER_UINT(c->fields, here * VXL_FIELD_WORDS + VXL_LINK_WORD) >> VXL_LINK_SHIFT;
+        const lane_float along = field_along(&field, ray, (lane_float)1.0f, way->u) + shift;
+        const lane_float value =
+            LANES_SELECT(LANE_MASK(number == way->record), way->beyond * FLT_MIN, along);
+        const lane_int takes =
+            left & (LANE_MASK(number == c->begin) |
+                    (LANE_MASK(link == VXL_LINK_UNION) & LANE_MASK(value < sum.value)) |
+                    (LANE_MASK(link == VXL_LINK_INTERSECTION) & LANE_MASK(value > sum.value)));
+        sum.value = LANES_SELECT(takes, value, sum.value);
+        sum.record = LANES_SELECT(takes, number, sum.record);
+        number += 1u;
+    }
+    return sum;
+}
+
+/// The first point in u = a .. b at which F + level turns negative, where F is a field times `side`
+/// and not negative at a; found as in hit_smooth. The mask of lanes that have one, at `at`.
+static INLINED lane_int first_zero(const Field* f, const LocalRay* ray, lane_float side,
+                                   lane_float level, lane_float a, lane_float b, lane_int tested,
+                                   lane_float* at) {
+    lane_float fa = fmax(field_along(f, ray, side, a) + level, 0.0f);
+    lane_float fb = field_along(f, ray, side, b) + level;
+    const lane_float middle = 0.5f * (a + b);
+    const lane_float fm = field_along(f, ray, side, middle) + level;
+    const lane_float bend = fa - 2.0f * fm + fb, slope = fb - fa;
+    const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
+                          LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
+    const lane_float part =
+        0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f));
+    const lane_float lowest = LANES_SELECT(dips, fma(part, b - a, a), middle);
+    const lane_float f_lowest = LANES_SELECT(dips, field_along(f, ray, side, lowest) + level, fm);
+    const lane_int before = LANE_MASK(f_lowest < 0.0f);
+    const lane_int crossed = tested & (before | LANE_MASK(fb < 0.0f));
+    a = LANES_SELECT(before, a, lowest), fa = LANES_SELECT(before, fa, f_lowest);
+    b = LANES_SELECT(before, lowest, b), fb = LANES_SELECT(before, f_lowest, fb);
+    lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
+    for (int step = 0; step <= VXL_SECANT_STEPS; ++step) {
+        const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
+        *at = fma(exact_divide(fa, gap), b - a, a);
+        if (step == VXL_SECANT_STEPS) break;
+        const lane_float fu = field_along(f, ray, side, *at) + level;
+        const lane_int below = LANE_MASK(fu < 0.0f);
+        fa = LANES_SELECT(kept_a & below, 0.5f * fa, LANES_SELECT(below, fa, fu));
+        fb = LANES_SELECT(kept_b & ~below, 0.5f * fb, LANES_SELECT(below, fu, fb));
+        b = LANES_SELECT(below, *at, b);
+        a = LANES_SELECT(below, a, *at);
+        kept_a = below;
+        kept_b = ~below;
+    }
+    return crossed;
+}
+
+/// Goes on to the next zero of any record plus `shift`, up to `u_exit`: the mask of lanes that have
+/// one.
+static INLINED lane_int next_zero(const FieldChain* c, const LocalRay* ray, lane_float shift,
+                                  lane_float u_exit, lane_int tested, ChainWay* way) {
+    const lane_float start = way->u, beyond = way->beyond;
+    const lane_uint last = way->record;
+    lane_int found = (lane_int)0;
+    lane_uint number = c->begin;
+    for (lane_int left = tested; lanes_any(left); left &= LANE_MASK(number < c->end)) {
+        const Field field = read_field(c->fields, number & LANES_AS_UINT(left));
+        const lane_float value = field_along(&field, ray, (lane_float)1.0f, start) + shift;
+        lane_float side =
+            LANES_SELECT(LANE_MASK(value < 0.0f), (lane_float)-1.0f, (lane_float)1.0f);
+        side = LANES_SELECT(LANE_MASK(number == last), beyond, side);
+        lane_float at;
+        const lane_int crossed =
+            first_zero(&field, ray, side, side * shift, start, u_exit, left, &at);
+        const lane_int nearer = crossed & (~found | LANE_MASK(at < way->u));
+        way->u = LANES_SELECT(nearer, at, way->u);
+        way->record = LANES_SELECT(nearer, number, way->record);
+        way->beyond = LANES_SELECT(nearer, -side, way->beyond);
+        found |= nearer;
+        number += 1u;
+    }
+    return found;
+}
+
+/// What hit_smooth does, for chains: `record` gets the records that are hit.
+static INLINED lane_int hit_chain(const FieldChain* c, const Walk* w, float plane_bound,
+                                  lane_int tested, FieldApproach* from, lane_float* level,
+                                  lane_float* t_hit, lane_uint* record) {
+    const LocalRay ray = local_ray(w);
+    const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
+    ChainWay way = chain_way();
+    const ChainValue entry = chain_behind(c, &ray, &way, (lane_float)0.0f, tested);
+    const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
+    from->within |= from->unsure & LANE_MASK(entry.value < -bound);
+    const lane_float side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
+    const lane_float f_entry = side * entry.value;
+    const lane_int beginning = from->beginning | (from->here & LANE_MASK(f_entry < 0.0f));
+    *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
+    lane_int met = tested & ~beginning & LANE_MASK(f_entry + *level < 0.0f);
+    *t_hit = LANES_SELECT(met, w->t, *t_hit);
+    *record = LANES_SELECT(met, entry.record, *record);
+    const lane_float shift = side * *level;
+    // Where surfaces of parts coincide, rounding doesn't decide which of them is met first.
+    const lane_float met_at_once = shift - side * (2.0f * VXL_FIELD_ROUNDING);
+    lane_int searching = tested & ~met;
+    for (int zero = 0; zero < VXL_CHAIN_ZEROS && lanes_any(searching); ++zero) {
+        searching = next_zero(c, &ray, shift, u_exit, searching, &way);
+        if (!lanes_any(searching)) break;
+        const ChainValue behind = chain_behind(c, &ray, &way, met_at_once, searching);
+        const lane_int ends = searching & LANE_MASK(side * behind.value < 0.0f);
+        *t_hit = LANES_SELECT(ends, w->t + way.u, *t_hit);
+        *record = LANES_SELECT(ends, way.record, *record);
+        met |= ends;
+        searching &= ~ends;
+    }
+    return met;
+}
+
+#endif

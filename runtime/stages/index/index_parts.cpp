@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/stages/index/index_parts.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "runtime/stages/brick_arrays.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The parts in bricks, as join_parts of index_fields.cl reads them.
+struct Chains {
+    std::vector<uint32_t> first{0}, entries;
+};
+
+/// Lists the parts of one object, in the bricks that any of them has. All have one table of bricks.
+void list_chains(std::span<const PlacedField> fields, std::span<const uint32_t> first_of,
+                 Chains& chains) {
+    std::vector<std::vector<uint32_t>> slots;
+    slots.reserve(fields.size());
+    for (const PlacedField& field : fields) slots.push_back(field.grid.slots.read());
+    for (size_t brick = 0; brick < slots.front().size(); ++brick) {
+        const auto is_stored = [&](const auto& of_part) { return of_part[brick] < kBrickInside; };
+        if (std::ranges::none_of(slots, is_stored)) continue;
+        for (size_t i = 0; i < fields.size(); ++i) {
+            const uint32_t slot = slots[i][brick];
+            const FieldLink link = fields[i].link;
+            const bool is_idle = (link == FieldLink::least && slot == kBrickOutside) ||
+                                 (link == FieldLink::largest && slot == kBrickInside);
+            if (is_idle) continue;
+            chains.entries.push_back(slot < kBrickInside ? first_of[i] + slot : slot);
+            chains.entries.push_back(uint32_t(link));
+        }
+        chains.first.push_back(uint32_t(chains.entries.size() / 2));
+    }
+}
+
+}  // namespace
+
+bool has_parts(const PlacedWorld& world) {
+    return std::ranges::any_of(
+        world.fields, [](const PlacedField& field) { return field.link != FieldLink::none; });
+}
+
+void join_parts(const Device& device, const Program& program, const PlacedWorld& world,
+                const std::vector<uint32_t>& first_of, const Buffer<uint64_t>& masks) {
+    const std::span<const PlacedField> fields = world.fields;
+    const Buffer<uint64_t> inside = allocate_masks(device, "inside masks", first_of.back());
+    Chains chains;
+    for (size_t begin = 0, end = 0; begin < fields.size(); begin = end) {
+        for (++end; end < fields.size() && fields[end].link != FieldLink::none;) ++end;
+        if (end - begin == 1) continue;
+        for (size_t i = begin; i < end; ++i)
+            program.kernel("mark_inside")
+                .launch(WorkItem::light, fields[i].grid.brick_count, fields[i].grid.brick_count,
+                        first_of[i], fields[i].grid.distance, masks, inside);
+        list_chains(fields.subspan(begin, end - begin), std::span(first_of).subspan(begin), chains);
+    }
+    const auto bricks = uint32_t(chains.first.size() - 1);
+    program.kernel("join_parts")
+        .launch(WorkItem::light, bricks, bricks,
+                Buffer<uint32_t>(device, "chain starts", chains.first),
+                Buffer<uint32_t>(device, "chains", chains.entries), inside, masks);
+}
+
+}  // namespace voxelume

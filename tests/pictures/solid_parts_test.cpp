@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smooth unions, intersections and differences against the analytic tracer: edges between their
+// parts are as sharp as their voxels let them be.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "tests/pictures/pair_scenes.hpp"
+#include "tests/support/exhaustive.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The implicit function of a shape, negative inside.
+using ImplicitShape = double (*)(const glm::dvec3&);
+
+double ball_value(const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& radii) {
+    const glm::dvec3 q = (p - centre) / radii;
+    return glm::dot(q, q) - 1;
+}
+
+double ring_value(const glm::dvec3& p) {
+    return std::hypot(std::hypot(p.x, p.z) - 0.7, p.y) - 0.2;
+}
+
+double common_value(double a, double b) {
+    return std::max(a, b);
+}
+
+/// A solid of rounded parts, and its function.
+struct CombinedSolid {
+    const char* name;
+    const char* keys;
+    ImplicitShape shape;
+    bool has_inner_edges = true;  ///< some are seen in front of the solid itself
+};
+
+const std::array kCombinedSolids = {
+    CombinedSolid{"ring and balls", R"("shape": "union", "parts": [
+              {"shape": "torus", "radius": 0.7, "tube": 0.2},
+              {"shape": "union", "position": [0, 0.05, 0], "parts": [
+                  {"shape": "sphere", "radius": 0.6, "position": [0.12, 0, 0.2]},
+                  {"shape": "sphere", "radius": 0.4, "position": [-0.5, 0.2, 0.3]}]}])",
+                  [](const glm::dvec3& p) {
+                      return std::min({ring_value(p),
+                                       ball_value(p, {0.12, 0.05, 0.2}, glm::dvec3(0.6)),
+                                       ball_value(p, {-0.5, 0.25, 0.3}, glm::dvec3(0.4))});
+                  }},
+    CombinedSolid{"lens", R"("shape": "intersection", "parts": [
+              {"shape": "sphere", "radius": 0.9, "position": [-0.35, 0.1, 0]},
+              {"shape": "sphere", "radius": 0.8, "position": [0.4, 0.05, 0.2]}])",
+                  [](const glm::dvec3& p) {
+                      return common_value(ball_value(p, {-0.35, 0.1, 0}, glm::dvec3(0.9)),
+                                          ball_value(p, {0.4, 0.05, 0.2}, glm::dvec3(0.8)));
+                  }},
+    CombinedSolid{"bowl with a wall of a third of a voxel", R"("shape": "difference", "parts": [
+              {"shape": "sphere", "radius": 0.9}, {"shape": "sphere", "radius": 0.875},
+              {"shape": "sphere", "radius": 0.6, "position": [0.3, 0.7, 0.4]}])",
+                  [](const glm::dvec3& p) {
+                      const double hollow =
+                          std::min(ball_value(p, glm::dvec3(0), glm::dvec3(0.875)),
+                                   ball_value(p, {0.3, 0.7, 0.4}, glm::dvec3(0.6)));
+                      return common_value(ball_value(p, glm::dvec3(0), glm::dvec3(0.9)), -hollow);
+                  },
+                  false},
+    CombinedSolid{
+        "bitten ball with a ring", R"("shape": "union", "parts": [
+              {"shape": "torus", "radius": 0.7, "tube": 0.2},
+              {"shape": "difference", "parts": [
+                  {"shape": "ellipsoid", "radii": [0.7, 0.9, 0.6]},
+                  {"shape": "sphere", "radius": 0.5, "position": [0.3, 0.7, 0.3]},
+                  {"shape": "sphere", "radius": 0.4, "position": [-0.3, 0.6, 0.4]}]}])",
+        [](const glm::dvec3& p) {
+            const double left = common_value(-ball_value(p, {0.3, 0.7, 0.3}, glm::dvec3(0.5)),
+                                             -ball_value(p, {-0.3, 0.6, 0.4}, glm::dvec3(0.4)));
+            return std::min(ring_value(p),
+                            common_value(ball_value(p, glm::dvec3(0), {0.7, 0.9, 0.6}), left));
+        }}};
+
+/// `cells`: the world's voxels along an axis.
+std::string parts_scene(const CombinedSolid& parts, int cells, const char* placement) {
+    return pair_scene(2.6 / cells,
+                      fmt::format(R"("a": {{{}, "surface": "smooth", "resolution": {}}})",
+                                  parts.keys, cells * 3 / 4),
+                      fmt::format(R"({{"model": "a", "placement": "{}"}})", placement));
+}
+
+/// How far a picture's surface is from where its solid is, in voxels.
+struct EdgeErrors {
+    size_t edge = 0;   ///< pixels beside an edge between two parts
+    size_t wrong = 0;  ///< pixels that show the solid, or the ground behind it, and shouldn't
+    double at_edge = 0, elsewhere = 0;  ///< RMS
+};
+
+/// What a ray meets by the solid's function.
+struct SeenSolid {
+    double t = INFINITY;
+    glm::dvec3 normal{0};
+    bool is_hit() const { return t < INFINITY; }
+};
+
+class SolidTruth {
+  public:
+    SolidTruth(const Observer& observer, ImplicitShape shape) : observer_(observer), shape_(shape) {
+        for (int y = -1; y <= kPairSize.y; ++y)
+            for (int x = -1; x <= kPairSize.x; ++x) seen_.push_back(trace(direction(x, y)));
+    }
+
+    glm::dvec3 direction(int x, int y) const { return direction_at(observer_, {x + 0.5, y + 0.5}); }
+    const SeenSolid& at(int x, int y) const {
+        return seen_[size_t(y + 1) * (kPairSize.x + 2) + size_t(x + 1)];
+    }
+
+    /// Whether a neighbour's surface is turned away from that at (x,y) by more than roundness does.
+    bool is_at_edge(int x, int y) const {
+        for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+            const SeenSolid& beside = at(x + step.x, y + step.y);
+            if (beside.is_hit() && glm::dot(beside.normal, at(x, y).normal) < 0.8) return true;
+        }
+        return false;
+    }
+    /// Whether the solid's outline, or that of a part before another, is within a pixel.
+    bool is_at_outline(int x, int y) const {
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                if (!(std::abs(at(x + i, y + j).t - at(x, y).t) < 0.15)) return true;
+        return false;
+    }
+
+  private:
+    double value(const glm::dvec3& direction, double t) const {
+        return shape_(observer_.position + t * direction);
+    }
+
+    SeenSolid trace(const glm::dvec3& direction) const {
+        constexpr double kFirst = 1, kLast = 6, kStep = 1 / 512.0;
+        for (double t = kFirst; t < kLast; t += kStep) {
+            if (value(direction, t + kStep) >= 0) continue;
+            double low = t, high = t + kStep;
+            for (int i = 0; i < 40; ++i)
+                (value(direction, (low + high) / 2) < 0 ? high : low) = (low + high) / 2;
+            return {low, normal_at(observer_.position + low * direction)};
+        }
+        return {};
+    }
+
+    glm::dvec3 normal_at(const glm::dvec3& p) const {
+        glm::dvec3 gradient(0);
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 step(0);
+            step[axis] = 1e-6;
+            gradient[axis] = shape_(p + step) - shape_(p - step);
+        }
+        return glm::normalize(gradient);
+    }
+
+    Observer observer_;
+    ImplicitShape shape_;
+    std::vector<SeenSolid> seen_;
+};
+
+glm::dvec3 channel_vector(const Image& image, const char* name, size_t i) {
+    const auto value = [&](const char* axis) {
+        return double(image.planes.at(fmt::format("{}.{}", name, axis))[i]);
+    };
+    return {value("X"), value("Y"), value("Z")};
+}
+
+EdgeErrors edge_errors_of(const CombinedSolid& parts, int cells, const char* placement) {
+    const Scene scene = parse_scene(parts_scene(parts, cells, placement), "parts.json", {});
+    const SolidTruth truth(scene.observer, parts.shape);
+    RenderReport report;
+    const Image image = render(test_device(), scene, report);
+    EdgeErrors errors;
+    double at_edge = 0, elsewhere = 0;
+    size_t count = 0;
+    for (int y = 0; y < kPairSize.y; ++y)
+        for (int x = 0; x < kPairSize.x; ++x) {
+            const size_t i = size_t(y) * kPairSize.x + size_t(x);
+            const SeenSolid& seen = truth.at(x, y);
+            const bool is_shown = image.id_planes.at("objectId")[i] != 0;
+            if (is_shown != seen.is_hit()) {
+                errors.wrong += truth.is_at_outline(x, y) ? 0 : 1;
+                continue;
+            }
+            if (!is_shown || truth.is_at_outline(x, y)) continue;
+            const glm::dvec3 d = truth.direction(x, y);
+            const double t = glm::dot(channel_vector(image, "P", i) - scene.observer.position, d);
+            const double off = (t - seen.t) * glm::dot(channel_vector(image, "N", i), d) /
+                               scene.world.voxel_size.x;
+            const bool is_edge = truth.is_at_edge(x, y);
+            errors.edge += is_edge;
+            (is_edge ? at_edge : elsewhere) += off * off;
+            count += !is_edge;
+        }
+    errors.at_edge = std::sqrt(at_edge / double(std::max<size_t>(errors.edge, 1)));
+    errors.elsewhere = std::sqrt(elsewhere / double(std::max<size_t>(count, 1)));
+    return errors;
+}
+
+TEST(SolidParts, MeetInSharpEdges) {
+    for (const CombinedSolid& parts : kCombinedSolids)
+        for (const char* placement : {"world", "instance"})
+            for (const int cells : {16, 32, 64, 128}) {
+                if (cells > 32 && !is_exhaustive()) continue;
+                const EdgeErrors e = edge_errors_of(parts, cells, placement);
+                const std::string what = fmt::format(
+                    "{} as {}, {} voxels: {} pixels at edges, rms {:.2e} voxel, elsewhere {:.2e}; "
+                    "{} wrong",
+                    parts.name, placement, cells, e.edge, e.at_edge, e.elsewhere, e.wrong);
+                fmt::print("{}\n", what);
+                EXPECT_GT(e.edge, parts.has_inner_edges ? 40u : 0u) << what;
+                EXPECT_EQ(e.wrong, 0u) << what;
+                EXPECT_LT(e.at_edge, 0.1) << what;
+                EXPECT_LT(e.elsewhere, 0.05) << what;
+            }
+}
+
+}  // namespace
+}  // namespace voxelume
