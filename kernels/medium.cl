@@ -6,7 +6,7 @@
 // for a ray's whole way: passed = exp(-absorption * sum), emitted = color * (1 - passed).
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
-#include "lib/light/phase.h"
+#include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
 #include "shared/scene.h"
 #include "shared/trace.h"

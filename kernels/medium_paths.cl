@@ -2,98 +2,17 @@
 // paths on their way through a scattering medium -> the points where it scatters them, the light
 // there, and the next rays of the paths.
 //
-// How far light comes is sampled exactly: the sum of density times length is inverted voxel by
-// voxel, without rejections ("regular tracking"). Where the three colours are scattered differently
-// one of them chooses the length, and all share it by the balance heuristic (Veach & Guibas 1995).
-// Absorption is no chance but a weight, as on all rays.
+// Scattering is chance, see lib/medium/flight.h; absorption is a weight, as on all rays.
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/area_points.h"
 #include "lib/light/child_rays.h"
 #include "lib/light/direct_light.h"
 #include "lib/light/light_rays.h"
-#include "lib/light/phase.h"
 #include "lib/light/sent_rays.h"
+#include "lib/medium/flight.h"
+#include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
-
-/// How far paths come.
-typedef struct {
-    lane_float t;
-    lane_float depth;  // sum of density times t up to there
-    lane_int ends;     // mask: the medium scatters them there
-} Flight;
-
-/// Flies through the voxels of the segments up to where density times t sums up to `sought`.
-static inline Flight fly_through_grid(PyramidShape shape, const DensityView* density,
-                                      const Segment* s, lane_float sought, lane_int active) {
-    const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    Flight f = {s->t_last, zero, (lane_int)0};
-    lane_float lost = zero, entered = s->t_first, entered_low = zero;
-    const PyramidView p = grid_view(shape);
-    Walk walk = walk_along(s);
-    lane_int walking = active & in_grid(&p, &walk) & LANE_MASK(s->t_first < s->t_last);
-    while (lanes_any(walking)) {
-        const DensityCell cell = look_up_density(density, walk.x, walk.y, walk.z, walking);
-        const lane_float begins = entered, before = f.depth - lost;
-        const Stretch stretch = cross_cell(&p, density, &walk, &cell, s->t_first, s->t_last,
-                                           &entered, &entered_low, walking);
-        const lane_float left = sought - before;
-        const lane_int ends = stretch.counts & LANE_MASK(cell.density > 0.0f) &
-                              LANE_MASK(cell.density * stretch.length > left);
-        const lane_float part = exact_divide(left, LANES_SELECT(ends, cell.density, one));
-        f.t = LANES_SELECT(ends, begins + part, f.t);
-        f.ends |= ends;
-        add_exactly(&f.depth, &lost, cell.density * stretch.length, stretch.counts & ~ends);
-        walking &= ~(ends | stretch.ends) & in_grid(&p, &walk);
-    }
-    f.depth = LANES_SELECT(f.ends, sought, f.depth - lost);
-    return f;
-}
-
-/// Flies along the segments of the `active` lanes up to where density times t sums up to `sought`.
-static inline Flight fly(PyramidShape shape, const DensityView* density, const Segment* s,
-                         lane_float sought, lane_int active) {
-    if (VXL_MEDIUM_GRID) return fly_through_grid(shape, density, s, sought, active);
-    const Segment inside = part_in_world(shape, *s);
-    const lane_float length = fmax(inside.t_last - inside.t_first, 0.0f);
-    Flight f;
-    f.ends = active & LANE_MASK(sought < length);
-    f.depth = LANES_SELECT(f.ends, sought, LANES_SELECT(active, length, (lane_float)0.0f));
-    f.t = LANES_SELECT(f.ends, inside.t_first + sought, s->t_last);
-    return f;
-}
-
-/// The optical depth at which light of one of the colours is scattered, over its rate: a sum of
-/// density times metres. Infinite for a colour that isn't scattered.
-static inline lane_float sought_depth(const MediumScattering* m, SquarePoint p) {
-    const lane_float third = p.y * 3.0f;
-    const lane_float rate =
-        LANES_SELECT(LANE_MASK(third < 1.0f), (lane_float)m->per_metre[0],
-                     LANES_SELECT(LANE_MASK(third < 2.0f), (lane_float)m->per_metre[1],
-                                  (lane_float)m->per_metre[2]));
-    const lane_int some = LANE_MASK(rate > 0.0f);
-    const lane_float depth =
-        exact_divide(-exact_log(1.0f - p.x), LANES_SELECT(some, rate, (lane_float)1.0f));
-    return LANES_SELECT(some, fmax(depth, 0.0f), (lane_float)INFINITY);
-}
-
-/// Multiplies the throughput of paths by what each colour has of those that come through `depth`,
-/// and are scattered there in the `ends` lanes, over what their sampling has of all colours.
-static inline void weigh_colors(const MediumScattering* m, lane_float depth, lane_int ends,
-                                lane_int active, lane_float* throughput) {
-    const float* rates = m->per_metre;
-    if (rates[0] == rates[1] && rates[1] == rates[2]) return;
-    lane_float share[3], sum = (lane_float)0.0f;
-    for (int c = 0; c < 3; ++c) {
-        share[c] = exact_exp(-rates[c] * depth);
-        share[c] *= LANES_SELECT(ends, (lane_float)rates[c], (lane_float)1.0f);
-        sum += share[c];
-    }
-    const lane_int some = active & LANE_MASK(sum > 0.0f);
-    const lane_float safe = LANES_SELECT(some, sum, (lane_float)1.0f);
-    for (int c = 0; c < 3; ++c)
-        throughput[c] *= LANES_SELECT(some, exact_divide(3.0f * share[c], safe), (lane_float)1.0f);
-}
 
 /// What a point in the medium begins with: the way on which the path came, with no surface around.
 static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float t, lane_uint target,

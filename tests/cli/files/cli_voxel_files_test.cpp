@@ -13,8 +13,8 @@ namespace voxelume {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::IsEmpty;
+using testing::Not;
 
 class CliVoxelFilesTest : public ProgramTest {
   protected:

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/scene_file/read_scene.hpp"
-#include "tests/pictures/refracted_rays.hpp"
+#include "tests/pictures/glass/refracted_rays.hpp"
 
 namespace voxelume {
 namespace {

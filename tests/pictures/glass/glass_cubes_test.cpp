@@ -11,7 +11,7 @@
 #include "runtime/stages/trace/sight.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/glass_block.hpp"
-#include "tests/pictures/refracted_rays.hpp"
+#include "tests/pictures/glass/refracted_rays.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume::glass_block {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/pictures/glass_block.hpp"
-#include "tests/pictures/refracted_rays.hpp"
+#include "tests/pictures/glass/refracted_rays.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/writers/vox_writer.hpp"
 
