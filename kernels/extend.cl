@@ -184,7 +184,7 @@ kernel void extend_paths(
     if (VXL_TRANSMISSION) {
         const Layer layer = load_layer(&around, colors, &batch, first, count);
         opacity = LANES_SELECT(in_medium, opacity, layer.opacity);
-        met_any = layer.hit | in_medium;
+        met_any = layer.hit;
         clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
         if (nodes.coverage) note_coverage(&nodes, valid, met_any, target, clear);
     }

@@ -20,10 +20,11 @@ static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float 
     const float one = shape.fixed_point;
     const lane_float zero = (lane_float)0.0f;
     NewRays r;
-    const Vector at = add_scaled(s->origin, s->direction, t);
-    r.origin.x = clamp(snap_position(at.x, zero, one), 0.0f, (float)shape.size_x);
-    r.origin.y = clamp(snap_position(at.y, zero, one), 0.0f, (float)shape.size_y);
-    r.origin.z = clamp(snap_position(at.z, zero, one), 0.0f, (float)shape.size_z);
+    // Rounded back along the way, so that no point comes to lie in what is ahead.
+    const Vector at = add_scaled(s->origin, s->direction, t), d = s->direction;
+    r.origin.x = clamp(snap_position(at.x, -d.x, one), 0.0f, (float)shape.size_x);
+    r.origin.y = clamp(snap_position(at.y, -d.y, one), 0.0f, (float)shape.size_y);
+    r.origin.z = clamp(snap_position(at.z, -d.z, one), 0.0f, (float)shape.size_z);
     r.direction = s->direction;
     r.t_end = (lane_float)INFINITY;
     r.source = (lane_uint)VXL_NO_PRIMITIVE;
@@ -61,8 +62,11 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     const Segment segment = sight_segment(&batch, first);
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
     const lane_float sought = sought_depth(&medium, path_point(&samples, VXL_DECISION_FLIGHT));
-    const lane_float per_t = exact_divide(sought, LANES_SELECT(active, metres, (lane_float)1.0f));
-    const Flight flight = fly(shape, &density, &segment, per_t, active);
+    const lane_int is_finite = active & LANE_MASK(sought < INFINITY);
+    const lane_float per_t = exact_divide(LANES_SELECT(is_finite, sought, (lane_float)0.0f),
+                                          LANES_SELECT(active, metres, (lane_float)1.0f));
+    const Flight flight = fly(shape, &density, &segment,
+                              LANES_SELECT(is_finite, per_t, (lane_float)INFINITY), active);
 
     const lane_float depth = flight.depth * metres;
     lane_float throughput[3];
@@ -73,19 +77,14 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     const float absorbed[3] = {absorption.x, absorption.y, absorption.z};
     for (uint c = 0; c < 3; ++c) {
         point.throughput[c] = throughput[c] * exact_exp(-absorbed[c] * depth);
-        const lane_float kept = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
-        LANES_STORE(LANES_AS_UINT(LANES_SELECT(flight.ends, kept, throughput[c])), paths,
+        // It is also that of the medium's own light on the way.
+        LANES_STORE(LANES_AS_UINT(throughput[c]), paths,
                     (VXL_PATH_THROUGHPUT + c) * stride + first);
     }
     LANES_STORE(LANES_SELECT(flight.ends, state | VXL_STATE_IN_MEDIUM, state), paths,
                 VXL_PATH_STATE * stride + first);
     if (!lanes_any(flight.ends)) return;
     LANES_STORE(flight.t, transmittance, first);
-    if (VXL_TRANSMISSION) {
-        const lane_uint clear = LANES_LOAD(paths, VXL_PATH_CLEAR * stride + first);
-        LANES_STORE(LANES_SELECT(flight.ends, (lane_uint)0, clear), paths,
-                    VXL_PATH_CLEAR * stride + first);
-    }
     const Slots slots = reserve_slots(flight.ends, counters + VXL_COUNT_CHILDREN);
     put_rays(&points, &point, &slots);
     put_uint(point_hits + VXL_HIT_VOXEL * points.stride, (lane_uint)VXL_NO_VOXEL, &slots);

@@ -176,7 +176,7 @@ std::vector<KnownPicture> known_pictures() {
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
-         false, "b5f160171e4c5af8"},
+         false, "a5b9f7b087340160"},
         {"meshes", kMeshes, false, "d0f5f6be5e68e8f8"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},

@@ -174,7 +174,7 @@ void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<
     std::vector<bool> met = potentially_visible;
     // A lens sees past the sides of the observer's pyramid.
     bool all = scene.observer.display.layout == VolumeLayout::lattice || !is_bounded ||
-               scene.observer.aperture > 0;
+               scene.observer.aperture > 0 || (traces_light(scene) && has_scattering(scene));
     for (size_t i = 0; i < objects.size(); ++i) {
         if (!met[i])
             met[i] = !is_empty(boxes[i]) &&

@@ -95,6 +95,7 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
     };
     if (std::ranges::any_of(candidates, is_of_place)) add_inside_warnings(now, meshes, found);
     add_light_warning(now, found);
+    add_scattering_warning(now, found);
     return found;
 }
 

@@ -26,8 +26,18 @@ Scene colors_of(const Scene& scene) {
     return result;
 }
 
+/// Darkens a scan that no light brings out.
+void darken(GridDensity& scan) {
+    if (scan.is_lit_by_scene) return;
+    for (TransferPoint& point : scan.transfer) point.color = glm::vec3(0);
+}
+
 /// Leaves lights alone of all that shines.
 void darken_all_but_lights(Scene& scene) {
+    if (auto* scan = std::get_if<GridDensity>(&scene.world.medium.density)) {
+        darken(*scan);
+        for (GridDensity& other : scan->others) darken(other);
+    }
     scene.world.background = scene.world.ambient = scene.world.medium.color = glm::vec3(0);
     if (scene.world.sky) scene.world.sky->strength = scene.world.sky->intensity = 0;
     if (scene.world.sky) scene.world.sky->samples = 0;

@@ -57,6 +57,15 @@ TEST(SolidParts, OfUnionsOfUnionsAreTheirShapesInPlace) {
     EXPECT_EQ(parts[2].solid.parent_from_solid[3].x, 112);
 }
 
+/// What fills a hole must not move before the part that cuts it.
+TEST(SolidParts, WithFacesInOnePlaneStayBehindACut) {
+    const Solid wall = joined(SolidKind::union_of, {ball(9), box({0, 0, 0}, {2, 2, 1})});
+    const Solid cut = joined(SolidKind::difference_of, {wall, box({1, 0, 0}, {1, 1, 3})});
+    const std::vector<SolidPart> parts =
+        parts_of(joined(SolidKind::union_of, {cut, box({1, 0, 0}, {0.5, 0.5, 1})}));
+    EXPECT_EQ(links_of(parts), (std::vector{kNone, kLeast, kLargest, kLeast}));
+}
+
 TEST(SolidParts, OfADifferenceOfAUnionAreComplements) {
     const std::vector<SolidPart> parts = parts_of(joined(
         SolidKind::difference_of, {ball(0), joined(SolidKind::union_of, {ball(1), ball(2)})}));

@@ -65,10 +65,11 @@ TEST(AnalyticCrossings, HaveTheFaceThatTheyGoThrough) {
     EXPECT_EQ(solid.normal({10, -2, 1}, found.list[1].face), glm::dvec3(0, -1, 0));
 }
 
-TEST(AnalyticCrossings, ConesAndCombinationsAreRefused) {
-    Solid cone;
-    cone.kind = SolidKind::cone;
-    EXPECT_THROW(PlacedSolid(cone, glm::dmat4(1)), std::invalid_argument);
+TEST(AnalyticCrossings, CombinationsAreRefused) {
+    Solid both;
+    both.kind = SolidKind::union_of;
+    both.parts = {torus(), torus()};
+    EXPECT_THROW(PlacedSolid(both, glm::dmat4(1)), std::invalid_argument);
 }
 
 std::vector<Solid> all_shapes() {
@@ -86,6 +87,12 @@ std::vector<Solid> all_shapes() {
     shapes.push_back(Solid{});
     shapes.back().kind = SolidKind::slab;
     shapes.back().thickness = 0.3;
+    Solid cone;
+    cone.kind = SolidKind::cone;
+    cone.radius = 0.8, cone.height = 1.2;
+    shapes.push_back(cone);
+    cone.radius = 0.5, cone.top_radius = 0.8, cone.height = 1;
+    shapes.push_back(cone);
     return shapes;
 }
 

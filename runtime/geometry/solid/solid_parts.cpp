@@ -64,6 +64,8 @@ Parts with_flush_ones_joined(Parts parts) {
     };
     for (size_t i = 0; i < parts.size(); ++i)
         for (size_t j = i + 1; j < parts.size();) {
+            // A part mustn't move past one that takes something away from those before it.
+            if (parts[j].link != FieldLink::least) break;
             if (!is_open(parts[i]) || !is_open(parts[j]) ||
                 !have_flush_faces(parts[i].solid, parts[j].solid)) {
                 ++j;

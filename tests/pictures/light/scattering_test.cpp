@@ -150,6 +150,18 @@ TEST(Scattering, IsNotSeenInAWhiteFurnace) {
     }
 }
 
+/// A medium whose own radiance is that of its surroundings, 1, is not seen either, though it
+/// absorbs light and scatters colours differently.
+TEST(Scattering, WeighsTheMediumsOwnLight) {
+    Json scene = cube_of_medium(
+        {{"scattering", {0.1, 0.2, 0.8}}, {"absorption", {0.3, 0.3, 0.3}}, {"color", {1, 1, 1}}},
+        Json::array(), 16, 256);
+    scene["world"]["background"] = {1, 1, 1};
+    const Image image = image_of(scene);
+    for (const char* channel : {"R", "G", "B"})
+        expect_mean(estimate_of_channel(image, channel), 1, channel, 1e-4);
+}
+
 /// Lamps in mist, found by rays that are sent to them, by paths that run into them, or by both.
 TEST(Scattering, FindsLampsByAllWays) {
     std::array<Estimate, 3> found;
