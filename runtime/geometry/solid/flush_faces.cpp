@@ -21,7 +21,7 @@ constexpr double kRounding = 1e-9;
 constexpr double kFar = 1e9;  // metres
 
 /// The points x on it have dot(normal, x) = offset; the normal has unit length and looks outwards.
-struct Plane {
+struct FacePlane {
     glm::dvec3 normal;
     double offset;
 };
@@ -41,7 +41,8 @@ glm::dvec3 half_edges(const Solid& shape) {
     }
 }
 
-void add_planes(const Solid& solid, const glm::dmat4& map_of_parent, std::vector<Plane>& planes) {
+void add_planes(const Solid& solid, const glm::dmat4& map_of_parent,
+                std::vector<FacePlane>& planes) {
     const glm::dmat4 map = map_of_parent * solid.parent_from_solid;
     for (const Solid& part : solid.parts) add_planes(part, map, planes);
     if (is_combination(solid.kind)) return;
@@ -57,8 +58,8 @@ void add_planes(const Solid& solid, const glm::dmat4& map_of_parent, std::vector
     }
 }
 
-std::vector<Plane> planes_of(const Solid& solid) {
-    std::vector<Plane> planes;
+std::vector<FacePlane> planes_of(const Solid& solid) {
+    std::vector<FacePlane> planes;
     add_planes(solid, glm::dmat4(1), planes);
     return planes;
 }
@@ -66,7 +67,7 @@ std::vector<Plane> planes_of(const Solid& solid) {
 }  // namespace
 
 bool have_flush_faces(const Solid& a, const Solid& b) {
-    const std::vector<Plane> of_a = planes_of(a), of_b = planes_of(b);
+    const std::vector<FacePlane> of_a = planes_of(a), of_b = planes_of(b);
     if (of_a.empty() || of_b.empty()) return false;
     const SolidBounds all{glm::dvec3(-kFar), glm::dvec3(kFar)};
     const SolidBounds box_a = bounds(a, glm::dmat4(1), all), box_b = bounds(b, glm::dmat4(1), all);
@@ -75,12 +76,12 @@ bool have_flush_faces(const Solid& a, const Solid& b) {
     if (glm::any(glm::greaterThan(box_a.min, box_b.max + slack)) ||
         glm::any(glm::greaterThan(box_b.min, box_a.max + slack)))
         return false;
-    const auto continues = [&](const Plane& p, const Plane& q) {
+    const auto continues = [&](const FacePlane& p, const FacePlane& q) {
         return glm::dot(p.normal, q.normal) > 1 - kRounding &&
                std::abs(p.offset - q.offset) <= slack;
     };
-    return std::ranges::any_of(of_a, [&](const Plane& p) {
-        return std::ranges::any_of(of_b, [&](const Plane& q) { return continues(p, q); });
+    return std::ranges::any_of(of_a, [&](const FacePlane& p) {
+        return std::ranges::any_of(of_b, [&](const FacePlane& q) { return continues(p, q); });
     });
 }
 

@@ -47,7 +47,7 @@ Picture parse_png_texture(std::span<const uint8_t> bytes, const std::filesystem:
 }
 
 // clang-format off
-constexpr std::array<ImageFormatEntry, 4> kTable = {{
+constexpr std::array<ImageFormatEntry, 4> kImageFormats = {{
     {".exr", "\x76\x2f\x31\x01", true, write_channels, encode_channels, read_exr,
      read_exr_colors, read_exr_size, nullptr},
     {".hdr", "#?", false, nullptr, nullptr, nullptr,
@@ -62,21 +62,21 @@ constexpr std::array<ImageFormatEntry, 4> kTable = {{
 }  // namespace
 
 std::span<const ImageFormatEntry> image_format_table() {
-    return kTable;
+    return kImageFormats;
 }
 
 const ImageFormatEntry* image_format_of(std::string_view ending) {
-    const auto* const row = std::ranges::find(kTable, ending, &ImageFormatEntry::ending);
-    return row == kTable.end() ? nullptr : row;
+    const auto* const row = std::ranges::find(kImageFormats, ending, &ImageFormatEntry::ending);
+    return row == kImageFormats.end() ? nullptr : row;
 }
 
 const ImageFormatEntry* image_format_of(std::span<const uint8_t> bytes) {
-    const auto* const row = std::ranges::find_if(kTable, [&](const ImageFormatEntry& entry) {
+    const auto* const row = std::ranges::find_if(kImageFormats, [&](const ImageFormatEntry& entry) {
         return bytes.size() >= entry.start.size() &&
                std::ranges::equal(bytes.first(entry.start.size()), entry.start,
                                   [](uint8_t a, char b) { return a == uint8_t(b); });
     });
-    return row == kTable.end() ? nullptr : row;
+    return row == kImageFormats.end() ? nullptr : row;
 }
 
 }  // namespace voxelume

@@ -279,6 +279,7 @@ BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
     constexpr double kComplementMargin = 1.25;
     const std::vector<SolidPart> divided = parts_of(solid);
     std::vector<SolidField> parts;
+    parts.reserve(divided.size());
     for (const SolidPart& part : divided) parts.emplace_back(part.solid, frame_from_solid);
     const SolidField whole(solid, frame_from_solid);
     if (parts.size() == 1) return count_bricks(whole, frame, box, rule, taken);

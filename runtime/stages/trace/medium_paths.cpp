@@ -9,10 +9,10 @@
 namespace voxelume {
 
 MediumPathStage::MediumPathStage(const Device& device, const Features& features,
-                                 const float4& absorption, MediumScattering scattering,
+                                 const float4& absorption, const MediumScattering& scattering,
                                  DensityGrid density)
     : absorption_(absorption),
-      scattering_(std::move(scattering)),
+      scattering_(scattering),
       density_(std::move(density)),
       counters_(device, "path counters", kPathCounters),
       program_(device, "medium_paths.cl", features.defines(device)),

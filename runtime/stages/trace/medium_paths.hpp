@@ -25,7 +25,7 @@ class MediumPathStage {
   public:
     /// `absorption` is the medium's, per metre at density 1.
     MediumPathStage(const Device& device, const Features& features, const float4& absorption,
-                    MediumScattering scattering, DensityGrid density);
+                    const MediumScattering& scattering, DensityGrid density);
 
     /// Says which sky paths send rays to. Needed for features with `sky_rays` only.
     void set_sky(SkyMap sky) { sky_ = std::move(sky); }

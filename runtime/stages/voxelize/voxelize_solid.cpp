@@ -217,8 +217,8 @@ BrickGrid voxelize_parts(const Device& device, const Solid& solid,
     const std::vector<SolidPart> parts = parts_of(solid);
     if (parts.size() == 1) return voxelize_solid(device, solid, frame_from_solid, frame, options);
     std::vector<GridPart> joined;
-    bool is_full =
-        false;  // what is joined fills the frame, or is empty there, if it has no surface
+    // Where no part has a surface: whether they fill the frame, or are empty there.
+    bool is_full = false;
     for (const SolidPart& part : parts) {
         SolidProgram program =
             make_solid_program(part.solid, frame_from_solid, frame, part.is_complement);

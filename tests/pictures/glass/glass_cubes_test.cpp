@@ -10,8 +10,8 @@
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/pictures/glass_block.hpp"
 #include "tests/pictures/glass/refracted_rays.hpp"
+#include "tests/pictures/glass_block.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume::glass_block {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "tests/pictures/glass_block.hpp"
 #include "tests/pictures/glass/refracted_rays.hpp"
+#include "tests/pictures/glass_block.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/writers/vox_writer.hpp"
 
