@@ -23,14 +23,14 @@ float roughness_of(const Material& m) {
 }
 
 /// A voxel's colour is that of its light.
-CubeMaterial lamp(const Material& m) {
+CubeMaterial emissive(const Material& m) {
     const float largest = std::max({m.emission.r, m.emission.g, m.emission.b});
-    CubeMaterial lamp;
-    lamp.vox.kind = VoxMaterialKind::emit;
-    lamp.vox.weight = std::min(largest, 1.0F);
-    lamp.vox.flux = std::clamp(std::sqrt(largest / lamp.vox.weight) - 1, 0.0F, 8.0F);
-    lamp.color = color_code(m.emission / largest);
-    return lamp;
+    CubeMaterial emissive;
+    emissive.vox.kind = VoxMaterialKind::emit;
+    emissive.vox.weight = std::min(largest, 1.0F);
+    emissive.vox.flux = std::clamp(std::sqrt(largest / emissive.vox.weight) - 1, 0.0F, 8.0F);
+    emissive.color = color_code(m.emission / largest);
+    return emissive;
 }
 
 /// Light through eight voxels of glass has the voxels' colour.
@@ -55,7 +55,7 @@ CubeMaterial metal(const Material& m, double weight) {
 }
 
 CubeMaterial cube_material(const Material& m, double edge) {
-    if (m.emission != glm::vec3(0)) return lamp(m);
+    if (m.emission != glm::vec3(0)) return emissive(m);
     if (m.transmission.value_or(0) > 0 || m.refraction > 0) return glass(m, edge);
     const double mirrors = is_physical(m) ? m.metallic.value_or(0) : double(m.reflection);
     if (mirrors > 0) return metal(m, mirrors);

@@ -196,22 +196,29 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
 /// Lights the surfaces that the rays met: blocks 4 and 5.
 void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer) {
     shade_.surface(world_, entries, count, from_observer);
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        const PathLight& light = lights_[i];
+    bring_each_light(entries, count, [&](const PathLight& light) {
         if (light.area)
             area_lighting_->add(world_, light.record, *light.area, sampling_, light.number, entries,
                                 count, queue_);
         else
             lighting_->add(world_, light.record, entries, count, queue_);
-        if (!beams_.empty()) queue_.beams = beams_[i];
-        bring_light(entries, count);
-    }
-    if (!beams_.empty()) queue_.beams = {};
+    });
     for (uint32_t i = 0; i < sky_samples_; ++i) {
         sky_lighting_->add(world_, i, sky_samples_, entries, count, queue_);
         bring_light(entries, count);
     }
     if (medium_) medium_->sight(world_, entries, count);
+}
+
+/// Brings the light of all lights to points, whose shadow rays to a light `add` queues.
+void Illumination::bring_each_light(RayBatch& points, uint32_t count,
+                                    const std::function<void(const PathLight&)>& add) {
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        add(lights_[i]);
+        if (!beams_.empty()) queue_.beams = beams_[i];
+        bring_light(points, count);
+    }
+    if (!beams_.empty()) queue_.beams = {};
 }
 
 /// Adds the light of the queued shadow rays that reach their light.

@@ -2,6 +2,7 @@
 // rays -> radiance: the surfaces that each ray meets, and the light along it. Blocks 3 to 9.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -86,6 +87,8 @@ class Illumination {
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count, bool from_observer);
     void bring_light(RayBatch& entries, uint32_t count);
+    void bring_each_light(RayBatch& points, uint32_t count,
+                          const std::function<void(const PathLight&)>& add);
     void trace_to_emitters(PathDepth& depth, uint32_t count);
     uint32_t scatter_in_medium(RayBatch& entries, uint32_t count, PathDepth& depth);
     NextRays light_medium(uint32_t count, uint32_t taken, PathDepth& depth);

@@ -31,17 +31,13 @@ uint32_t Illumination::scatter_in_medium(RayBatch& entries, uint32_t count, Path
 /// Lights the points where the medium scatters paths, and sends these on behind `taken` rays.
 NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& depth) {
     if (count == 0) return {};
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        const PathLight& light = lights_[i];
+    bring_each_light(depth.points, count, [&](const PathLight& light) {
         if (light.area)
             medium_paths_->add_area_light(world_, light.record, *light.area, sampling_,
                                           light.number, depth.points, count, queue_);
         else
             medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
-        if (!beams_.empty()) queue_.beams = beams_[i];
-        bring_light(depth.points, count);
-    }
-    if (!beams_.empty()) queue_.beams = {};
+    });
     return medium_paths_->paths(world_, sampling_, emitters_, depth.points, count, depth.nodes,
                                 depth.next, taken, depth.next_to_emitters);
 }

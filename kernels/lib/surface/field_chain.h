@@ -73,43 +73,6 @@ static INLINED ChainValue chain_behind(const FieldChain* c, const LocalRay* ray,
     return sum;
 }
 
-/// The first point in u = a .. b at which F + level turns negative, where F is a field times `side`
-/// and not negative at a; found as in hit_smooth. The mask of lanes that have one, at `at`.
-static INLINED lane_int first_zero(const Field* f, const LocalRay* ray, lane_float side,
-                                   lane_float level, lane_float a, lane_float b, lane_int tested,
-                                   lane_float* at) {
-    lane_float fa = fmax(field_along(f, ray, side, a) + level, 0.0f);
-    lane_float fb = field_along(f, ray, side, b) + level;
-    const lane_float middle = 0.5f * (a + b);
-    const lane_float fm = field_along(f, ray, side, middle) + level;
-    const lane_float bend = fa - 2.0f * fm + fb, slope = fb - fa;
-    const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
-                          LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
-    const lane_float part =
-        0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f));
-    const lane_float lowest = LANES_SELECT(dips, fma(part, b - a, a), middle);
-    const lane_float f_lowest = LANES_SELECT(dips, field_along(f, ray, side, lowest) + level, fm);
-    const lane_int before = LANE_MASK(f_lowest < 0.0f);
-    const lane_int crossed = tested & (before | LANE_MASK(fb < 0.0f));
-    a = LANES_SELECT(before, a, lowest), fa = LANES_SELECT(before, fa, f_lowest);
-    b = LANES_SELECT(before, lowest, b), fb = LANES_SELECT(before, f_lowest, fb);
-    lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
-    for (int step = 0; step <= VXL_SECANT_STEPS; ++step) {
-        const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
-        *at = fma(exact_divide(fa, gap), b - a, a);
-        if (step == VXL_SECANT_STEPS) break;
-        const lane_float fu = field_along(f, ray, side, *at) + level;
-        const lane_int below = LANE_MASK(fu < 0.0f);
-        fa = LANES_SELECT(kept_a & below, 0.5f * fa, LANES_SELECT(below, fa, fu));
-        fb = LANES_SELECT(kept_b & ~below, 0.5f * fb, LANES_SELECT(below, fu, fb));
-        b = LANES_SELECT(below, *at, b);
-        a = LANES_SELECT(below, a, *at);
-        kept_a = below;
-        kept_b = ~below;
-    }
-    return crossed;
-}
-
 /// Goes on to the next zero of any record plus `shift`, up to `u_exit`: the mask of lanes that have
 /// one.
 static INLINED lane_int next_zero(const FieldChain* c, const LocalRay* ray, lane_float shift,
@@ -125,8 +88,8 @@ static INLINED lane_int next_zero(const FieldChain* c, const LocalRay* ray, lane
             LANES_SELECT(LANE_MASK(value < 0.0f), (lane_float)-1.0f, (lane_float)1.0f);
         side = LANES_SELECT(LANE_MASK(number == last), beyond, side);
         lane_float at;
-        const lane_int crossed =
-            first_zero(&field, ray, side, side * shift, start, u_exit, left, &at);
+        const lane_int crossed = first_zero(&field, ray, side, side * shift, start, u_exit,
+                                            fmax(side * value, 0.0f), left, &at);
         const lane_int nearer = crossed & (~found | LANE_MASK(at < way->u));
         way->u = LANES_SELECT(nearer, at, way->u);
         way->record = LANES_SELECT(nearer, number, way->record);
@@ -145,24 +108,19 @@ static INLINED lane_int hit_chain(const FieldChain* c, const Walk* w, float plan
     const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
     ChainWay way = chain_way();
     const ChainValue entry = chain_behind(c, &ray, &way, (lane_float)0.0f, tested);
-    const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
-    from->within |= from->unsure & LANE_MASK(entry.value < -bound);
-    const lane_float side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
-    const lane_float f_entry = side * entry.value;
-    const lane_int beginning = from->beginning | (from->here & LANE_MASK(f_entry < 0.0f));
-    *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
-    lane_int met = tested & ~beginning & LANE_MASK(f_entry + *level < 0.0f);
+    const FieldEntry e = enter_field(entry.value, plane_bound, tested, from, level);
+    lane_int met = tested & ~e.beginning & LANE_MASK(e.value + *level < 0.0f);
     *t_hit = LANES_SELECT(met, w->t, *t_hit);
     *record = LANES_SELECT(met, entry.record, *record);
-    const lane_float shift = side * *level;
+    const lane_float shift = e.side * *level;
     // Where surfaces of parts coincide, rounding doesn't decide which of them is met first.
-    const lane_float met_at_once = shift - side * (2.0f * VXL_FIELD_ROUNDING);
+    const lane_float met_at_once = shift - e.side * (2.0f * VXL_FIELD_ROUNDING);
     lane_int searching = tested & ~met;
     for (int zero = 0; zero < VXL_CHAIN_ZEROS && lanes_any(searching); ++zero) {
         searching = next_zero(c, &ray, shift, u_exit, searching, &way);
         if (!lanes_any(searching)) break;
         const ChainValue behind = chain_behind(c, &ray, &way, met_at_once, searching);
-        const lane_int ends = searching & LANE_MASK(side * behind.value < 0.0f);
+        const lane_int ends = searching & LANE_MASK(e.side * behind.value < 0.0f);
         *t_hit = LANES_SELECT(ends, w->t + way.u, *t_hit);
         *record = LANES_SELECT(ends, way.record, *record);
         met |= ends;

@@ -45,82 +45,99 @@ typedef struct {
     lane_int here;       // it begins on another surface in this voxel
 } FieldApproach;
 
+/// How fields look to a ray that enters their voxel.
+typedef struct {
+    lane_float side;     // what they are multiplied by for it
+    lane_float value;    // their value at the entry, so multiplied
+    lane_int beginning;  // mask: the ray begins on a surface, and sees the `level` of its origin
+} FieldEntry;
+
+/// Finds how fields whose value at the entry is `outside`, as seen from outside, look to a ray.
+///
+/// For a ray that is unsure of its side, that value decides: from outside it isn't negative there,
+/// but for the rounding of the point, which is `plane_bound` along each axis, while F grows by less
+/// than two voxels a voxel. A ray that began on the surface in this very voxel sees the level of
+/// its own origin instead: `level` is set so that F + level is not negative there, and stays with
+/// the ray.
+static inline FieldEntry enter_field(lane_float outside, float plane_bound, lane_int tested,
+                                     FieldApproach* from, lane_float* level) {
+    const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
+    from->within |= from->unsure & LANE_MASK(outside < -bound);
+    FieldEntry e;
+    e.side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
+    e.value = e.side * outside;
+    // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is.
+    // Otherwise the ray would go from one to the other without end.
+    e.beginning = from->beginning | (from->here & LANE_MASK(e.value < 0.0f));
+    *level = LANES_SELECT(e.beginning & tested, fmax(-e.value, 0.0f) + VXL_FIELD_ROUNDING, *level);
+    return e;
+}
+
+/// The first point in u = a .. b at which F + level turns negative, where F is a field times
+/// `side`, and F + level is fa >= 0 at a. The mask of lanes that have one, at `at`.
+static inline lane_int first_zero(const Field* f, const LocalRay* ray, lane_float side,
+                                  lane_float level, lane_float a, lane_float b, lane_float fa,
+                                  lane_int tested, lane_float* at) {
+    lane_float fb = field_along(f, ray, side, b) + level;
+    const lane_float middle = 0.5f * (a + b);
+    const lane_float fm = field_along(f, ray, side, middle) + level;
+
+    // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest
+    // point.
+    const lane_float bend = fa - 2.0f * fm + fb, slope = fb - fa;
+    const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
+                          LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
+    lane_float lowest = middle, f_lowest = fm;
+    if (lanes_any(dips)) {
+        const lane_float part =
+            0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f));
+        lowest = LANES_SELECT(dips, fma(part, b - a, a), middle);
+        f_lowest = LANES_SELECT(dips, field_along(f, ray, side, lowest) + level, fm);
+    }
+    const lane_int before = LANE_MASK(f_lowest < 0.0f);
+    const lane_int crossed = (before | LANE_MASK(fb < 0.0f)) & tested;
+    *at = a;
+    if (!lanes_any(crossed)) return crossed;
+    a = LANES_SELECT(before, a, lowest), fa = LANES_SELECT(before, fa, f_lowest);
+    b = LANES_SELECT(before, lowest, b), fb = LANES_SELECT(before, f_lowest, fb);
+    // Regula falsi on a bracket with F(a) >= 0 > F(b). The value at an end kept twice is halved
+    // (Illinois), so that both ends close in. Halving it at once would put the estimate as far off
+    // on the other side.
+    lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
+    for (int step = 0;; ++step) {
+        const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
+        *at = fma(exact_divide(fa, gap), b - a, a);
+        if (step == VXL_SECANT_STEPS) return crossed;
+        const lane_float fu = field_along(f, ray, side, *at) + level;
+        const lane_int below = LANE_MASK(fu < 0.0f);
+        fa = LANES_SELECT(kept_a & below, 0.5f * fa, LANES_SELECT(below, fa, fu));
+        fb = LANES_SELECT(kept_b & ~below, 0.5f * fb, LANES_SELECT(below, fu, fb));
+        b = LANES_SELECT(below, *at, b);
+        a = LANES_SELECT(below, a, *at);
+        kept_a = below;
+        kept_b = ~below;
+    }
+}
+
 /// Tests the fields of the voxels that the `tested` lanes stand in; the mask of those hit, their t
 /// in `t_hit`.
 ///
 /// A ray comes from outside the surface, or from inside (F is seen with the other sign), and hits
 /// where F turns negative: at the entry point if it is negative there already, so that no ray slips
-/// through between two voxels. For a ray that is unsure of its side, F at the entry decides: from
-/// outside it isn't negative there, but for the rounding of the point, which is `plane_bound` along
-/// each axis, while F grows by less than two voxels a voxel. A ray that began on the surface in
-/// this very voxel sees the level of its own origin instead: `level` is set so that F + level is
-/// not negative there, and stays with the ray.
+/// through between two voxels.
 static inline lane_int hit_smooth(const Field* f, const Walk* w, float plane_bound, lane_int tested,
                                   FieldApproach* from, lane_float* level, lane_float* t_hit) {
     const LocalRay ray = local_ray(w);
-    const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
-    lane_float a = (lane_float)0.0f, b = u_exit;
-    const lane_float outside = field_along(f, &ray, (lane_float)1.0f, a);
-    const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
-    from->within |= from->unsure & LANE_MASK(outside < -bound);
-    const lane_float side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
-    const lane_float f_entry = side * outside;
-    // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is.
-    // Otherwise the ray would go from one to the other without end.
-    const lane_int beginning = from->beginning | (from->here & LANE_MASK(f_entry < 0.0f));
-    *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
-    lane_float fa = f_entry + *level;
-    lane_float fb = field_along(f, &ray, side, b) + *level;
-    const lane_float middle = 0.5f * u_exit;
-    const lane_float fm = field_along(f, &ray, side, middle) + *level;
-
-    // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest
-    // point.
-    const lane_float bend = fa - 2.0f * fm + fb;
-    const lane_float slope = fb - fa;
-    const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
-                          LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
-    lane_float lowest = middle, f_lowest = fm;
-    if (lanes_any(dips)) {
-        lowest = LANES_SELECT(
-            dips,
-            u_exit *
-                (0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f))),
-            lowest);
-        f_lowest = LANES_SELECT(dips, field_along(f, &ray, side, lowest) + *level, f_lowest);
-    }
-    const lane_int entered = LANE_MASK(fa < 0.0f) & ~beginning;
-    const lane_int before = LANE_MASK(f_lowest < 0.0f);
-    const lane_int after = LANE_MASK(fb < 0.0f) & ~before;
-    a = LANES_SELECT(after, lowest, a);
-    fa = LANES_SELECT(after, f_lowest, fa);
-    b = LANES_SELECT(before, lowest, b);
-    fb = LANES_SELECT(before, f_lowest, fb);
-    const lane_int crossed = (before | after | entered) & tested;
-    const lane_int bracketed = crossed & ~entered;
-    if (lanes_any(bracketed)) {
-        // Regula falsi on a bracket with F(a) >= 0 > F(b). The value at an end kept twice is halved
-        // (Illinois), so that both ends close in. Halving it at once would put the estimate as far
-        // off on the other side.
-        lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
-        for (int step = 0; step < VXL_SECANT_STEPS; ++step) {
-            const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
-            const lane_float u = fma(exact_divide(fa, gap), b - a, a);
-            const lane_float fu = field_along(f, &ray, side, u) + *level;
-            const lane_int below = LANE_MASK(fu < 0.0f);
-            fa = LANES_SELECT(kept_a & below, 0.5f * fa, LANES_SELECT(below, fa, fu));
-            fb = LANES_SELECT(kept_b & ~below, 0.5f * fb, LANES_SELECT(below, fu, fb));
-            b = LANES_SELECT(below, u, b);
-            a = LANES_SELECT(below, a, u);
-            kept_a = below;
-            kept_b = ~below;
-        }
-    }
-    const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
-    const lane_float u =
-        LANES_SELECT(bracketed, fma(exact_divide(fa, gap), b - a, a), (lane_float)0.0f);
-    *t_hit = LANES_SELECT(crossed, w->t + u, *t_hit);
-    return crossed;
+    const lane_float zero = (lane_float)0.0f, u_exit = fmax(exit_time(w) - w->t, 0.0f);
+    const FieldEntry e =
+        enter_field(field_along(f, &ray, (lane_float)1.0f, zero), plane_bound, tested, from, level);
+    const lane_float fa = e.value + *level;
+    const lane_int entered = LANE_MASK(fa < 0.0f) & ~e.beginning & tested;
+    lane_float u;
+    const lane_int crossed =
+        first_zero(f, &ray, e.side, *level, zero, u_exit, fa, tested & ~entered, &u);
+    *t_hit = LANES_SELECT(entered | crossed, w->t + LANES_SELECT(crossed, u, zero), *t_hit);
+    return entered | crossed;
 }
 
 #endif
