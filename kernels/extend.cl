@@ -29,7 +29,7 @@ static inline void add_path_light(const RayBatch* batch, uint first, lane_int va
 }
 
 /// Notes how much of what lies behind the paths' first surfaces these cover: all, unless a path has
-/// left the world on a straight way.
+/// left the world on a straight way. Paths that were scattered have noted it before.
 static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_int met,
                                  lane_uint target, lane_float clear) {
     int add[VXL_LANES];
@@ -186,7 +186,8 @@ kernel void extend_paths(
         opacity = LANES_SELECT(in_medium, opacity, layer.opacity);
         met_any = layer.hit;
         clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
-        if (nodes.coverage) note_coverage(&nodes, valid, met_any, target, clear);
+        if (nodes.coverage)
+            note_coverage(&nodes, valid & LANE_MASK(bounces == 0u), met_any, target, clear);
     }
     PhysicalView view;
     if (VXL_PHYSICAL) view = view_of_paths(&around, colors, &batch, first, &p);

@@ -52,6 +52,16 @@ TEST(Culling, DoesNotHappenWhereRaysGoInAllDirections) {
     EXPECT_EQ(visible_names(scene), "seen ");
 }
 
+/// Paths that a medium scatters leave the view, though nothing in it sends rays on.
+TEST(Culling, DoesNotHappenInAScatteringMedium) {
+    Scene scene = scene_of();
+    scene.render.light = LightMode::global;
+    scene.objects[0].visible = false;
+    EXPECT_EQ(visible_names(scene), "");
+    scene.world.medium.scattering = glm::vec3(0.1f);
+    EXPECT_EQ(visible_names(scene), "left right behind beyond ");
+}
+
 TEST(Culling, DoesNotHappenThroughALens) {
     Scene scene = scene_of();
     EXPECT_EQ(visible_names(scene), "seen ");

@@ -155,6 +155,16 @@ TEST_F(SceneWarnings, NameASceneWithoutAnyLight) {
     EXPECT_THAT(kinds(), IsEmpty());
 }
 
+TEST_F(SceneWarnings, NameScatteringInLocalLightInAllFrames) {
+    json["world"]["medium"] = {{"scattering", {0.1, 0.1, 0.1}}};
+    json["animation"] = Json::parse(R"({"frames": 3, "tracks": [
+        {"target": "objects.ball.position", "keys": [{"frame": 1, "value": [0.1, 0, 0]},
+                                                     {"frame": 3, "value": [0.2, 0, 0]}]}]})");
+    EXPECT_THAT(kinds({1, 2, 3}), ElementsAre(Kind::ignored_scattering));
+    json["render"]["light"] = "global";
+    EXPECT_THAT(kinds({1, 2, 3}), IsEmpty());
+}
+
 TEST_F(SceneWarnings, OfFramesAreWhatHoldsInAllOfThem) {
     json["objects"][0]["position"] = {0.1, 4, 0};
     json["animation"] = Json::parse(R"({"frames": 10, "tracks": [

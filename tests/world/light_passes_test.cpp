@@ -9,6 +9,8 @@
 #include <tuple>
 
 #include "runtime/render/light_passes.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/writers/array_writer.hpp"
 #include "tests/world/light_passes_fixture.hpp"
 
 namespace voxelume {
@@ -37,6 +39,39 @@ TEST_F(LightPasses, GroupsOfLightsAddUpToTheImageInLocalAndInGlobalLight) {
         EXPECT_GT(key, 20);
         EXPECT_GT(fill, 5);
     }
+}
+
+/// Scans that no light brings out are in the rest alone; those that the lights do, in each group.
+TEST_F(LightPasses, GroupsOfLightsAddUpToTheImageOfScansAndOfAScatteringMedium) {
+    std::string path = (std::filesystem::temp_directory_path() / "voxelume-XXXXXX.npy").string();
+    const int file = mkstemps(path.data(), 4);
+    ASSERT_GE(file, 0);
+    close(file);
+    const std::vector<float> values = {0, 1, 1, 2, 1, 2, 2, 3};
+    put_bytes(path, npy_bytes("<f4", "2, 2, 2", bytes_of_values(values)));
+    Scene scene = stage();
+    scene.render.light = LightMode::global;
+    scene.render.bounces = 2;
+    scene.world.medium.scattering = {0.3f, 0.1f, 0.2f};
+    GridDensity scan;
+    scan.file = path;
+    scan.transfer = {{0, 0, {1, 1, 1}}, {3, 2, {0.9f, 0.5f, 0.3f}}};
+    GridDensity lit = scan;
+    lit.is_lit_by_scene = true;
+    scan.others = {lit};
+    scene.world.medium.density = scan;
+    ImageChannels channels = kColor;
+    channels.light_groups = true;
+    const Image image = shown(scene, channels);
+    std::filesystem::remove(path);
+    for (const char* color : kColors)
+        for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
+            const float all = image.planes.at(color)[i];
+            const float sum = value(image, "light_key", color, i) +
+                              value(image, "light_fill", color, i) +
+                              value(image, "light_rest", color, i);
+            ASSERT_NEAR(sum, all, 1e-4f * std::max(all, 1.0f)) << color << i;
+        }
 }
 
 TEST_F(LightPasses, AGroupIsWhatASceneWithItsLightsAloneShows) {
