@@ -15,9 +15,7 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
     const WorldView world = VXL_WORLD;
     const RayBatch batch = VXL_BATCH;
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
-    const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
-    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
-    const PathSamples samples = path_samples(&sampling, target, state);
+    const PathSamples samples = samples_of_paths(&sampling, &batch, first);
     const Vector from = area_point(light, area, &samples, number);
     shine_from(&world, light, from, materials, &queue, &batch, first);
 }

@@ -150,9 +150,7 @@ kernel void add_area_light_to_medium(PyramidShape shape, LightRecord light, Ligh
     const RayBatch batch = VXL_BATCH;
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
-    const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
-    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
-    const PathSamples samples = path_samples(&sampling, target, state);
+    const PathSamples samples = samples_of_paths(&sampling, &batch, first);
     const Vector from = area_point(light, area, &samples, number);
     shine_into_medium(shape, light, from, medium.anisotropy, &queue, &batch, first,
                       below(first, count));

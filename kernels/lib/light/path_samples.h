@@ -5,6 +5,7 @@
 #define VXL_PATH_SAMPLES_H
 
 #include "lib/light/sobol.h"
+#include "lib/traverse/ray_batch.h"
 #include "shared/paths.h"
 #include "shared/trace.h"
 
@@ -24,6 +25,13 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     const PathSamples s = {x | (y << 16), of->first_sample + group % of->samples,
                            state & VXL_STATE_MET};
     return s;
+}
+
+/// Those of the paths of entries `first` ..
+static inline PathSamples samples_of_paths(const PathSampling* of, const RayBatch* batch,
+                                           uint first) {
+    return path_samples(of, LANES_LOAD(batch->paths, VXL_PATH_TARGET * batch->stride + first),
+                        LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first));
 }
 
 /// The paths' points for a decision, one of VXL_DECISION_*.
