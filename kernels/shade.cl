@@ -277,13 +277,14 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     if (!VXL_RADIANCE) return;
     const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
     lane_float emission_factors[3];  // what maps multiply emission by
+    Colors own = colors_of_hits(colors, h.voxel, batch.paint, first);
 #if VXL_TEXTURES
     const SourceMeshes sources = VXL_SOURCE_VIEW;
+    lane_float fresh[VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS)];
     paint_hits(&world, &sources, &h, &footprint, position, p.normal, materials, material, &batch,
-               first, emission_factors);
+               first, fresh, emission_factors);
+    own.fresh = fresh;
 #endif
-    // What paint_hits wrote is read by the pointer that wrote it, since both are `restrict`.
-    const Colors own = colors_of_hits(colors, h.voxel, batch.paint, first);
     lane_float opacity = surface_opacity(materials, material, own);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
     if (VXL_TRANSMISSION) {

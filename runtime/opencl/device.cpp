@@ -26,7 +26,13 @@ cl::Device part_of(const cl::Device& device) {
     const cl_device_partition_property properties[] = {CL_DEVICE_PARTITION_BY_COUNTS, units,
                                                        CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     std::vector<cl::Device> parts;
-    cl::Device(device).createSubDevices(properties, &parts);
+    try {
+        cl::Device(device).createSubDevices(properties, &parts);
+    } catch (const cl::Error& error) {
+        throw Error(ErrorKind::device,
+                    "\"{}\" gives no part of {} compute units ({}); unset VOXELUME_UNITS",
+                    device.getInfo<CL_DEVICE_NAME>(), units, status_name(error.err()));
+    }
     return parts.at(0);
 }
 

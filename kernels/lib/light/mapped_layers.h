@@ -29,7 +29,7 @@ static inline Layers layers_of(global const float* restrict materials, lane_uint
     const lane_float place = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_MAPPED);
     l.mapped = LANE_MASK(place > 1.0f);
     if (!lanes_any(l.mapped)) return l;
-    const lane_float rough = LANES_GATHER_FLOAT(colors.paint, colors.number + VXL_PAINT_ROUGHNESS);
+    const lane_float rough = painted(colors, VXL_PAINT_ROUGHNESS);
     const lane_float at = clamp(rough, 0.0f, 1.0f) * (float)(VXL_ROUGHNESS_STEPS - 1);
     const lane_uint step = min(LANES_UINT(at), (lane_uint)(VXL_ROUGHNESS_STEPS - 2));
     const lane_float part = at - LANES_FLOAT(step);
@@ -48,8 +48,7 @@ static inline Layers layers_of(global const float* restrict materials, lane_uint
     l.missing = LANES_SELECT(l.mapped, mean[0], l.missing);
     l.by_angle = mean[1];
     l.width = LANES_SELECT(l.mapped, fmax(rough * rough, (lane_float)(1.0f / 1024.0f)), l.width);
-    l.metallic = LANES_SELECT(
-        l.mapped, LANES_GATHER_FLOAT(colors.paint, colors.number + VXL_PAINT_METALLIC), l.metallic);
+    l.metallic = LANES_SELECT(l.mapped, painted(colors, VXL_PAINT_METALLIC), l.metallic);
     return l;
 }
 

@@ -247,13 +247,13 @@ static inline void store_paint(const lane_float* all, global float* restrict pai
             paint[(first + lane) * count + c] = values[c * VXL_LANES + lane];
 }
 
-/// Finds and writes the paint of hits at `position`, of these materials. Where textures have maps,
-/// sets what they multiply emission by.
+/// Finds and writes the paint of hits at `position`, of these materials; `all` has room for it.
+/// Where textures have maps, sets what they multiply emission by.
 static inline void paint_hits(const WorldView* world, const SourceMeshes* sources,
                               const ShadedHit* h, const Footprint* f, Vector position,
                               Vector normal, global const float* restrict materials,
                               lane_uint material, const RayBatch* batch, uint first,
-                              lane_float* emission_factors) {
+                              lane_float* all, lane_float* emission_factors) {
     const float4 edge = world->shape.edge;
     const Vector metres = scaled(h->world_way, edge);
     const Vector way = unit(metres);
@@ -262,7 +262,6 @@ static inline void paint_hits(const WorldView* world, const SourceMeshes* source
         before = LANES_AS_FLOAT(LANES_LOAD(batch->paths, VXL_PATH_WIDTH * batch->stride + first));
     const lane_float travelled = h->world_t * exact_sqrt(dot_product(metres, metres));
     const RaySpan span = span_of(f, edge, position, normal, way, before, travelled);
-    lane_float all[VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS)];
     MapValues maps;
     paint_of_hits(world, sources, h, &span, normal, way, all, &maps);
     all[VXL_PAINT_WIDTH] = span.width;

@@ -44,6 +44,7 @@ static inline lane_uint color_offset(global const float* restrict materials, lan
 typedef struct {
     global const uint* voxels;
     global const float* paint;  // of hits, where surfaces wear textures; else null
+    const lane_float* fresh;    // the paint, in the kernel that finds it; else null
     lane_uint number;           // of the voxels, or of the first floats of the hits' paint
 } Colors;
 
@@ -52,14 +53,21 @@ static inline Colors colors_of_hits(global const uint* voxels, lane_uint voxel,
                                     global const float* paint, uint first) {
     const lane_uint hit =
         (first + LANES_AS_UINT((lane_int)LANES_NUMBERS)) * VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS);
-    const Colors colors = {voxels, paint, VXL_TEXTURES ? hit : voxel};
+    const Colors colors = {voxels, paint, 0, VXL_TEXTURES ? hit : voxel};
     return colors;
 }
 
 /// The colours of voxels where what is met in them has no paint.
 static inline Colors colors_of_voxels(global const uint* voxels, lane_uint voxel) {
-    const Colors colors = {voxels, 0, voxel};
+    const Colors colors = {voxels, 0, 0, voxel};
     return colors;
+}
+
+/// One of the values of paint, VXL_PAINT_*. A driver may read memory before the same kernel has
+/// written it, so that fresh ones are taken from where they were computed.
+static inline lane_float painted(Colors colors, uint value) {
+    if (colors.fresh) return colors.fresh[value];
+    return LANES_GATHER_FLOAT(colors.paint, colors.number + value);
 }
 
 /// A channel of voxels' own colours; 1 where the world has none.
@@ -82,17 +90,16 @@ static inline lane_float surface_color(global const float* restrict materials, l
                                        Colors colors, int channel) {
     lane_float color = LANES_GATHER_FLOAT(materials, place + (uint)channel);
     if (VXL_TEXTURES && colors.paint)
-        color *= LANES_GATHER_FLOAT(colors.paint, colors.number + (uint)channel);
+        color *= painted(colors, (uint)channel);
     else if (VXL_COLORS)
         color *= voxel_color(colors.voxels, colors.number, channel);
     return color;
 }
 
-/// A value of the material that maps may change, which the paint of hits holds at `painted` then.
+/// A value of the material that maps may change, which the paint of hits holds at `place` then.
 static inline lane_float mapped_value(global const float* restrict materials, lane_uint value,
-                                      Colors colors, uint painted) {
-    if (VXL_TEXTURE_MAPS && colors.paint)
-        return LANES_GATHER_FLOAT(colors.paint, colors.number + painted);
+                                      Colors colors, uint place) {
+    if (VXL_TEXTURE_MAPS && colors.paint) return painted(colors, place);
     return LANES_GATHER_FLOAT(materials, value);
 }
 
@@ -115,8 +122,7 @@ static inline lane_float surface_opacity(global const float* restrict materials,
                                          Colors colors) {
     if (!VXL_TRANSMISSION) return (lane_float)1.0f;
     const lane_float opacity = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
-    if (VXL_TEXTURES && colors.paint)
-        return opacity * LANES_GATHER_FLOAT(colors.paint, colors.number + VXL_PAINT_OPACITY);
+    if (VXL_TEXTURES && colors.paint) return opacity * painted(colors, VXL_PAINT_OPACITY);
     if (VXL_VOXEL_OPACITY) return opacity * voxel_opacity(colors.voxels, colors.number);
     return opacity;
 }
