@@ -3,7 +3,9 @@
 //
 // The build constants VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE, VXL_SHOWS_POSITION,
 // VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, in addition to the features', are the
-// channels asked for.
+// channels asked for. With VXL_EARLIER the image holds what the samples before the camera's first
+// one, whose number is a power of two, came to: their sums are its values times their number,
+// without rounding, and go on as if all samples had been added up in one run.
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
@@ -13,17 +15,25 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
+// The first planes of what an image shows.
+#define VXL_PLANE_DEPTH (4 * VXL_SHOWS_COLOR)
+#define VXL_PLANE_DISTANCE (VXL_PLANE_DEPTH + VXL_SHOWS_DEPTH)
+#define VXL_PLANE_POSITION (VXL_PLANE_DISTANCE + VXL_SHOWS_DISTANCE)
+#define VXL_PLANE_NORMAL (VXL_PLANE_POSITION + 3 * VXL_SHOWS_POSITION)
+
 /// The pixels of a packet: some or all of a tile of 4 x 4.
 typedef struct {
     size_t place[VXL_LANES];
     bool is_in_image[VXL_LANES];
-    bool is_whole;  // all are in the image, and each row begins at every fourth of them
+    bool is_whole;   // all are in the image, and each row begins at every fourth of them
+    lane_int known;  // mask: show something that earlier samples met
 } Pixels;
 
 static inline Pixels pixels_of(const Camera* camera, uint tile, uint first) {
     const uint tiles_x = ((uint)camera->width + 3u) / 4u;
     Pixels p;
     p.is_whole = VXL_LANES > 1;
+    p.known = (lane_int)0;
     for (uint i = 0; i < VXL_LANES; ++i) {
         const uint column = tile % tiles_x * 4u + ((first + i) & 3u);
         const uint row = tile / tiles_x * 4u + ((first + i) >> 2);
@@ -46,6 +56,37 @@ static inline void store_pixels(lane_float value, const Pixels* p, global float*
         if (p->is_in_image[i]) plane[p->place[i]] = values[i];
 }
 
+/// What a plane holds; 0 outside of the image.
+static inline lane_float load_pixels(const Pixels* p, global const float* plane) {
+    float values[VXL_LANES];
+    for (uint i = 0; i < VXL_LANES; ++i) values[i] = p->is_in_image[i] ? plane[p->place[i]] : 0.0f;
+    return LANES_LOAD(values, 0);
+}
+
+/// Stores what pixels show that earlier samples didn't meet.
+static inline void store_shown(lane_float value, const Pixels* p, global float* plane) {
+    if (VXL_EARLIER) value = LANES_SELECT(p->known, load_pixels(p, plane), value);
+    store_pixels(value, p, plane);
+}
+
+/// Mask: pixels that show something by the numbers of a plane, which 0 and infinity are not.
+static inline lane_int shown_in(const Pixels* p, global const float* plane) {
+    const lane_uint value = LANES_AS_UINT(load_pixels(p, plane)) & 0x7FFFFFFFu;
+    return LANE_MASK(value != 0u) & LANE_MASK(value != 0x7F800000u);
+}
+
+/// Mask: pixels that show something already. A point alone doesn't tell: it may be the origin.
+static inline lane_int shown_already(const Pixels* p, size_t pixels, global const float* image,
+                                     global const uint* ids) {
+    lane_int shown = (lane_int)0;
+    if (VXL_SHOWS_DEPTH) shown |= shown_in(p, image + VXL_PLANE_DEPTH * pixels);
+    if (VXL_SHOWS_DISTANCE) shown |= shown_in(p, image + VXL_PLANE_DISTANCE * pixels);
+    for (uint a = 0; VXL_SHOWS_NORMAL && a < 3; ++a)
+        shown |= shown_in(p, image + (VXL_PLANE_NORMAL + a) * pixels);
+    if (VXL_SHOWS_OBJECT || VXL_SHOWS_MATERIAL) shown |= shown_in(p, (global const float*)ids);
+    return shown;
+}
+
 /// The samples of a packet's pixels, summed.
 typedef struct {
     lane_float color[3];
@@ -53,10 +94,21 @@ typedef struct {
     lane_uint shown;  // the first sample's ray that met something, VXL_NO_VOXEL for none
 } Samples;
 
-/// Adds up the `samples` samples of pixels whose first one's ray is `first_ray`.
-static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples) {
+/// The sums of the samples before the camera's first one.
+static inline Samples earlier_samples(const Camera* camera, const Pixels* at, size_t pixels,
+                                      global const float* image) {
     const lane_float zero = (lane_float)0.0f;
     Samples s = {{zero, zero, zero}, zero, (lane_uint)VXL_NO_VOXEL};
+    if (!VXL_EARLIER || !VXL_SHOWS_COLOR) return s;
+    const float count = (float)camera->first_sample;
+    for (uint channel = 0; channel < 3; ++channel)
+        s.color[channel] = load_pixels(at, image + channel * pixels) * count;
+    s.covered = load_pixels(at, image + 3 * pixels) * count;
+    return s;
+}
+
+/// Adds the `samples` samples of pixels whose first one's ray is `first_ray` to `s`.
+static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples, Samples s) {
     for (uint sample = 0; sample < samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         if (VXL_SHOWS_COLOR) {
@@ -97,10 +149,6 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                                   const Pixels* at, size_t pixels, global float* restrict image) {
     const float edge[3] = {voxel_edge.x, voxel_edge.y, voxel_edge.z};
     const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
-    const uint depth_plane = 4 * VXL_SHOWS_COLOR;
-    const uint distance_plane = depth_plane + VXL_SHOWS_DEPTH;
-    const uint position_plane = distance_plane + VXL_SHOWS_DISTANCE;
-    const uint normal_plane = position_plane + 3 * VXL_SHOWS_POSITION;
     const float eye[3] = {camera->origin.x, camera->origin.y, camera->origin.z};
     const float eye_low[3] = {camera->origin_low.x, camera->origin_low.y, camera->origin_low.z};
     // Z_E in voxels per metre. Multiplied by the edge twice, it measures voxels along Z_E in
@@ -119,29 +167,28 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
         const lane_float from_observer = fma((lane_float)along, (lane_float)camera->lead, from_eye);
         square = fma(from_observer, from_observer, square);
         if (VXL_SHOWS_POSITION)
-            store_pixels(
+            store_shown(
                 LANES_SELECT(hit, fma(p, (lane_float)edge[a], (lane_float)origin[a]), nothing), at,
-                image + (position_plane + a) * pixels);
+                image + (VXL_PLANE_POSITION + a) * pixels);
         if (VXL_SHOWS_NORMAL)
-            store_pixels(
+            store_shown(
                 LANES_SELECT(hit, LANES_GATHER_FLOAT(normals + a * batch->stride, ray), nothing),
-                at, image + (normal_plane + a) * pixels);
+                at, image + (VXL_PLANE_NORMAL + a) * pixels);
     }
     const lane_float distance = distance_of(camera, depth, square);
     if (VXL_SHOWS_DEPTH)
-        store_pixels(
-            LANES_SELECT(hit, looks_ahead(camera) ? depth : distance, (lane_float)INFINITY), at,
-            image + depth_plane * pixels);
+        store_shown(LANES_SELECT(hit, looks_ahead(camera) ? depth : distance, (lane_float)INFINITY),
+                    at, image + VXL_PLANE_DEPTH * pixels);
     if (VXL_SHOWS_DISTANCE)
-        store_pixels(LANES_SELECT(hit, distance, (lane_float)INFINITY), at,
-                     image + distance_plane * pixels);
+        store_shown(LANES_SELECT(hit, distance, (lane_float)INFINITY), at,
+                    image + VXL_PLANE_DISTANCE * pixels);
 }
 
 /// Stores the numbers of what the `hit` pixels show, from 1 on, and 0 for others.
 static inline void store_number(lane_uint number, lane_int hit, const Pixels* at,
                                 global uint* restrict plane) {
-    store_pixels(LANES_AS_FLOAT(LANES_SELECT(hit, number + 1u, (lane_uint)0)), at,
-                 (global float*)plane);
+    store_shown(LANES_AS_FLOAT(LANES_SELECT(hit, number + 1u, (lane_uint)0)), at,
+                (global float*)plane);
 }
 
 /// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A Z distance
@@ -154,10 +201,12 @@ kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origi
     const uint item = work_item() * VXL_LANES;
     if (item >= tile_count * 16u) return;
     const RayBatch batch = VXL_BATCH;
-    const Pixels at = pixels_of(&camera, first_tile + item / 16u, item % 16u);
+    Pixels at = pixels_of(&camera, first_tile + item / 16u, item % 16u);
     const size_t pixels = (size_t)camera.width * (size_t)camera.height;
+    if (VXL_EARLIER) at.known = shown_already(&at, pixels, image, ids);
     const uint first_ray = item / 16u * (uint)camera.samples * 16u + item % 16u;
-    const Samples s = sum_samples(&batch, first_ray, (uint)camera.samples);
+    const Samples s = sum_samples(&batch, first_ray, (uint)camera.samples,
+                                  earlier_samples(&camera, &at, pixels, image));
     const float sample_weight = camera.sample_weight;
     for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel)
         store_color(s.color[channel] * sample_weight, &at, image + channel * pixels, not_finite);

@@ -126,7 +126,7 @@ void add_image_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--channels", command.channels,
                    "channels of .exr files, with commas between them: RGBA Z distance P N objectId "
                    "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "
-                   "motion; without RGBA and light's parts nothing is lit")
+                   "motion samples noise; without RGBA and light's parts nothing is lit")
         ->type_name("CHANNELS");
 }
 
@@ -160,6 +160,9 @@ void add_progress_options(CLI::App& app, RenderCommand& command) {
         ->type_name("always|never|changed");
     app.add_flag("--resume", command.resume,
                  "go on where a run ended: the same as --overwrite changed");
+    app.add_option("--continue", command.earlier,
+                   "add samples to this .exr image of an earlier run with --float and fewer "
+                   "--samples; the result is that of one run");
     const char* const progress = std::getenv("VOXELUME_PROGRESS");
     if (progress != nullptr && *progress != '\0') command.progress = progress;
     app.add_option("--progress", command.progress,
@@ -187,7 +190,11 @@ std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& s
     const bool animation = !options.frames.empty() || frames.size() > 1;
     std::vector<FrameFiles> list;
     for (const int frame : frames) {
-        if (list.empty() || scene.moves()) list.push_back({frame, {}, {}});
+        if (list.empty() || scene.moves()) {
+            list.push_back({frame, {}, {}});
+            if (!options.earlier.empty())
+                list.back().earlier = frame_path(options.earlier, frame, animation);
+        }
         for (const std::string& pattern : options.outputs)
             if (!is_stream(pattern))
                 list.back().images.emplace_back(frame_path(pattern, frame, animation));
@@ -215,6 +222,9 @@ void check_options(const RenderCommand& options) {
     progress_style(options.progress);
     if (!options.shard.empty()) parse_shard(options.shard);
     overwrite_of(options);
+    if (!options.earlier.empty() && !(options.shard.empty() && options.quilt.views.empty()))
+        fail_usage("render: --continue adds samples to whole images of one view: leave out {}",
+                   options.shard.empty() ? "--quilt" : "--shard");
     check_stream(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))

@@ -39,6 +39,7 @@ struct RenderCommand {
     std::string progress = "auto";
     std::string overwrite;  ///< empty: always
     bool resume = false;
+    std::string earlier;   ///< images with fewer samples, which get others; empty: none
     std::string fallback;  ///< devices that take over where the scene's fail; empty: none
 };
 

@@ -90,7 +90,8 @@ class JobList {
         const Placeholders texts = placeholders(variant);
         for (auto* patterns : {&command.outputs, &command.volumes})
             for (std::string& pattern : *patterns) pattern = fill_in(pattern, texts, "render");
-        command.stats = fill_in(command.stats, texts, "render");
+        for (std::string* pattern : {&command.stats, &command.earlier})
+            *pattern = fill_in(*pattern, texts, "render");
         return job;
     }
 

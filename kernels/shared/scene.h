@@ -50,7 +50,7 @@ typedef struct Camera {
     int width, height;  // pixels of the image
     int samples;        // per pixel
     int shape;
-    float sample_weight;  // 1 / samples
+    float sample_weight;  // 1 / samples, with those that are added to an earlier image's
     float lead;  // metres along Z_E from the observer to `origin`, where a pyramid's rays are
                  // spread out already; near_plane and far_plane count from there
     int first_column, first_row;    // of the image in its frame, which it may be a part of

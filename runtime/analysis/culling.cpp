@@ -26,7 +26,7 @@ constexpr double kRounding = 0x1p-17;
 bool traces_light(const Scene& scene) {
     const ImageChannels& c = scene.render.channels;
     return c.color || c.albedo || c.direct || c.indirect || c.shadow || c.light_groups ||
-           c.object_matte || c.material_matte;
+           c.samples || c.noise || c.object_matte || c.material_matte;
 }
 
 /// True if rays go on through parts of the textures that the model's mesh wears, or from parts that

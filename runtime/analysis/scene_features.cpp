@@ -163,10 +163,13 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
     return voxels;
 }
 
-/// True if the image shows light, or a matte whose surfaces cover a part of what lies behind them.
-bool needs_radiance(const ImageChannels& channels, const Features& features) {
+/// True if the image shows light, or how noisy it is, or a matte whose surfaces cover a part of
+/// what lies behind them.
+bool needs_radiance(const RenderSettings& render, const Features& features) {
+    const ImageChannels& channels = render.channels;
     const bool has_matte = channels.object_matte || channels.material_matte;
-    return channels.color || (has_matte && features.transmission);
+    const bool shows_noise = render.noise.is_given() && (channels.samples || channels.noise);
+    return channels.color || shows_noise || (has_matte && features.transmission);
 }
 
 /// Adds the values of hit points that the image asks for, or that are a step to values it asks for.
@@ -260,7 +263,7 @@ Features features_of(const Scene& scene, const Pyramid& world) {
 void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     const Features voxels = features;
     add_light(scene, world, features);
-    if (!needs_radiance(scene.render.channels, features))
+    if (!needs_radiance(scene.render, features))
         features = without_light(voxels, scene, world, features);
     features.lens =
         scene.observer.aperture > 0 && scene.observer.display.shape == DisplayShape::pyramid;

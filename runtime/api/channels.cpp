@@ -28,9 +28,11 @@ constexpr std::array kDirect = {"direct.R", "direct.G", "direct.B"};
 constexpr std::array kIndirect = {"indirect.R", "indirect.G", "indirect.B"};
 constexpr std::array kShadow = {"shadow.R", "shadow.G", "shadow.B"};
 constexpr std::array kLights = {"light_"};
+constexpr std::array kSamples = {"samples"};
+constexpr std::array kNoise = {"noise"};
 constexpr std::array kMotion = {"forward.u", "forward.v", "backward.u", "backward.v"};
 
-constexpr std::array<ChannelRow, 15> kTable = {
+constexpr std::array<ChannelRow, 17> kTable = {
     {{"RGBA", &Channels::color, kColor},
      {"Z", &Channels::depth, kDepth},
      {"distance", &Channels::distance, kDistance},
@@ -45,7 +47,9 @@ constexpr std::array<ChannelRow, 15> kTable = {
      {"indirect", &Channels::indirect, kIndirect},
      {"shadow", &Channels::shadow, kShadow},
      {"lights", &Channels::light_groups, kLights},
-     {"motion", &Channels::motion, kMotion}}};
+     {"motion", &Channels::motion, kMotion},
+     {"samples", &Channels::samples, kSamples},
+     {"noise", &Channels::noise, kNoise}}};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "runtime/api/convert.hpp"
+#include "runtime/api/earlier_images.hpp"
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
@@ -107,7 +108,8 @@ class Run {
           devices_(api::inside(devices)),
           job_(job),
           options_(options),
-          wanted_(wanted_by(job, options)) {
+          wanted_(wanted_by(job, options)),
+          earlier_(scene, job, wanted_.channels) {
         scene_.render.channels = api::inside(wanted_.channels);
     }
 
@@ -147,6 +149,7 @@ class Run {
         batch.meshes = std::move(assets_);
         batch.progress = api::callback(options_.progress);
         batch.is_part = options_.is_part;
+        batch.earlier = earlier_.images();
         batch.warn = [this](std::span<const Warning> warnings) { tell(warnings); };
         batch.stop = options_.stop;
         return batch;
@@ -174,6 +177,7 @@ class Run {
             api::Attributes all = attributes;
             const NoiseReached& noise = result.report.report.noise;
             if (noise.tiles > 0) all["noise"] = fmt::format("{:.5f}", noise.mean());
+            all.merge(api::sampling_texts(scene_));
             if (scene_.render.transparent) all[api::kTransparent] = "true";
             all[api::kFrameHash] = hashes_.of(files.frame);
             rendered.image = api::handle_of(with_motion(result.image, files.frame), std::move(all));
@@ -219,6 +223,7 @@ class Run {
     const v1::FrameJob& job_;
     const v1::RenderOptions& options_;
     Wanted wanted_;
+    api::EarlierFiles earlier_;
     std::vector<FrameReport> reports_;
     std::vector<v1::Warning> warnings_;
     size_t files_ = 0;

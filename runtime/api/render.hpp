@@ -27,7 +27,9 @@ inline ImageChannels inside(const v1::Channels& channels) {
             .direct = channels.direct,
             .indirect = channels.indirect,
             .shadow = channels.shadow,
-            .light_groups = channels.light_groups};
+            .light_groups = channels.light_groups,
+            .samples = channels.samples,
+            .noise = channels.noise};
 }
 
 /// What one frame took.

@@ -79,10 +79,22 @@ class Batch {
             check_frames(scene_, options_.frames, options_.meshes, device.info());
     }
 
+    /// A frame's scene, whose image has the samples alone that it lacks.
+    Scene scene_of(int frame) const {
+        Scene scene = scene_at(scene_, frame);
+        if (!options_.earlier) return scene;
+        const auto [image, samples] = options_.earlier(frame);
+        if (!image) return scene;
+        scene.render.earlier = image;
+        scene.render.first_sample = samples;
+        scene.render.samples -= samples;
+        return scene;
+    }
+
     /// The steps that show these frames.
     FrameSteps steps_of(std::vector<int> frames) const {
         FrameSteps steps;
-        steps.scene = [this, frames](size_t n) { return scene_at(scene_, frames[n]); };
+        steps.scene = [this, frames](size_t n) { return scene_of(frames[n]); };
         if (moves(scene_)) steps.number = [frames](size_t n) { return double(frames[n]); };
         return steps;
     }

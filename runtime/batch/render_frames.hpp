@@ -25,6 +25,14 @@ using BatchProgress = std::function<void(double done, int frame)>;
 /// need no rendering, after the last one of the others. It may throw, which ends the run.
 using BatchWarnings = std::function<void(std::span<const Warning>)>;
 
+/// The image of a frame's samples before others are added to them.
+struct EarlierImage {
+    std::shared_ptr<const Image> image;
+    int samples = 1;  ///< a power of two, less than the scene's; 0: as its channels say
+};
+/// Gives those of frames, by their numbers. Several threads call it.
+using EarlierImages = std::function<EarlierImage(int frame)>;
+
 /// What to render of a scene.
 struct BatchOptions {
     std::vector<int> frames = {1};  ///< their numbers, in the order of the results; one or more
@@ -33,6 +41,7 @@ struct BatchOptions {
     bool overlap = true;  ///< on one device, two worlds at a time; false: needs less memory
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
     bool is_part = false;  ///< other runs render the other frames: nothing counts as never shown
+    EarlierImages earlier = {};  ///< empty: images have all samples
     BatchProgress progress = {};
     BatchWarnings warn = {};    ///< without it nothing is looked for
     std::stop_token stop = {};  ///< cancels the run

@@ -4,6 +4,8 @@
 // Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980, whose pixels are
 // divided where their corners differ. A pixel's bits depend on its neighbours alone, so a part of a
 // picture has the bits that it has in the whole.
+#include <cmath>
+
 #include "runtime/render/contrast.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
@@ -23,6 +25,17 @@ std::vector<uint32_t> pixels_in(const std::vector<uint32_t>& pixels, int width, 
             result.push_back(uint32_t(at.y) * uint32_t(size.x) + uint32_t(at.x));
     }
     return result;
+}
+
+size_t pixel_count(const Image& image) {
+    return size_t(image.width) * size_t(image.height);
+}
+
+/// Writes how many samples each pixel has.
+void show_samples(const std::vector<uint32_t>& pixels, int samples, Image& image) {
+    std::vector<float> plane(pixel_count(image), float(kComparedSamples));
+    for (const uint32_t pixel : pixels) plane[pixel] = float(samples);
+    image.planes["samples"] = std::move(plane);
 }
 
 /// Leaves out what was only needed to compare pixels.
@@ -83,6 +96,9 @@ Image Renderer::adaptive_image(const Scene& scene, const BuiltWorld& world, Rend
         add_counts(of_more, report);
         report.image_seconds += of_more.image_seconds;
     }
+    if (asked.channels.samples) show_samples(pixels, asked.samples, image);
+    if (asked.channels.noise)
+        image.planes["noise"] = std::vector<float>(pixel_count(image), INFINITY);
     tiles.share.add_work((double(tiles.share.tiles()) - more_tiles) * per_sample * more_samples);
     drop_channels(asked.channels, image);
     return image;

@@ -88,8 +88,9 @@ void build_programs(const Device& device, const Features& features, const Scene&
     const ImageChannels& channels = scene.render.channels;
     if (makes_image && (channels.object_matte || channels.material_matte))
         files.push_back("matte.cl");
-    Program::build_together(device, files,
-                            resolve_defines(device, features, scene.render.channels));
+    Program::build_together(
+        device, files,
+        resolve_defines(device, features, scene.render.channels, scene.render.earlier != nullptr));
 }
 
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,

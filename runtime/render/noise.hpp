@@ -17,14 +17,12 @@ struct NoiseReached {
     double mean() const { return tiles == 0 ? 0 : std::sqrt(squares / double(tiles)); }
 };
 
-/// How noisy a tile is.
-struct TileNoise {
-    double error = 0;      ///< standard error of the light of its pixels, over their mean
-    bool is_dark = false;  ///< surfaces, of which no light came yet; the error is 0
-};
+/// Whether a tile shows surfaces of which no light came.
+bool is_dark_tile(uint32_t tile, const Image& image);
 
-/// Averages a tile's light over two images with equally many samples, in `image`. A pixel's error
-/// is half of the difference of its two values.
-TileNoise average_tile(uint32_t tile, const Image& other, Image& image);
+/// Averages a tile's light over two images with equally many samples, in `image`. Returns the
+/// standard error of the light of its pixels over their mean, 0 where there is none. A pixel's
+/// error is half of the difference of its two values.
+double average_tile(uint32_t tile, const Image& other, Image& image);
 
 }  // namespace voxelume

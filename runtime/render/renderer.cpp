@@ -142,8 +142,10 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
         Scene shown = scene;
         // Passes have as many samples as all light needs.
-        const bool adds_color = scene.render.noise.is_given() && !scene.render.channels.color &&
-                                !light_passes(scene).empty();
+        const ImageChannels& channels = scene.render.channels;
+        const bool adds_color =
+            scene.render.noise.is_given() && !channels.color &&
+            (channels.samples || channels.noise || !light_passes(scene).empty());
         if (adds_color) shown.render.channels.color = true;
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());
@@ -225,7 +227,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         const uint32_t max = light_beams_that_pay(world.frame, rays, observer.samples, pixel);
         send_light_beams(dilated_occupancy_of(built, *dilated_occupancy), max, illumination);
     }
-    ResolveStage resolve(device_, features, shown, scene.render.channels);
+    ResolveStage resolve(device_, features, shown, scene.render.channels,
+                         scene.render.earlier.get());
     MatteStage mattes(device_, features, shown, scene);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
         const uint32_t first = range->first, now = range->count;

@@ -119,6 +119,10 @@ class Renderer {
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
     Image sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                         const Tiles& tiles, Sampled& sampled);
+    Image noisy_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
+                      const Tiles& tiles, std::vector<int>& given);
+    Image more_samples(const Scene& part, const BuiltWorld& world, RenderReport& report,
+                       const Tiles& tiles) const;
     Image adaptive_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles, Sampled& sampled);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,

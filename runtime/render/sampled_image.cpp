@@ -5,8 +5,10 @@
 // other tile, so neither devices nor threads change them.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
+#include "runtime/base/error.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
 
@@ -43,12 +45,6 @@ bool is_sampled_again(const Scene& scene) {
     return scene.render.noise.is_given() && scene.render.channels.color;
 }
 
-uint32_t count_of(const std::vector<TileRange>& tiles) {
-    uint32_t count = 0;
-    for (const TileRange& range : tiles) count += range.count;
-    return count;
-}
-
 /// Those of the tiles that something is true of.
 template <class IsTrue>
 std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&& is_true) {
@@ -59,27 +55,106 @@ std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&&
     return result;
 }
 
-/// Tells of an image's work, of which tiles may end before they have all samples.
-class SampledWork {
+template <class See>
+void for_each_tile(const std::vector<TileRange>& tiles, See&& see) {
+    for (const TileRange& range : tiles)
+        for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) see(tile);
+}
+
+/// How far an image's tiles are.
+class TileSamples {
   public:
-    SampledWork(const Renderer::Tiles& tiles, int max_samples)
-        : share_(tiles.share),
-          max_samples_(max_samples),
-          per_sample_(tiles.weight / double(max_samples)) {}
+    /// All have so many, at most `maximum`.
+    TileSamples(uint32_t tiles, int first, int maximum)
+        : first_(first), maximum_(maximum), samples_(tiles, first), errors_(tiles, INFINITY) {}
 
-    /// Of one tile's samples.
-    double weight(int samples) const { return per_sample_ * samples; }
+    int of(uint32_t tile) const { return samples_[tile]; }
 
-    /// Tells that tiles, but for those that are left, have `samples` and need no more.
-    void end(const std::vector<TileRange>& tiles, const std::vector<TileRange>& left, int samples) {
-        share_.add_work((count_of(tiles) - count_of(left)) * weight(max_samples_ - samples));
+    /// Whether a tile that was measured needs twice the samples.
+    bool needs_more(uint32_t tile, const NoiseTarget& target, const Image& image) const {
+        const int samples = samples_[tile];
+        if (2 * samples > maximum_) return false;
+        return errors_[tile] > target.error ||
+               (samples < kDarkSamples && is_dark_tile(tile, image));
+    }
+
+    void set(uint32_t tile, int samples, double error) {
+        samples_[tile] = samples;
+        errors_[tile] = float(error);
+    }
+
+    /// Takes a tile's state from the channels of an image of an earlier run.
+    void set_from(uint32_t tile, const Image& image) {
+        const size_t at = size_t(int(tile) / tiles_across(image) * 4) * size_t(image.width) +
+                          size_t(int(tile) % tiles_across(image) * 4);
+        const float samples = image.planes.at("samples")[at], error = image.planes.at("noise")[at];
+        int level = first_;
+        while (2 * level <= maximum_ && float(level) != samples) level *= 2;
+        if (float(level) != samples || !(error >= 0))
+            throw Error(ErrorKind::input,
+                        "the image to which samples are added has {} samples and a noise of {} in "
+                        "a tile, which no image has",
+                        samples, error);
+        set(tile, level, double(error));
+    }
+
+    /// Sums up the errors of tiles that were measured.
+    NoiseReached reached(const std::vector<TileRange>& tiles) const {
+        NoiseReached sum;
+        for_each_tile(tiles, [&](uint32_t tile) {
+            if (!std::isfinite(errors_[tile])) return;
+            sum.squares += double(errors_[tile]) * double(errors_[tile]);
+            ++sum.tiles;
+        });
+        return sum;
+    }
+
+    /// Writes the channels that tell of it.
+    void show(const ImageChannels& channels, Image& image) const {
+        if (channels.samples)
+            show(image, "samples", [this](size_t tile) { return float(samples_[tile]); });
+        if (channels.noise) show(image, "noise", [this](size_t tile) { return errors_[tile]; });
     }
 
   private:
-    TileShare& share_;
-    int max_samples_;
-    double per_sample_;
+    static int tiles_across(const Image& image) { return (image.width + 3) / 4; }
+
+    template <class Value>
+    void show(Image& image, const char* name, Value&& value) const {
+        std::vector<float> plane(size_t(image.width) * size_t(image.height));
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                plane[size_t(y) * size_t(image.width) + size_t(x)] =
+                    value(size_t(y / 4) * size_t(tiles_across(image)) + size_t(x / 4));
+        image.planes[name] = std::move(plane);
+    }
+
+    int first_, maximum_;
+    std::vector<int> samples_;
+    std::vector<float> errors_;  ///< infinite where none was measured
 };
+
+/// The planes that an image is to have, of one of an earlier run.
+Image planes_of(const Image& earlier, const ImageChannels& channels) {
+    Image image = earlier;
+    std::erase_if(image.planes, [](const auto& plane) {
+        return plane.first == "samples" || plane.first == "noise";
+    });
+    image.attributes.clear();
+    for (const char* name : {"R", "G", "B", "A"})
+        if (channels.color && !image.planes.contains(name))
+            throw Error(ErrorKind::input, "the image to which samples are added has no channel {}",
+                        name);
+    return image;
+}
+
+/// Takes all tiles that are left, for which nothing is to be done.
+void take_all(const Renderer::Tiles& tiles) {
+    while (const std::optional<TileRange> range = tiles.share.take(tiles.share.maximum())) {
+        tiles.taken.push_back(*range);
+        tiles.share.done(*range);
+    }
+}
 
 }  // namespace
 
@@ -95,57 +170,81 @@ double Renderer::first_weight(const Scene& scene, double weight) {
 Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                               const Tiles& tiles, Sampled& sampled) {
     if (is_adaptive(scene.render)) return adaptive_image(scene, world, report, tiles, sampled);
-    const NoiseTarget target = scene.render.noise;
-    if (!target.is_given()) return image_of_tiles(scene, world, report, tiles);
+    if (scene.render.noise.is_given())
+        return noisy_image(scene, world, report, tiles, sampled.tiles);
+    Image image = image_of_tiles(scene, world, report, tiles);
+    const int earlier = scene.render.earlier ? scene.render.first_sample : 0;
+    const int samples = earlier + scene.render.samples;
+    TileSamples(tiles.share.tiles(), samples, samples).show(scene.render.channels, image);
+    return image;
+}
+
+/// An image whose tiles have as many samples as `given`, or, if that is empty, as they need, which
+/// it gives.
+Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
+                            const Tiles& tiles, std::vector<int>& given) {
     const auto start = Clock::now();
+    const RenderSettings& asked = scene.render;
+    const int maximum = asked.samples, first = std::min(kFirstSamples, maximum);
+    const double per_sample = tiles.weight / double(maximum);
     Scene part = scene;
     part.render.noise = {};
-    part.render.samples = std::min(kFirstSamples, scene.render.samples);
-    Image image = image_of_tiles(part, world, report, tiles);
-    if (!is_sampled_again(scene)) return image;
-    std::vector<int>& samples = sampled.tiles;
-    const bool is_measured = samples.empty();
-    if (is_measured) samples.assign(tiles.share.tiles(), part.render.samples);
-    const auto has_more = [&](uint32_t tile) {
-        return is_measured || samples[tile] > part.render.samples;
+    part.render.earlier = {};
+    part.render.samples = first;
+    TileSamples state(tiles.share.tiles(), first, maximum);
+    Image image;
+    if (asked.earlier) {
+        image = planes_of(*asked.earlier, asked.channels);
+        take_all(tiles);
+        for_each_tile(tiles.taken, [&](uint32_t tile) { state.set_from(tile, *asked.earlier); });
+    } else {
+        image = image_of_tiles(part, world, report, tiles);
+    }
+    const bool is_measured = given.empty();
+    const auto needs_more = [&](uint32_t tile) {
+        return is_measured ? state.needs_more(tile, asked.noise, image)
+                           : given[tile] > state.of(tile);
     };
-    std::vector<TileRange> left = tiles_where(tiles.taken, has_more);
-    SampledWork work(tiles, scene.render.samples);
-    work.end(tiles.taken, left, part.render.samples);
-    int reached = part.render.samples;
+    std::vector<int> told(tiles.share.tiles(), first);  // samples that the share heard of
+    const auto tell_of_all = [&](uint32_t tile) {
+        tiles.share.add_work(per_sample * (maximum - std::exchange(told[tile], maximum)));
+    };
     part.render.channels = kColorAlone;  // others are undefined in tiles that aren't rendered again
-    std::vector<float> errors(tiles.share.tiles(), -1.0f);
-    for (int done = part.render.samples; !left.empty() && 2 * done <= scene.render.samples;
-         done *= 2) {
-        if (is_measured && !has_time(target, start)) break;
+    for (int done = first; is_sampled_again(scene) && 2 * done <= maximum; done *= 2) {
+        const std::vector<TileRange> left = tiles_where(
+            tiles.taken, [&](uint32_t tile) { return state.of(tile) == done && needs_more(tile); });
+        if (left.empty()) continue;
+        if (is_measured && !has_time(asked.noise, start)) break;
         part.render.first_sample = part.render.samples = done;
-        RenderReport of_more;
-        TileShare share(tiles.share, left, work.weight(done));
+        TileShare share(tiles.share, left, per_sample * done);
         std::vector<TileRange> taken;
-        Renderer renderer(device_, false);
-        renderer.is_white_ = is_white_;
-        const Image more = renderer.image_of_tiles(part, world, of_more, {share, taken});
+        RenderReport of_more;
+        const Image more = more_samples(part, world, of_more, {share, taken});
         if (tiles.share.is_closed()) break;
-        reached = 2 * done;
-        const std::vector<TileRange> again = std::exchange(left, {});
-        left = tiles_where(again, [&](uint32_t tile) {
-            const auto [error, is_dark] = average_tile(tile, more, image);
-            errors[tile] = float(error);
-            if (!is_measured) return samples[tile] > 2 * done;
-            samples[tile] = 2 * done;
-            return error > target.error || (is_dark && 2 * done < kDarkSamples);
+        for_each_tile(left, [&](uint32_t tile) {
+            state.set(tile, 2 * done, average_tile(tile, more, image));
+            told[tile] += done;
+            if (!needs_more(tile)) tell_of_all(tile);
         });
-        work.end(again, left, reached);
         add_counts(of_more, report);
         report.image_seconds += of_more.image_seconds;
     }
-    work.end(left, {}, reached);
-    for (const float error : errors) {
-        if (error < 0) continue;
-        report.noise.squares += double(error) * double(error);
-        ++report.noise.tiles;
+    if (is_sampled_again(scene)) for_each_tile(tiles.taken, tell_of_all);
+    if (is_measured && is_sampled_again(scene)) {
+        given.resize(tiles.share.tiles());
+        for_each_tile(tiles.taken, [&](uint32_t tile) { given[tile] = state.of(tile); });
+        report.noise = state.reached(tiles.taken);
     }
+    state.show(asked.channels, image);
     return image;
+}
+
+/// Other samples of tiles, by a renderer that retains nothing of them.
+Image Renderer::more_samples(const Scene& part, const BuiltWorld& world, RenderReport& report,
+                             const Tiles& tiles) const {
+    Renderer renderer(device_, false);
+    renderer.is_white_ = is_white_;
+    return renderer.image_of_tiles(part, world, report, tiles);
 }
 
 }  // namespace voxelume

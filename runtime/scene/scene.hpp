@@ -18,6 +18,8 @@
 
 namespace voxelume {
 
+struct Image;
+
 struct Animation {
     int frames = 1;   ///< numbered from 1
     double fps = 24;  ///< frames a second
@@ -45,6 +47,8 @@ struct ImageChannels {
     bool indirect = false;        ///< indirect.R ...: all other light
     bool shadow = false;          ///< shadow.R ...: the part of the direct light that is hidden
     bool light_groups = false;    ///< light_GROUP.R ... of each group, and light_rest.R ...
+    bool samples = false;         ///< samples: of each pixel
+    bool noise = false;           ///< noise: what `RenderSettings::noise` is held against
 
     /// Whether there are parts of the light among them.
     bool has_passes() const { return albedo || direct || indirect || shadow || light_groups; }
@@ -102,6 +106,9 @@ struct RenderSettings {
     bool transparent = false;  ///< observers see nothing where no object is; other rays do
     NoiseTarget noise;         ///< not in scene files
     ImageChannels channels;    ///< not in scene files: what the outputs have
+    /// The image of the samples before `first_sample`, a power of two, to which others are added;
+    /// with `noise`, of those that its channels tell of. Null: there is none. Not in scene files.
+    std::shared_ptr<const Image> earlier;
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

@@ -36,6 +36,10 @@ struct Channels {
     /// forward.u, forward.v: where what a pixel shows goes until the next frame, in pixels to the
     /// right and up; backward.u, backward.v: where it was a frame before.
     bool motion = false;
+    bool samples = false;  ///< samples: how many each pixel has
+    /// noise: the standard error of the light of each 4 x 4 pixels over its mean, as
+    /// Scene::with_noise measures it; +infinity where it isn't measured.
+    bool noise = false;
 
     /// True if both have the same.
     friend bool operator==(const Channels&, const Channels&) = default;

@@ -95,6 +95,11 @@ struct FrameFiles {
     int frame = 1;                                 ///< its number
     std::vector<std::filesystem::path> images{};   ///< .exr and .png
     std::vector<std::filesystem::path> volumes{};  ///< in any format of volumes
+    /// The frame's OpenEXR file of an earlier job, of which nothing but the samples and the devices
+    /// differed, with fewer samples: 1, 2, 4, 8, ... They aren't rendered again, and the image has
+    /// the bits that it has with all samples in one job. It needs `float_color` and channels of
+    /// colour, geometry and numbers alone. Empty: there is none.
+    std::filesystem::path earlier{};
 };
 
 /// Frames to be rendered, and what becomes of them.
@@ -154,7 +159,9 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
 /// number of devices: several devices take a frame each, or the tiles of a job's only image.
 ///
 /// Throws as render_image does, and as Image::write and Volume::write do; frames before the one
-/// that failed are written and delivered.
+/// that failed are written and delivered. Before any frame is rendered it throws Error::input for
+/// `earlier` files that are damaged or of something else, and Error::usage for jobs that can't add
+/// to them.
 Statistics render_frames(const Scene& scene, const std::vector<Device>& devices,
                          const FrameJob& job, const RenderOptions& options = {});
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/resolve/resolve.hpp"
 
-#include "runtime/grid/grid_arguments.hpp"
-
+#include <span>
 #include <vector>
+
+#include "runtime/base/error.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 
 namespace voxelume {
 namespace {
@@ -34,7 +36,7 @@ size_t pixel_count(const Camera& camera) {
 }  // namespace
 
 Defines resolve_defines(const Device& device, const Features& features,
-                        const ImageChannels& channels) {
+                        const ImageChannels& channels, bool has_earlier) {
     Defines defines = features.defines(device);
     defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
                                    {"VXL_SHOWS_DEPTH", channels.depth},
@@ -42,7 +44,8 @@ Defines resolve_defines(const Device& device, const Features& features,
                                    {"VXL_SHOWS_POSITION", channels.position},
                                    {"VXL_SHOWS_NORMAL", channels.normal},
                                    {"VXL_SHOWS_OBJECT", channels.object},
-                                   {"VXL_SHOWS_MATERIAL", channels.material}});
+                                   {"VXL_SHOWS_MATERIAL", channels.material},
+                                   {"VXL_EARLIER", has_earlier}});
     return defines;
 }
 
@@ -55,14 +58,33 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
 }
 
 ResolveStage::ResolveStage(const Device& device, const Features& features, const Camera& camera,
-                           const ImageChannels& channels)
+                           const ImageChannels& channels, const Image* earlier)
     : camera_(camera),
       names_(plane_names(channels)),
       id_names_(id_plane_names(channels)),
       image_(allocate_image(device, {camera.width, camera.height}, channels)),
-      program_(device, "resolve.cl", resolve_defines(device, features, channels)),
+      program_(device, "resolve.cl",
+               resolve_defines(device, features, channels, earlier != nullptr)),
       pixels_(program_.kernel("resolve_pixels")) {
     image_.not_finite.fill(0);
+    if (earlier) begin_with(*earlier);
+}
+
+void ResolveStage::begin_with(const Image& earlier) {
+    const size_t pixels = pixel_count(camera_);
+    const auto write = [pixels](const auto& planes, std::span<const char* const> names,
+                                auto& buffer) {
+        for (size_t i = 0; i < names.size(); ++i) {
+            const auto plane = planes.find(names[i]);
+            if (plane == planes.end() || plane->second.size() != pixels)
+                throw Error(ErrorKind::input,
+                            "the image to which samples are added has no channel {} of {} pixels",
+                            names[i], pixels);
+            buffer.write({plane->second.data(), pixels}, i * pixels);
+        }
+    };
+    write(earlier.planes, names_, image_.planes);
+    write(earlier.id_planes, id_names_, image_.ids);
 }
 
 void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,

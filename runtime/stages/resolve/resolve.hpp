@@ -14,7 +14,7 @@ namespace voxelume {
 
 /// The build constants of the features, and those of resolve.cl alone.
 Defines resolve_defines(const Device& device, const Features& features,
-                        const ImageChannels& channels);
+                        const ImageChannels& channels, bool has_earlier = false);
 
 /// What an image is made in.
 struct ImageArrays {
@@ -28,9 +28,10 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
-    /// Only the `channels` that are asked for are allocated and computed.
+    /// Only the `channels` that are asked for are allocated and computed. Where there is an
+    /// `earlier` image, which has them, the camera's samples are added to those before them.
     ResolveStage(const Device& device, const Features& features, const Camera& camera,
-                 const ImageChannels& channels = {});
+                 const ImageChannels& channels = {}, const Image* earlier = nullptr);
 
     /// Computes the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
@@ -42,6 +43,8 @@ class ResolveStage {
     uint32_t not_finite() const { return image_.not_finite.read_one(0); }
 
   private:
+    void begin_with(const Image& earlier);
+
     Camera camera_;
     std::vector<const char*> names_, id_names_;  ///< of the planes
     ImageArrays image_;

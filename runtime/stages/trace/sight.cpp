@@ -64,7 +64,8 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
         camera.lens_slope = float(observer.aperture / 2 / observer.focus);
         camera.blades = observer.blades;
     }
-    camera.sample_weight = 1.0f / float(scene.render.samples);
+    const int earlier = scene.render.earlier ? scene.render.first_sample : 0;
+    camera.sample_weight = 1.0f / float(earlier + scene.render.samples);
     return camera;
 }
 
