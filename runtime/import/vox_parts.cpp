@@ -103,6 +103,14 @@ std::string VoxParts::group_members(int model) {
     return members_of(groups);
 }
 
+bool VoxParts::is_lamp(int model) {
+    const std::vector<std::string>& groups = file_.assets.groups_of(vox_model(file_, model + 1));
+    return std::any_of(groups.begin() + 1, groups.end(), [&](const std::string& group) {
+        const VoxMaterial& material = vox_.materials[size_t(entry_of(group))];
+        return material.kind == VoxMaterialKind::emit && material.weight > 0;
+    });
+}
+
 Bounds VoxParts::box_of(int model) {
     return file_.assets.box_of_file(vox_model(file_, model + 1), true);
 }

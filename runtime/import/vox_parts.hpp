@@ -22,6 +22,8 @@ class VoxParts {
     std::string name_of(int model);
     /// `, "materials": {...}` for the model's voxels that have a material of their own.
     std::string group_members(int model);
+    /// Whether some of its voxels emit light.
+    bool is_lamp(int model);
     /// The box around the model's voxels.
     Bounds box_of(int model);
 

@@ -38,6 +38,29 @@ class VoxLightTest : public VoxFileTest {
     }
 };
 
+// In local light each point would send rays to each lamp.
+TEST_F(VoxLightTest, ManyLampsShineInGlobalLight) {
+    for (const int lamps : {1, 16, 17}) {
+        VoxWriter writer;
+        writer.model({1, 1, 1}, {{0, 0, 0, 3}});
+        writer.material(3, {{"_type", "_emit"}, {"_emit", "1"}});
+        std::vector<int> children;
+        writer.transform(0, 1, 0, {}, {{}});
+        for (int i = 0; i < 20; ++i) {
+            const VoxPairs hidden = {{"_hidden", i < lamps ? "0" : "1"}};
+            const VoxPairs at = {{"_t", std::to_string(3 * i) + " 0 0"}};
+            writer.transform(2 + 2 * i, 3 + 2 * i, 0, hidden, {at});
+            writer.shape(3 + 2 * i, {{0, {}}});
+            children.push_back(2 + 2 * i);
+        }
+        writer.group(1, children);
+        const Scene scene = scene_of_writer(writer);
+        EXPECT_EQ(scene.render.light, lamps > 16 ? LightMode::global : LightMode::local) << lamps;
+        EXPECT_EQ(scene.render.samples, lamps > 16 ? 64 : 4) << lamps;
+        EXPECT_THAT(text_of_scene(writer, {.is_lattice = true}), Not(HasSubstr("global")));
+    }
+}
+
 // Measured in monu2.png, MagicaVoxel's picture of monu2.vox: the camera looks along
 // (sin 40, cos 40) and 30 degrees downwards.
 TEST_F(VoxLightTest, ACameraLooksAtItsFocus) {
