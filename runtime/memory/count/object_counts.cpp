@@ -121,15 +121,26 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFram
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
+SurfaceExtent SolidExtents::of(const Model& model, double edge,
+                               const std::function<SurfaceExtent()>& count) {
+    const auto known = std::ranges::find_if(
+        known_, [&](const Known& k) { return k.edge == edge && k.model == model; });
+    if (known != known_.end()) return known->extent;
+    // Models that move make ever more of them.
+    constexpr size_t kMaxKnown = 1024;
+    if (known_.size() == kMaxKnown) known_.clear();
+    known_.push_back({model, edge, count()});
+    return known_.back().extent;
+}
+
 /// What a solid's surface takes of a lattice in its own space.
 SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& frame) {
-    const auto [entry, added] = of_solids_.try_emplace({&model, frame.voxel_edge.x});
-    if (!added) return entry->second;
-    TakenBricks taken(frame);
-    return entry->second =
-               with_margin(count_model(model, kOwnSpace, frame, whole_of(frame),
+    return of_solids_.of(model, frame.voxel_edge.x, [&] {
+        TakenBricks taken(frame);
+        return with_margin(count_model(model, kOwnSpace, frame, whole_of(frame),
                                        model_rule(model.surface, is_solid_set(model)), taken)
                                .extent);
+    });
 }
 
 /// What a solid takes of its part of the world's lattice, where it has a grid of its own.

@@ -3,9 +3,9 @@
 // least.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "runtime/analysis/object_lattice.hpp"
@@ -22,11 +22,30 @@ enum class Estimate : uint8_t {
     minimum    ///< what can't be less
 };
 
+/// Extents of solids in their models' own spaces, which frames share.
+class SolidExtents {
+  public:
+    /// The extent that was kept for a model and voxels of this edge, or what `count` finds.
+    SurfaceExtent of(const Model& model, double edge, const std::function<SurfaceExtent()>& count);
+
+  private:
+    struct Known {
+        Model model;
+        double edge;
+        SurfaceExtent extent;
+    };
+    std::vector<Known> known_;
+};
+
 /// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
 class ObjectCounts {
   public:
-    ObjectCounts(const Scene& scene, AssetStore& meshes)
-        : scene_(scene), meshes_(meshes), extents_(scene, meshes), lattices_(scene, meshes) {}
+    ObjectCounts(const Scene& scene, AssetStore& meshes, SolidExtents& solids)
+        : scene_(scene),
+          meshes_(meshes),
+          extents_(scene, meshes),
+          lattices_(scene, meshes),
+          of_solids_(solids) {}
 
     /// The grid of a model in its own space; of an object in the world's, or a part of it.
     GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
@@ -60,8 +79,7 @@ class ObjectCounts {
     AssetStore& meshes_;
     ObjectExtents extents_;
     ObjectLattices lattices_;
-    /// Extents of solids in their models' spaces, by the edges of voxels.
-    std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
+    SolidExtents& of_solids_;
     std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
     std::optional<WorldCounts> expected_;                ///< in the world
     std::vector<SurfaceExtent> in_world_;                ///< of each object, of these
