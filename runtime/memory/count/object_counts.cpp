@@ -121,18 +121,6 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFram
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
-SurfaceExtent SolidExtents::of(const Model& model, double edge,
-                               const std::function<SurfaceExtent()>& count) {
-    const auto known = std::ranges::find_if(
-        known_, [&](const Known& k) { return k.edge == edge && k.model == model; });
-    if (known != known_.end()) return known->extent;
-    // Models that move make ever more of them.
-    constexpr size_t kMaxKnown = 1024;
-    if (known_.size() == kMaxKnown) known_.clear();
-    known_.push_back({model, edge, count()});
-    return known_.back().extent;
-}
-
 /// What a solid's surface takes of a lattice in its own space.
 SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& frame) {
     return of_solids_.of(model, frame.voxel_edge.x, [&] {

@@ -3,7 +3,6 @@
 // least.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -14,27 +13,13 @@
 #include "runtime/memory/count/count_world.hpp"
 #include "runtime/memory/count/plan_extent.hpp"
 #include "runtime/memory/count/plan_object.hpp"
+#include "runtime/memory/count/solid_extents.hpp"
 
 namespace voxelume {
 
 enum class Estimate : uint8_t {
     expected,  ///< with a margin for what surfaces' areas and distances don't tell
     minimum    ///< what can't be less
-};
-
-/// Extents of solids in their models' own spaces, which frames share.
-class SolidExtents {
-  public:
-    /// The extent that was kept for a model and voxels of this edge, or what `count` finds.
-    SurfaceExtent of(const Model& model, double edge, const std::function<SurfaceExtent()>& count);
-
-  private:
-    struct Known {
-        Model model;
-        double edge;
-        SurfaceExtent extent;
-    };
-    std::vector<Known> known_;
 };
 
 /// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.

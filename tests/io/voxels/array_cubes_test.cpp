@@ -127,37 +127,6 @@ TEST_F(ArrayCubesTest, ColoursAreVoxelsThatArentBlackOrClear) {
     EXPECT_THAT(refusal(folder / "c.npy", {.iso = 1.0}), HasSubstr("holds colours"));
 }
 
-TEST_F(ArrayCubesTest, ColoursOfZeroAndOneAreNoneAndAllOfAColour) {
-    // Masks of three labels, one behind the other: (1, 1, 3) cells, and the same with an opacity.
-    const VoxelCells expected = {{{0, 0, 0}, {0x0000FF, ""}}, {{0, 0, 1}, {0xFFFF00, ""}}};
-    const std::vector<uint8_t> masks = {1, 0, 0, 0, 1, 1, 0, 0, 0};
-    for (const char* type : {"|u1", "|b1"})
-        EXPECT_EQ(
-            cells_of(cubes(put("m.npy", npy_bytes(type, "1, 1, 3, 3", bytes_of_values(masks))))),
-            expected);
-    EXPECT_EQ(cells_of(cubes(put("w.npy", npy_bytes("<u2", "1, 1, 3, 3",
-                                                    bytes_of_values(std::vector<uint16_t>(
-                                                        masks.begin(), masks.end())))))),
-              expected);
-    // Fortran's order has all reds first.
-    const std::vector<uint8_t> planes = {1, 0, 0, 0, 1, 0, 0, 1, 0};
-    EXPECT_EQ(cells_of(cubes(
-                  put("f.npy", npy_bytes("|u1", "1, 1, 3, 3", bytes_of_values(planes), true)))),
-              expected);
-    // One number above 1, and they are colours as they are.
-    const std::vector<uint8_t> colors = {1, 0, 0, 0, 1, 2, 0, 0, 0};
-    EXPECT_EQ(
-        cells_of(cubes(put("c.npy", npy_bytes("|u1", "1, 1, 3, 3", bytes_of_values(colors))))),
-        (VoxelCells{{{0, 0, 0}, {0x000001, ""}}, {{0, 0, 1}, {0x020100, ""}}}));
-}
-
-TEST_F(ArrayCubesTest, OneChannelIsValues) {
-    const std::vector<uint8_t> values = {0, 3, 3, 0};
-    EXPECT_EQ(
-        cells_of(cubes(put("a.npy", npy_bytes("|u1", "1, 2, 2, 1", bytes_of_values(values))))),
-        (VoxelCells{{{0, 0, 1}, {}}, {{0, 1, 0}, {}}}));
-}
-
 TEST_F(ArrayCubesTest, EachLabelHasAColourOfItsOwn) {
     const std::vector<int16_t> values = {0, 3, -4, 3, 900, 0};
     const auto file = put("l.npy", npy_bytes("<i2", "6, 1, 1", bytes_of_values(values)));
