@@ -54,19 +54,12 @@ void leave_out_unlit(Volume& volume) {
     volume.kinds.resize(kept);
 }
 
-/// The points of the middles of voxels.
-ProbePoints middles_of(const Device& device, const VolumeFrame& frame,
-                       std::span<const uint64_t> indices) {
-    ProbePoints points = allocate_points(device, uint32_t(indices.size()));
-    std::vector<float> coordinates(size_t(points.total) * 3);
-    for (size_t i = 0; i < indices.size(); ++i) {
-        const glm::vec3 middle = glm::vec3(cell_of(frame, indices[i])) + 0.5f;
-        for (int axis = 0; axis < 3; ++axis)
-            coordinates[size_t(axis) * points.total + i] = middle[axis];
-    }
-    points.coordinates.write(coordinates);
-    points.views.fill(kNoView);
-    return points;
+/// The middles of voxels, in voxels.
+std::vector<glm::vec3> middles_of(const VolumeFrame& frame, std::span<const uint64_t> indices) {
+    std::vector<glm::vec3> middles;
+    middles.reserve(indices.size());
+    for (const uint64_t index : indices) middles.push_back(glm::vec3(cell_of(frame, index)) + 0.5f);
+    return middles;
 }
 
 /// Throws Error::limit where so many voxels of a medium have no room.
@@ -89,15 +82,11 @@ void add_medium(const VolumeWork& work, const DensityGrid& density, DisplayLatti
         work.world.voxel_count > 0 && work.frame.display.visibility != Visibility::all;
     MediumVoxels seen;
     stage.measure(density, [&](const MediumVoxels& voxels) {
-        std::vector<ProbePoints> points;
-        if (is_hidden) {
-            points.push_back(middles_of(work.device, work.frame, voxels.indices));
-            display.find_views(look, batch, points);
-        }
-        const std::vector<uint32_t> views =
-            is_hidden ? points.front().views.read() : std::vector<uint32_t>();
-        for (size_t i = 0; i < voxels.indices.size(); ++i)
-            if (!is_hidden || views[i] != kNoView) append(voxels, i, seen);
+        std::vector<bool> visible(voxels.indices.size(), true);
+        if (is_hidden)
+            visible = display.are_visible(look, batch, middles_of(work.frame, voxels.indices));
+        for (size_t i = 0; i < visible.size(); ++i)
+            if (visible[i]) append(voxels, i, seen);
         check_medium_voxels(seen.indices.size(), work.frame);
     });
     add_medium_voxels(seen, work.scene.world.medium, volume);

@@ -104,6 +104,33 @@ void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePo
     }
 }
 
+std::vector<bool> DisplayLatticeStage::are_visible(const LookAhead& look, RayBatch& batch,
+                                                   std::span<const glm::vec3> points) {
+    std::vector<bool> visible(points.size());
+    std::vector<uint32_t> left(points.size());
+    std::iota(left.begin(), left.end(), 0u);
+    const bool is_observer = visibility_ == Visibility::observer;
+    const uint32_t first = is_observer ? 0 : 1, end = is_observer ? 1 : uint32_t(views_.size());
+    for (uint32_t view = first; view < end && !left.empty(); ++view) {
+        ProbePoints probes = allocate_points(device_, uint32_t(left.size()));
+        std::vector<float> coordinates(size_t(probes.total) * 3);
+        for (size_t i = 0; i < left.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                coordinates[size_t(axis) * probes.total + i] = points[left[i]][axis];
+        probes.coordinates.write(coordinates);
+        probes.views.fill(kNoView);
+        search(look, batch, probes, view, kMaxCovered);
+        const std::vector<uint32_t> views = probes.views.read();
+        std::vector<uint32_t> hidden;
+        for (size_t i = 0; i < left.size(); ++i) {
+            visible[left[i]] = views[i] != kNoView;
+            if (views[i] == kNoView) hidden.push_back(left[i]);
+        }
+        left = std::move(hidden);
+    }
+    return visible;
+}
+
 void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
                                      std::vector<ProbePoints>& pieces) {
     for (ProbePoints& points : pieces) {

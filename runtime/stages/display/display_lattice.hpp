@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/display/display_scan.hpp"
@@ -44,8 +46,13 @@ class DisplayLatticeStage {
     /// allows.
     void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
 
+    /// Which of some points, in lattice voxels, are visible in one of the views that the display's
+    /// visibility allows. Points without a view yet are looked at together, view by view.
+    std::vector<bool> are_visible(const LookAhead& look, RayBatch& batch,
+                                  std::span<const glm::vec3> points);
+
     /// Has points that lie in objects find no view from now on. `note_objects` must then be the
-    /// sink of the layers that `look` of find_views traces.
+    /// sink of the layers that `look` traces.
     void leave_out_objects(const RayBatch& batch);
     void note_objects(const RayBatch& entries, uint32_t count, bool is_first);
 
