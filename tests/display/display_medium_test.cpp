@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The medium in lattices: each voxel of space has the medium's colour and the opacity of a way
 // through it, held against sums in double precision.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <functional>
 #include <map>
 
+#include "runtime/base/main_memory.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/stages/display/display_medium.hpp"
 #include "tests/support/display_fixture.hpp"
@@ -205,6 +206,20 @@ TEST(LatticeMedium, CoversASurfaceThatLetsLightThroughByHalfOfItsVoxel) {
     EXPECT_NEAR(volume.opacities[1], 1 - 0.6 * (1 - own), 1e-7);
     const double in_front = 0.25 * own + (1 - own) * 0.4, behind = 0.4 + 0.6 * 0.25 * own;
     EXPECT_NEAR(volume.colors[1].x * volume.opacities[1], (in_front + behind) / 2, 1e-7);
+}
+
+TEST(LatticeMedium, OfMoreVoxelsThanMainMemoryHoldsIsRefused) {
+    const Scene scene = parsed(fog_scene(kFogKeys, "", R"("position": [0, 0, -2],
+"display": {"shape": "box", "size": [1.4, 1, 1.8], "near": 1.1, "voxels": [14, 10, 18],
+            "layout": "lattice"})"));
+    RenderReport report;
+    const BuiltWorld world =
+        WorldBuilder(shared_device(), false, AssetStore()).build(scene, report.world);
+    limit_main_memory(100'000);
+    const Error error = error_of([&] { render_volume(shared_device(), scene, world, report); });
+    limit_main_memory(0);
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), testing::HasSubstr("use fewer display voxels"));
 }
 
 class LatticeScan : public FileTest {
