@@ -14,6 +14,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/paths.h"
+#include "lib/medium/veil.h"
 #include "lib/traverse/display_shape.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/display.h"
@@ -49,15 +50,27 @@ kernel void aim_rays(Camera camera, PyramidShape shape, DisplayLattice lattice,
     store_ways(shape, &lattice, &way, search, rays, stride, first);
 }
 
+/// Notes of the rays of a layer that meet nothing whether they end in an object.
+kernel void note_objects(VXL_BATCH_PARAMETERS, uint is_first, uint count,
+                         global uint* restrict in_object) {
+    const uint n = work_item();
+    if (n >= count || rays[VXL_RAY_END * stride + n] < 0.0f) return;
+    if (hits[VXL_HIT_VOXEL * stride + n] != VXL_NO_VOXEL) return;
+    in_object[is_first ? n : paths[VXL_PATH_TARGET * stride + n]] = inside[n] != 0u;
+}
+
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
 /// hides in it: nothing is met, or, where surfaces let light through, they cover `maximum` at most.
+/// With `outside_objects` points in objects get none.
 kernel void note_view(global const uint* restrict hits, global const float* restrict coverage,
-                      uint first_point, uint count, uint stride, uint view, float maximum,
+                      global const uint* restrict in_object, uint outside_objects, uint first_point,
+                      uint count, uint stride, uint view, float maximum,
                       global uint* restrict view_of_point) {
     const uint n = work_item();
     if (n >= count || view_of_point[first_point + n] != 0xFFFFFFFFu) return;
-    const bool is_clear = VXL_TRANSMISSION ? coverage[n] <= maximum
-                                           : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
+    bool is_clear = VXL_TRANSMISSION ? coverage[n] <= maximum
+                                     : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
+    if (VXL_TRANSMISSION && outside_objects) is_clear &= in_object[n] == 0u;
     if (is_clear) view_of_point[first_point + n] = view;
 }
 
@@ -143,6 +156,7 @@ kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
 /// surface counts as air. Where surfaces let light through, the nodes hold its own light and
 /// coverage.
 kernel void keep_light(Camera camera, PyramidShape shape, Environment environment,
+                       VXL_DENSITY_PARAMETERS, global const float* restrict density_colors,
                        VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
                        global const uint* restrict targets, uint listed, uint first_voxel,
                        uint count, VXL_VOXEL_PARAMETERS) {
@@ -159,24 +173,21 @@ kernel void keep_light(Camera camera, PyramidShape shape, Environment environmen
         opacity = LANES_SELECT(hit, opacity, (lane_float)1.0f);
     }
     const Vector p = load_vector(positions, stride, first);
-    lane_float path = (lane_float)0.0f;
+    Veil veil;
     if (VXL_MEDIUM) {
-        const Vector d = load_vector(batch.rays + VXL_RAY_DX * stride, stride, first);
+        const DensityView density = VXL_DENSITY;
         const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-        path = LANES_SELECT(hit, t, (lane_float)0.0f) * metres_per_t(shape.edge, d);
+        const Segment before = {load_vector(rays, stride, first),
+                                load_vector(rays + VXL_RAY_DX * stride, stride, first),
+                                (lane_float)0.0f, LANES_SELECT(hit, t, (lane_float)0.0f)};
+        veil = veil_before(shape, environment, &density, density_colors, &before, hit);
     }
-    const float absorption[3] = {environment.absorption.x, environment.absorption.y,
-                                 environment.absorption.z};
-    const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
     VoxelValues values;
     for (uint channel = 0; channel < 3; ++channel) {
         lane_float value = LANES_LOAD(nodes.radiance, channel * nodes.stride + first);
         if (VXL_MEDIUM) {
-            const lane_float transmittance =
-                fmax(exact_exp(-absorption[channel] * path), VXL_MIN_TRANSMITTANCE);
-            value =
-                fmax(exact_divide(fma(-color[channel], 1.0f - transmittance, value), transmittance),
-                     0.0f);
+            const lane_float passed = fmax(veil.passed[channel], VXL_MIN_TRANSMITTANCE);
+            value = fmax(exact_divide(value - veil.emitted[channel], passed), 0.0f);
         }
         if (VXL_TRANSMISSION) value = exact_divide(value, opacity);
         LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), values.color, channel * VXL_LANES);

@@ -7,67 +7,9 @@
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/medium/phase.h"
-#include "lib/traverse/segment.h"
+#include "lib/medium/veil.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
-
-/// The sum of density times t along the segments of the `active` lanes.
-static inline lane_float depth_of(PyramidShape shape, const DensityView* density, const Segment* s,
-                                  lane_int active) {
-    if (!VXL_MEDIUM_GRID) return length_in_world(shape, s);
-    const PyramidView p = grid_view(shape);
-    Walk walk = walk_along(s);
-    return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
-}
-
-/// What a medium whose colour differs from voxel to voxel does to light, channel by channel.
-typedef struct {
-    lane_float depth, lost;  // sum of density times metres, as add_exactly has it
-    lane_float passed[3];    // share of the light behind that comes through
-    lane_float emitted[3];   // radiance that the medium adds
-} Veil;
-
-/// Adds a stretch of a voxel, whose density and colour are the means over it, behind all others.
-static inline void add_stretch(const DensityCell* cell, global const float* restrict colors,
-                               const float* absorption, lane_float depth, lane_int adding,
-                               Veil* veil) {
-    add_exactly(&veil->depth, &veil->lost, depth, adding);
-    for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = LANES_GATHER_FLOAT(colors, cell->place * 3u + (uint)channel);
-        const lane_float shown = veil->passed[channel] * exact_rise(absorption[channel] * depth);
-        veil->emitted[channel] = fma(shown, color, veil->emitted[channel]);
-        veil->passed[channel] = exact_exp(-absorption[channel] * (veil->depth - veil->lost));
-    }
-}
-
-/// The veil of the medium along the segments of the `active` lanes.
-static inline Veil veil_of(PyramidShape shape, const DensityView* density,
-                           global const float* restrict colors, const float* absorption,
-                           const Segment* s, lane_int active) {
-    Veil veil;
-    veil.depth = veil.lost = (lane_float)0.0f;
-    for (int channel = 0; channel < 3; ++channel) {
-        veil.passed[channel] = (lane_float)1.0f;
-        veil.emitted[channel] = (lane_float)0.0f;
-    }
-    const PyramidView p = grid_view(shape);
-    Walk walk = walk_along(s);
-    const lane_float metres = metres_per_t(shape.edge, s->direction);
-    lane_float entered = s->t_first, entered_low = (lane_float)0.0f;
-    lane_int walking = active & in_grid(&p, &walk) & LANE_MASK(s->t_first < s->t_last);
-    while (lanes_any(walking)) {
-        const DensityCell cell = look_up_density(density, walk.x, walk.y, walk.z, walking);
-        const Stretch stretch = cross_cell(&p, density, &walk, &cell, s->t_first, s->t_last,
-                                           &entered, &entered_low, walking);
-        const lane_float depth = cell.density * stretch.length * metres;
-        const lane_int counts = stretch.counts & LANE_MASK(depth > 0.0f);
-        if (lanes_any(counts))
-            add_stretch(&cell, colors, absorption, LANES_SELECT(counts, depth, (lane_float)0.0f),
-                        counts, &veil);
-        walking &= ~stretch.ends & in_grid(&p, &walk);
-    }
-    return veil;
-}
 
 /// Applies the medium between the start of each ray, or of its segment, and its end to the ray's
 /// radiance. Writes the part of the light that comes through to `transmittance`.
@@ -89,7 +31,7 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
     lane_float depth = (lane_float)0.0f;
     if (VXL_MEDIUM & !VXL_MEDIUM_COLORS)
-        depth = depth_of(shape, &density, &segment, active & ~in_object);
+        depth = density_along(shape, &density, &segment, active & ~in_object);
     if (VXL_TRANSMISSION && lanes_any(in_object))
 
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
@@ -160,7 +102,7 @@ kernel void absorb_shadows(PyramidShape shape, Environment environment, VXL_DENS
                              (lane_float)0.0f,
                              LANES_LOAD(queue.rays, VXL_RAY_END * stride + first)};
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
-    const lane_float depth = depth_of(shape, &density, &segment, active) * metres;
+    const lane_float depth = density_along(shape, &density, &segment, active) * metres;
     const float absorption[3] = {environment.absorption.x, environment.absorption.y,
                                  environment.absorption.z};
     float arriving[3 * VXL_LANES];

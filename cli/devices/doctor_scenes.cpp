@@ -184,6 +184,7 @@ std::vector<KnownPicture> known_pictures() {
         {"rays in fog", lattice("default", "rays", "observer", kFog), true, "64f4fababf3ffcce"},
         {"display of voxels", lattice("default", "lattice", "outside", ""), true,
          "6ee843d60716faea"},
+        {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "5d57b4caf08e6231"},
         {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2ea30b3e2173c4be"},
     };
 }

@@ -1,54 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/files/diff_files.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "cli/shared/checks.hpp"
+#include "cli/shared/numbered_files.hpp"
 
 namespace voxelume::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_numbered(const std::string& name) {
-    return frame_path(name, 1, false) != name;
-}
-
-/// The numbers in a name, each as a run of digits. Longer ones than a frame's are none.
-std::vector<int> numbers_in(const std::string& name) {
-    constexpr size_t kMaxDigits = 9;
-    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-    std::vector<int> numbers;
-    for (size_t i = 0; i < name.size();) {
-        size_t end = i;
-        while (end < name.size() && is_digit(name[end])) ++end;
-        if (end > i && end - i <= kMaxDigits) numbers.push_back(std::stoi(name.substr(i, end - i)));
-        i = std::max(end, i + 1);
-    }
-    return numbers;
-}
-
-/// Adds the frames of which there is a file.
-void add_frames(const std::string& pattern, std::set<int>& frames) {
-    const fs::path folder = fs::path(pattern).parent_path();
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
-        const std::string name = entry.path().filename().string();
-        for (const int number : numbers_in(name))
-            if (fs::path(frame_path(pattern, number, false)).filename() == name)
-                frames.insert(number);
-    }
-}
-
 std::vector<int> frames_of(const DiffNames& names) {
     if (!names.frames.empty()) return parse_frame_list(names.frames);
-    std::set<int> frames;
-    add_frames(names.a, frames);
-    add_frames(names.b, frames);
+    std::set<int> frames = numbers_of_files(names.a);
+    frames.merge(numbers_of_files(names.b));
     if (frames.empty()) fail_usage("diff: there is no frame of {} or {}", names.a, names.b);
     return {frames.begin(), frames.end()};
 }

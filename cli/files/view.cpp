@@ -2,6 +2,7 @@
 // voxelume view: a look at a volumetric image, as a picture or as a page for a browser.
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,41 @@ struct ViewCommand {
     double exposure = 0;
 };
 
-/// The volumetric image of a file, or of what a model file holds. OpenVDB files are the former.
-Volume volume_of(const ViewCommand& command) {
-    const std::string from = first_slice(command.from);
-    if (ending_of(from) == ".vdb" || !is_model_file(from)) return Volume::read(from);
+/// What a model file holds, before a display that is a lattice.
+Scene scene_of_model(const std::string& from) {
     ImportOptions options;
     options.lattice = true;
-    return render_volume(scene_of_file(from, options), {Device::open(command.device)});
+    return scene_of_file(from, options);
+}
+
+Volume volume_of_scene(const ViewCommand& command, const Scene& scene) {
+    return render_volume(scene, {Device::open(command.device)});
+}
+
+/// An OpenVDB file is a volumetric image, or else a model. Where it is neither, the first says why.
+Volume volume_of_vdb(const ViewCommand& command, const std::string& from) {
+    std::optional<Error> refusal;
+    try {
+        return Volume::read(from);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input) throw;
+        refusal = error;
+    }
+    std::optional<Scene> scene;
+    try {
+        scene = scene_of_model(from);
+    } catch (const Error&) {
+        throw Error(*refusal);
+    }
+    return volume_of_scene(command, *scene);
+}
+
+/// The volumetric image of a file, or of what a model file holds.
+Volume volume_of(const ViewCommand& command) {
+    const std::string from = first_slice(command.from);
+    if (ending_of(from) == ".vdb") return volume_of_vdb(command, from);
+    if (!is_model_file(from)) return Volume::read(from);
+    return volume_of_scene(command, scene_of_model(from));
 }
 
 int run(const ViewCommand& command) {
@@ -54,7 +83,7 @@ Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
     app.add_option("VOLUME", command->from,
                    "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file: .obj "
-                   ".ply .stl .gltf .glb .vxm .vox")
+                   ".ply .stl .gltf .glb .vxm .vox, and others: see scenes/manual/model_files.md")
         ->required();
     app.add_option("-o,--output", command->outputs,
                    ".png: views from the front and from a side, and slices from near to far; "

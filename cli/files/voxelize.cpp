@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/files/voxelize_frames.hpp"
 #include "cli/shared/checks.hpp"
 #include "cli/shared/commands.hpp"
+#include "cli/shared/numbered_files.hpp"
 #include "cli/shared/scene_options.hpp"
 #include "cli/shared/slice_names.hpp"
 #include "cli/shared/tell.hpp"
@@ -21,6 +23,7 @@ namespace {
 struct VoxelizeCommand {
     std::string file;
     std::vector<std::string> outputs;
+    std::string frames;  ///< a list like 1-10; empty: not given
     double voxel_size = 0;
     int resolution = 0;
     int frame = 0;                      ///< 0: not given
@@ -84,7 +87,8 @@ void tell_of(const VoxelizeCommand& command, const std::string& what, const Voxe
     tell_notes(command, report.notes);
 }
 
-void voxelize_mesh(const VoxelizeCommand& command) {
+/// Returns the voxels' edge in metres.
+double voxelize_mesh(const VoxelizeCommand& command) {
     if (command.frame > 0)
         fail_usage("voxelize: --frame is for scenes; `import` makes one of a file that moves");
     const VoxelizeOptions options = options_of(command);
@@ -92,6 +96,7 @@ void voxelize_mesh(const VoxelizeCommand& command) {
     const VoxelizeReport report =
         voxelize(command.file, {command.outputs.begin(), command.outputs.end()}, device, options);
     tell_of(command, fmt::format("{} triangles", report.triangles), report, device);
+    return report.voxel_size;
 }
 
 /// Scenes and files of voxels are cubes anyway.
@@ -106,7 +111,7 @@ void refuse_mesh_options(const VoxelizeCommand& command) {
                                    : "--normals");
 }
 
-void voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
+double voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
     const Device device = Device::open(command.device);
     const VoxelizeSceneOptions options{
         command.voxel_size, command.resolution, std::max(command.frame, 1), {}};
@@ -114,45 +119,110 @@ void voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
         voxelize_scene(scene, {command.outputs.begin(), command.outputs.end()}, device, options);
     const size_t count = scene.object_names().size();
     tell_of(command, fmt::format("{} object{}", count, count == 1 ? "" : "s"), report, device);
+    return report.voxel_size;
+}
+
+Scene scene_of_voxels_in(const std::string& file) {
+    ImportOptions import;
+    import.ground = false;
+    return scene_of_file(file, import);
 }
 
 /// The voxels that a file has, or larger and smaller ones in their place.
-void voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
-    if (command.voxel_size > 0 || command.resolution > 0 || command.frame > 0) {
-        ImportOptions import;
-        import.ground = false;
-        return voxelize_scene(command, scene_of_file(file, import));
-    }
+double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
+    if (command.voxel_size > 0 || command.resolution > 0 || command.frame > 0)
+        return voxelize_scene(command, scene_of_voxels_in(file));
     for (const std::string& output : command.outputs)
         tell_notes(command, convert_voxels(file, output));
+    return 0;
 }
 
 void check_voxels_output(const std::string& path) {
     check_output(path, {".vxm", ".vdb", ".vox", ".kv6", ".binvox", ".npy", ".nrrd"}, "voxelize");
-    if (path.find('#') != std::string::npos)
+}
+
+enum class InputKind : uint8_t { mesh, voxels, scene };
+
+InputKind kind_of(const std::string& file) {
+    constexpr std::array kMeshEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    const std::string ending = ending_of(file);
+    if (ending == ".json" || file == "-") return InputKind::scene;
+    const bool is_mesh = std::ranges::count(kMeshEndings, ending) > 0 || !is_model_file(file);
+    return is_mesh ? InputKind::mesh : InputKind::voxels;
+}
+
+Scene scene_in(const VoxelizeCommand& command) {
+    if (kind_of(command.file) == InputKind::voxels) return scene_of_voxels_in(command.file);
+    return load_scene(command.file, {command.assets, {}, {}, 0});
+}
+
+/// Makes the voxels of one file or frame. Returns their edge in metres; 0: as in the file.
+double voxelize_one(const VoxelizeCommand& command) {
+    const std::string file = first_slice(command.file);
+    const InputKind kind = kind_of(file);
+    if (kind == InputKind::mesh) return voxelize_mesh(command);
+    refuse_mesh_options(command);
+    return kind == InputKind::scene ? voxelize_scene(command, scene_in(command))
+                                    : voxelize_voxels(command, file);
+}
+
+/// The frames of one scene that moves.
+std::vector<VoxelizeNames> moving_frames(const VoxelizeCommand& command) {
+    if (kind_of(command.file) == InputKind::mesh)
         fail_usage(
-            "voxelize: {}: one frame's voxels are written, so no #### counts them: choose the "
-            "frame by --frame",
-            path);
+            "voxelize: {}: a mesh is one frame: leave out {}, or name files of frames, as "
+            "#### does for 0001; `import` makes a scene of a file that moves",
+            command.file, command.frames.empty() ? "the #### of the output" : "--frames");
+    if (command.file == "-")
+        fail_usage("voxelize: -: frames are of a scene in a file; --frame chooses one of a stream");
+    return names_of_frames({command.file, command.outputs}, command.frames,
+                           scene_in(command).frames());
+}
+
+std::vector<VoxelizeNames> frames_of(const VoxelizeCommand& command) {
+    if (!is_file_sequence(command.file)) return moving_frames(command);
+    if (command.frame > 0)
+        fail_usage("voxelize: --frame is for scenes: --frames chooses among numbered files");
+    std::vector<std::string> gaps;
+    std::vector<VoxelizeNames> frames =
+        names_of_files({command.file, command.outputs}, command.frames, gaps);
+    if (!gaps.empty())
+        tell_notes(command, {fmt::format("the numbers have {} gap{}; the first begins at {}",
+                                         gaps.size(), gaps.size() == 1 ? "" : "s", gaps.front())});
+    return frames;
+}
+
+/// Takes the size of the voxels that the first frame's resolution gives. Those of a given size lie
+/// as the world's do, so the first frame is made again with it.
+void take_size(VoxelizeCommand& command) {
+    VoxelizeCommand first = command;
+    first.quiet = true;
+    command.voxel_size = voxelize_one(first);
+    if (command.voxel_size > 0) command.resolution = 0;
+}
+
+/// All frames have voxels of one size.
+void voxelize_frames(VoxelizeCommand command) {
+    const std::vector<VoxelizeNames> frames = frames_of(command);
+    const bool is_moving = !is_file_sequence(command.file);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        command.file = frames[i].file;
+        command.outputs = frames[i].outputs;
+        if (is_moving) command.frame = frames[i].frame;
+        if (i == 0 && frames.size() > 1 && command.voxel_size == 0) take_size(command);
+        voxelize_one(command);
+    }
 }
 
 int run(const VoxelizeCommand& command) {
     if (command.outputs.empty()) fail_usage("voxelize: say where the voxels go: -o model.vxm");
     for (const std::string& path : command.outputs) check_voxels_output(path);
-    const std::string file = first_slice(command.file), ending = ending_of(file);
-    constexpr std::array kMeshEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    const bool is_scene = ending == ".json" || file == "-";
-    const bool is_mesh =
-        std::ranges::count(kMeshEndings, ending) > 0 || (!is_scene && !is_model_file(file));
-    if (is_mesh) {
-        voxelize_mesh(command);
-        return 0;
-    }
-    refuse_mesh_options(command);
-    if (is_scene)
-        voxelize_scene(command, load_scene(file, {command.assets, {}, {}, 0}));
+    const bool has_frames = is_file_sequence(command.file) || !command.frames.empty() ||
+                            std::ranges::any_of(command.outputs, is_numbered);
+    if (has_frames)
+        voxelize_frames(command);
     else
-        voxelize_voxels(command, file);
+        voxelize_one(command);
     return 0;
 }
 
@@ -190,8 +260,13 @@ Action add_voxelize(CLI::App& app) {
                    "normals that light cubes: faces (the default), or surface (those of the mesh, "
                    "kept in .vxm)")
         ->type_name("faces|surface");
-    app.add_option("--frame", command->frame, "frame of a scene that moves; 1 by default")
-        ->check(in_range(1, 1000000, Number::whole));
+    const auto frame =
+        app.add_option("--frame", command->frame, "frame of a scene that moves; 1 by default")
+            ->check(in_range(1, 1000000, Number::whole));
+    app.add_option("--frames", command->frames,
+                   "frames of a scene that moves, or numbers of files, like 1-10,20; by default "
+                   "all, where an output or FILE has #### for the number")
+        ->excludes(frame);
     app.add_option("--assets", command->assets,
                    "folder to look for a scene's models in; may be given again")
         ->allow_extra_args(false);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
 
+#include "cli/shared/progress.hpp"
 #include "cli/shared/report.hpp"
 #include "cli/shared/scene_options.hpp"
 #include "cli/shared/warnings.hpp"
@@ -106,11 +108,26 @@ void print_verdict(const Plan& plan, bool is_of_frames) {
                bytes_text(plan.device_bytes), of_frames);
 }
 
+/// Plans with a bar where a person watches, as many frames take long.
+Plan watched_plan(const Scene& scene, const Device& device, PlanOptions options, bool is_quiet) {
+    std::optional<Progress> bar;
+    size_t told = 0;
+    options.progress = [&](size_t done, size_t frames) {
+        if (frames == 1) return;
+        if (!bar)
+            bar.emplace("check", frames, stderr,
+                        is_quiet ? Drawing::never : Drawing::where_watched);
+        bar->advance(done - told);
+        told = done;
+    };
+    return voxelume::plan(scene, device, options);
+}
+
 }  // namespace
 
 void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
                 const PlanPrint& print) {
-    const Plan plan = voxelume::plan(scene, device, options);
+    const Plan plan = watched_plan(scene, device, options, print.quiet);
     tell_warnings(plan.warnings, print.quiet, print.strict);
     const bool as_json = print.as_json;
     if (!as_json) {

@@ -110,8 +110,13 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         make_choices(planned, meshes);
         const std::vector<voxelume::Warning> warnings = scene_warnings(planned, frames, meshes);
         find_potentially_visible(planned, frames, meshes);
-        Plan result = plan_for_callers(planned, plan_frames(planned, frames, meshes, info),
-                                       frames.size(), info);
+        const auto progress = [&](size_t done) { options.progress(done, frames.size()); };
+        Plan result =
+            plan_for_callers(planned,
+                             plan_frames(planned, frames, meshes, info,
+                                         options.progress ? std::function<void(size_t)>(progress)
+                                                          : std::function<void(size_t)>()),
+                             frames.size(), info);
         result.warnings = api::warnings_for_callers(warnings);
         return result;
     });

@@ -28,7 +28,9 @@ CubeMaterial emissive(const Material& m) {
     CubeMaterial emissive;
     emissive.vox.kind = VoxMaterialKind::emit;
     emissive.vox.weight = std::min(largest, 1.0F);
-    emissive.vox.flux = std::clamp(std::sqrt(largest / emissive.vox.weight) - 1, 0.0F, 8.0F);
+    const float flux = std::sqrt(largest / emissive.vox.weight) - 1;
+    emissive.vox.flux = std::clamp(flux, 0.0F, kMaxFlux);
+    emissive.vox.is_flux_cut = flux > kMaxFlux;
     emissive.color = color_code(m.emission / largest);
     return emissive;
 }

@@ -79,7 +79,8 @@ class SceneOfGltf {
             if (node.mesh >= 0) add_object(node);
         }
         if (contents_.objects.empty() || !(longest_side(contents_.box) > 0))
-            throw Error(ErrorKind::input, "{}: has no triangles to show",
+            throw Error(ErrorKind::input,
+                        "{}: has no triangles to show; points and lines are left out",
                         SourcePlace(file_.path.string()));
         contents_.voxel_size = mesh_voxel_size(contents_.box, has_textures_);
         contents_.materials.insert(contents_.materials.begin(),

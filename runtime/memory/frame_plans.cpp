@@ -38,11 +38,12 @@ void forget_largest(const Scene& scene, const DeviceInfo& device, AssetStore& me
     meshes.forget_unused();
 }
 
-FramePlan plan_frame(const Scene& scene, int frame, AssetStore& meshes, const DeviceInfo& device) {
+FramePlan plan_frame(const Scene& scene, int frame, Scene now, AssetStore& meshes,
+                     const DeviceInfo& device, SolidExtents& solids) {
     return in_frame(scene, frame, [&] {
-        FramePlan planned{frame, scene_at(scene, frame), {}};
+        FramePlan planned{frame, std::move(now), {}};
         check_placements(planned.scene);
-        planned.plan = plan_scene(planned.scene, meshes, device);
+        planned.plan = plan_scene(planned.scene, meshes, device, solids);
         return planned;
     });
 }
@@ -59,16 +60,17 @@ bool is_refused(const FramePlan& planned, const DeviceInfo& device) {
 }
 
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
-                      const DeviceInfo& device) {
+                      const DeviceInfo& device, const std::function<void(size_t)>& progress) {
     std::optional<FramePlan> maximum;
     std::optional<Scene> before;
+    SolidExtents solids;
     int plans = 0;
-    for (const int frame : frames) {
-        if (before) {
-            Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
-            if (is_planned_like(*before, now)) continue;
-        }
-        FramePlan planned = plan_frame(scene, frame, meshes, device);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        if (progress) progress(i);
+        const int frame = frames[i];
+        Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
+        if (before && is_planned_like(*before, now)) continue;
+        FramePlan planned = plan_frame(scene, frame, std::move(now), meshes, device, solids);
         planned.plans = ++plans;
         meshes.forget_unused();
         before = planned.scene;
@@ -83,6 +85,7 @@ FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStor
 void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                   const DeviceInfo& device) {
     std::optional<Scene> first, before;
+    SolidExtents solids;
     for (const int frame : frames)
         in_frame(scene, frame, [&] {
             Scene now = scene_at(scene, frame);
@@ -90,7 +93,7 @@ void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& m
             check_placements(now);
             if (!first) first = now;
             if (has_files_of(now, *first)) {
-                check_memory(now, plan_scene(now, meshes, device), device);
+                check_memory(now, plan_scene(now, meshes, device, solids), device);
                 forget_largest(now, device, meshes);
             }
             before = std::move(now);

@@ -2,6 +2,7 @@
 // frames of a scene -> whether each fits, and which takes the most, before memory is taken.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "runtime/memory/plan.hpp"
@@ -20,11 +21,12 @@ struct FramePlan {
 bool is_refused(const FramePlan& planned, const DeviceInfo& device);
 
 /// Plans all `frames` of a scene, one or more, and returns the first that doesn't fit the device,
-/// or else the one that needs the most memory. Reads every file of models that they show.
+/// or else the one that needs the most memory. Reads every file of models that they show. Calls
+/// `progress`, unless it is empty, with the number of frames that are done.
 ///
 /// Throws as scene_at, check_placements and plan_scene do, with the frame.
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
-                      const DeviceInfo& device);
+                      const DeviceInfo& device, const std::function<void(size_t)>& progress = {});
 
 /// Holds all `frames` against the rules for placements and against the device's memory, as
 /// check_memory does, before the first is rendered.

@@ -86,11 +86,17 @@ GridPlan plan_model(const Model& model, const Mesh& mesh) {
 }
 
 ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& device) {
+    SolidExtents solids;
+    return plan_scene(scene, meshes, device, solids);
+}
+
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& device,
+                     SolidExtents& solids) {
     check_groups(scene, meshes);
     ScenePlan plan;
     plan.world = world_frame(scene.world);
     plan.medium = plan_density(scene.world, has_scattering(scene));
-    ObjectCounts objects(scene, meshes);
+    ObjectCounts objects(scene, meshes, solids);
     const FrameMemory expected =
         walk_frame(scene, meshes, objects, plan.medium, Estimate::expected, device);
     const FrameMemory minimum =

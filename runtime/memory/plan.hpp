@@ -16,6 +16,8 @@
 
 namespace voxelume {
 
+class SolidExtents;
+
 struct ScenePlan {
     std::vector<GridPlan> grids;
     GridFrame world;
@@ -67,6 +69,10 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
 ///
 /// Throws as AssetStore, model_frame and materials_of_groups do, and Error::limit for a lattice
 /// with more bricks than can be numbered.
+///
+/// `solids` keep what frames with the same solids share.
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& device,
+                     SolidExtents& solids);
 ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& device = {});
 
 /// Refuses lattices whose tables can't be numbered, or are larger than the device's memory, before

@@ -8,12 +8,10 @@
 #include <utility>
 
 #include "runtime/analysis/culling.hpp"
-#include "runtime/analysis/medium_set.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/illumination.hpp"
-#include "runtime/stages/display/display_cover.hpp"
-#include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/render/volume_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/trace/beam.hpp"
 #include "runtime/stages/trace/sight.hpp"
@@ -28,44 +26,6 @@ Scene with_all_channels(Scene scene) {
     scene.render.filter = {};
     scene.render.channels = {};
     return scene;
-}
-
-/// The data that both layouts work with.
-struct Work {
-    const Device& device;
-    const Scene& scene;
-    const Pyramid& world;
-    Features features;
-    VolumeFrame frame;
-    Camera camera;
-    RenderReport& report;
-    const FrameProgress& progress;
-};
-
-/// The features of the lattice's kernels. If the medium's density varies, the little of it that
-/// lies between a light ray's start and its surface stays in the colours.
-Features without_varying_medium(Features features) {
-    features.medium = features.medium && !features.medium_grid;
-    features.medium_grid = false;
-    return features;
-}
-
-/// A scene with the same surfaces but without light: it only tells how much they cover.
-Scene without_light(Scene scene) {
-    scene.lights.clear();
-    scene.world.medium = {};
-    scene.world.sky.reset();
-    scene.render.depth = 0;
-    for (Material& material : scene.materials) material.emission = glm::vec3(0);
-    return scene;
-}
-
-/// The features with which rays fill the coverage, too, even without opacities in the scene.
-/// Refracting surfaces cover everything behind them.
-Features with_transmission(Features features, const Scene& scene, const Pyramid& world) {
-    features.paths = features.transmission = true;
-    add_medium_set(scene, world, features);
-    return begun_anywhere(features, scene);
 }
 
 /// The observer's camera with one sight ray for each (u, v) of the display.
@@ -84,15 +44,7 @@ void check_rays(const VolumeFrame& frame) {
                     frame.size.x, frame.size.y);
 }
 
-void count_rays(const Illumination& illumination, RenderReport& report) {
-    report.shadow_rays = illumination.shadow_rays();
-    report.light_beams = illumination.light_beams();
-    report.secondary_rays = illumination.secondary_rays();
-    report.ended_paths = illumination.ended_paths();
-    report.medium_overflows = illumination.medium_overflows();
-}
-
-void render_rays(Work& work, Volume& volume) {
+void render_rays(VolumeWork& work, Volume& volume) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.camera.width, work.camera.height);
     const uint32_t in_batch = batch_tiles(work.device, work.features, 1, tiles);
@@ -146,82 +98,6 @@ void render_rays(Work& work, Volume& volume) {
     display.read(volume);
 }
 
-/// Leaves out voxels of which no ray meets a surface.
-void leave_out_unlit(Volume& volume) {
-    size_t kept = 0;
-    for (size_t i = 0; i < volume.indices.size(); ++i) {
-        if (volume.objects[i] == 0) continue;
-        volume.indices[kept] = volume.indices[i];
-        volume.colors[kept] = volume.colors[i];
-        volume.opacities[kept] = volume.opacities[i];
-        volume.depths[kept] = volume.depths[i];
-        volume.objects[kept] = volume.objects[i];
-        volume.kinds[kept++] = volume.kinds[i];
-    }
-    volume.indices.resize(kept);
-    volume.colors.resize(kept);
-    volume.opacities.resize(kept);
-    volume.depths.resize(kept);
-    volume.objects.resize(kept);
-    volume.kinds.resize(kept);
-}
-
-void render_lattice(Work& work, Volume& volume) {
-    work.features = begun_anywhere(work.features, work.scene);
-    RayBatch batch =
-        allocate_batch(work.device, work.features, batch_rays(work.device, work.features));
-    // Finding surfaces needs only their geometry, and what hides them.
-    Features geometry = features_of(work.world);
-    geometry.transmission = work.features.transmission;
-    DisplayScanStage scan(
-        work.device, geometry, work.frame, work.world.frame,
-        geometry.transmission ? line_surfaces(work.device, work.scene) : LineSurfaces());
-    DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.camera,
-                                work.frame, work.world);
-    const auto report_progress = [&work](uint32_t done) {
-        if (!work.progress) return;
-        work.device.finish();
-        work.progress(done, 3);
-    };
-    std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
-    report_progress(1);
-    build_programs(work.device, work.features, work.scene, work.world, false, false);
-    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
-    std::optional<Illumination> clear;
-    if (work.features.transmission) {
-        const Scene dark = without_light(work.scene);
-        clear.emplace(work.device,
-                      with_transmission(features_of(dark, work.world), dark, work.world), dark,
-                      work.world, batch.stride);
-        look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
-    }
-    display.find_views(look, batch, pieces);
-    ShownVoxels shown = display.choose(pieces);
-    report_progress(2);
-    pieces.clear();
-    const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
-        illumination.light(rays, count, sink);
-    };
-    display.light(look, light_rays, environment_of(work.scene.world), batch, shown);
-    std::optional<DisplayCoverStage> cover;
-    if (work.features.transmission && shown.voxels.count > 0) {
-        cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
-        scan.scan_covers(work.frame, work.world, batch, [&](int axis, const LinePoints& lines) {
-            cover->add(axis, lines, scan.surfaces(), display.mask());
-        });
-    }
-    report_progress(3);
-    work.report.display_lines = scan.lines();
-    work.report.clear_display_lines = scan.clear_lines();
-    work.report.sight_rays += scan.lines() + display.rays();
-    count_rays(illumination, work.report);
-    read_voxels(shown.voxels, volume);
-    if (cover)
-        cover->adjust({scan.cover_lines(0), scan.cover_lines(1), scan.cover_lines(2)}, volume);
-    leave_out_unlit(volume);
-}
-
 uint32_t count_not_finite(const Volume& volume) {
     return uint32_t(std::ranges::count_if(volume.colors, [](const glm::vec3& c) {
         return !std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z);
@@ -236,10 +112,10 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
     const Pyramid& world = built.pyramid;
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
-    Work work = {device, scene,
-                 world,  features_of(scene, world),
-                 frame,  display_sight(scene, frame, world.frame),
-                 report, progress};
+    VolumeWork work = {device, scene,
+                       world,  features_of(scene, world),
+                       frame,  display_sight(scene, frame, world.frame),
+                       report, progress};
     leave_out_solid_kinds(device, world, work.features);
     Volume volume;
     volume.frame = frame;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +77,8 @@ struct PlanOptions {
     std::vector<int> frames{};  ///< empty: all of the animation
     Channels channels{};        ///< of the images
     CacheOptions cache{};       ///< knows models that needn't be read
+    /// Called with the number of frames that are planned, and of all.
+    std::function<void(size_t done, size_t frames)> progress{};
 };
 
 /// Plans frames of a scene on a device. Reads the meshes that they show; takes no memory of the

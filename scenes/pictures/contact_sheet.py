@@ -13,7 +13,7 @@ import textwrap
 
 from PIL import Image, ImageDraw, ImageFont
 
-WIDTH, HEIGHT, LABEL, COLUMNS = 176, 132, 16, 8
+WIDTH, HEIGHT, LABEL, COLUMNS = 224, 168, 16, 8
 PAPER, INK, REFUSED = "#ffffff", "#202020", "#a02020"
 
 
@@ -52,11 +52,11 @@ def main():
             tile = render(file, folder)
             if isinstance(tile, str):
                 print(f"{name}: {tile}")
-                lines = "\n".join(textwrap.wrap(tile, 27)[:9])
+                lines = "\n".join(textwrap.wrap(tile, 35)[:12])
                 draw.text((left + 4, top + 4), lines, REFUSED, font)
             else:
                 sheet.paste(tile, (left, top))
-            label = name if len(name) <= 28 else f"..{name[-26:]}"
+            label = name if len(name) <= 36 else f"..{name[-34:]}"
             draw.text((left + 4, top + HEIGHT + 2), label, INK, font)
     sheet.save(sheet_file, optimize=True)
 

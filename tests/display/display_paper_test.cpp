@@ -135,7 +135,7 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
     EXPECT_GE(shaded, 3u);
 }
 
-TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
+TEST(PaperFormula, HoldsForTheSurfacesAndTheSpaceOfALattice) {
     Scene scene = parse_scene(kPaperScene, "test.json", {});
     scene.observer.display.layout = VolumeLayout::lattice;
     // Each voxel of the world has more than four probe points, and no face lies between voxels of
@@ -143,8 +143,18 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     scene.observer.display.voxels = {24, 18, 5};
     RenderReport report;
     const Volume p = render_volume(test_device(), scene, report);
-    size_t fronts[2] = {};
+    size_t fronts[2] = {}, spaces = 0;
     for (size_t i = 0; i < p.indices.size(); ++i) {
+        if (p.objects[i] == 0) {  // 0.8 m of the medium, seen along Z_E
+            const double opacity = -std::expm1(-kAbsorption[0] * 0.8);
+            EXPECT_EQ(p.kinds[i], VoxelKind::space);
+            EXPECT_NEAR(p.opacities[i], opacity, 1e-6);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(p.colors[i][c] * opacity,
+                            kMedium[c] * -std::expm1(-kAbsorption[c] * 0.8), 1e-6);
+            ++spaces;
+            continue;
+        }
         EXPECT_EQ(p.opacities[i], 1.0f);
         EXPECT_EQ(p.kinds[i], VoxelKind::object);
         ASSERT_TRUE(p.objects[i] == 1 || p.objects[i] == 2);
@@ -168,6 +178,7 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     }
     EXPECT_GE(fronts[0], 36u);
     EXPECT_GE(fronts[1], 150u);
+    EXPECT_GE(spaces, 24u * 18 * 5 / 2);
 }
 
 }  // namespace

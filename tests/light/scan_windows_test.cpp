@@ -156,5 +156,22 @@ TEST_F(ScanWindows, ThatAreWrongSayWhere) {
                 HasSubstr("others[0].file: "));
 }
 
+// Kernels multiply them by the 0 of lanes that have no medium.
+TEST_F(ScanWindows, NoColorIsLeftUndefinedWhereNothingIs) {
+    Scene scene = scene_of(
+        R"("file": "other.nrrd", "transfer": [{"value": 5, "absorption": 0},
+                                              {"value": 20, "absorption": 3}])");
+    scene.world.bounds.max = glm::dvec3(9);
+    const auto dirty = [&] {
+        DensityGrid grid = form_density_grid(shared_device(), scene.world);
+        grid.colors.fill(NAN);
+        return grid.colors.size();
+    };
+    const size_t size = dirty();
+    const std::vector<float> colors =
+        form_density_grid(shared_device(), scene.world).colors.read(0, size);
+    for (const float color : colors) ASSERT_TRUE(std::isfinite(color));
+}
+
 }  // namespace
 }  // namespace voxelume

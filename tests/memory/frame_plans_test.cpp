@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a moving scene, planned before the first is rendered.
 #include "runtime/memory/frame_plans.hpp"
+#include "runtime/memory/count/solid_extents.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
@@ -40,6 +41,36 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_THAT(error.what(), testing::EndsWith("(at frame 2)"));
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
+}
+
+TEST_F(FramePlans, TellHowManyFramesAreDone) {
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50, kGrowth);
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    AssetStore meshes;
+    std::vector<size_t> done;
+    plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device,
+                [&](size_t frames) { done.push_back(frames); });
+    EXPECT_EQ(done, (std::vector<size_t>{0, 1, 2}));
+}
+
+// What solids take in their own spaces is found once, but not where their voxels or shapes differ.
+TEST(SolidExtents, AreFoundOnceForEachModelAndEdge) {
+    Model ball, box;
+    ball.surface = Surface::smooth;
+    box.surface = Surface::cubes;
+    SolidExtents extents;
+    int counted = 0;
+    const auto of = [&](const Model& model, double edge) {
+        return extents.of(model, edge, [&] { return SurfaceExtent{double(++counted), 0}; }).voxels;
+    };
+    EXPECT_EQ(of(ball, 0.5), 1);
+    EXPECT_EQ(of(box, 0.5), 2);
+    EXPECT_EQ(of(ball, 0.25), 3);
+    EXPECT_EQ(of(Model(ball), 0.5), 1);
+    EXPECT_EQ(of(box, 0.5), 2);
+    EXPECT_EQ(counted, 3);
 }
 
 /// The plan of the frame of 1 to 3 that needs most memory, on a device with room for any.

@@ -26,6 +26,17 @@ size_t colors_in(const VoxelModel& model) {
     return colors.size();
 }
 
+/// What was assumed, with what the colours tell.
+std::vector<std::string> notes_of(const CellArray& array) {
+    std::vector<std::string> notes = array.notes;
+    if (!array.is_color()) return notes;
+    if (has_color_masks(array))
+        notes.emplace_back("its colours are 0 and 1, taken for none and all of a colour");
+    if (is_float(array.type) && largest_color(array, 1) > 1)
+        notes.emplace_back("colours above 1 are cut at 1: divide those up to 255 by 255");
+    return notes;
+}
+
 }  // namespace
 
 Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& format) {
@@ -52,8 +63,9 @@ Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& 
                 report["labels"].push_back({{"label", label}, {"cells", cells}});
         }
     }
+    const std::vector<std::string> notes = notes_of(array);
     if (array.data != path) report["data file"] = array.data.filename().string();
-    if (!array.notes.empty()) report["notes"] = array.notes;
+    if (!notes.empty()) report["notes"] = notes;
     return report;
 }
 

@@ -34,7 +34,8 @@ class ArrayCubes {
           file_(array.data),
           layout_(layout_of(array, file_)),
           bricks_(layout_.frame.bricks()),
-          rows_x_(size_t(layout_.maps[0].bricks)) {
+          rows_x_(size_t(layout_.maps[0].bricks)),
+          has_masks_(has_color_masks(array)) {
         if (array.is_color() && values.is_there())
             file_.refuse("it holds colours, which have no \"iso\" and no \"label\"");
         const std::array<int, 3> stride = {1, bricks_.x, bricks_.x * bricks_.y};
@@ -247,15 +248,15 @@ class ArrayCubes {
             const double value = array_.slope * double(values[cell]) + array_.intercept;
             return is_label(value) ? label_color(label_of(value)) : kClear;
         }
-        constexpr bool kFraction = std::is_floating_point_v<Value>;
-        const double full = array_.type == CellType::u16 ? 255.0 / 65535 : 1;
+        const bool is_fraction = std::is_floating_point_v<Value> || has_masks_;
+        const double full = array_.type == CellType::u16 && !has_masks_ ? 255.0 / 65535 : 1;
         uint32_t color = 0;
         for (size_t c = 0; c < 3; ++c)
-            color |= code_of(full * channel(slabs, values, cell, c), kFraction) << 8 * c;
+            color |= code_of(full * channel(slabs, values, cell, c), is_fraction) << 8 * c;
         if (array_.channels == 4) {
             const double alpha = channel(slabs, values, cell, 3);
             // The faintest voxel is still one.
-            const uint32_t clear = 255 - code_of(full * alpha, kFraction);
+            const uint32_t clear = 255 - code_of(full * alpha, is_fraction);
             color |= (alpha > 0 ? std::min(clear, 254u) : 255u) << VXL_TRANSPARENCY_SHIFT;
         }
         return color;
@@ -266,7 +267,8 @@ class ArrayCubes {
     const InputFile file_;
     CubeLayout layout_;
     glm::ivec3 bricks_;
-    size_t rows_x_;  ///< words of a row of cells
+    size_t rows_x_;   ///< words of a row of cells
+    bool has_masks_;  ///< colours are 0 or 1
     int first_brick_ = 0;
     std::array<int, 3> brick_stride_{};
     // By the file's axis and the cell in a brick.

@@ -254,7 +254,7 @@ class ArraySurface {
     }
 
     /// Outside of the array the values are mirrored, and no farther than a voxel, so that the end
-    /// is found.
+    /// is found. Two nodes outside they are no nearer, or values close to 0 would go on as rods.
     void fill_pad(size_t slot) {
         const glm::ivec3 corner = brick_corner(model_.frame, model_.coordinates[slot]);
         const glm::ivec3 top = corner + (kBrickSize - 1);
@@ -263,8 +263,10 @@ class ArraySurface {
         for (size_t i = 0; i < kVoxelsPerBrick; ++i) {
             const glm::ivec3 node = corner + cell_in_brick(i), from = nearest_cell_node(node);
             if (node == from) continue;
-            const int value = stored(from);
-            out[i] = int16_t(value < 0 ? std::min(-value, int(kDistanceUnitsPerVoxel)) : value);
+            const int value = stored(from), voxel = int(kDistanceUnitsPerVoxel);
+            const int mirrored = value < 0 ? std::min(-value, voxel) : value;
+            const bool is_next = glm::all(glm::lessThan(glm::abs(node - from), glm::ivec3(2)));
+            out[i] = int16_t(is_next ? mirrored : std::max(mirrored, voxel));
         }
     }
 

@@ -170,6 +170,27 @@ ArraySummary summary_of_array(const CellArray& array) {
         [&](const auto& use) { for_each_value(array, [&](double v) { use(v, uint64_t{1}); }); });
 }
 
+double largest_color(const CellArray& array, double enough) {
+    const InputFile file(array.data);
+    ArraySlabs slabs(array, file, 1);
+    const size_t cells = size_t(array.counts.x) * size_t(array.counts.y),
+                 channels = size_t(array.channels);
+    double largest = 0;
+    while (largest <= enough && slabs.next() > 0)
+        for (size_t plane = 0; plane < (array.is_planar ? channels : 1); ++plane)
+            with_type(array.type, slabs.values(int(plane)), [&](const auto* values) {
+                const size_t count = array.is_planar ? cells : cells * channels;
+                for (size_t i = 0; i < count && largest <= enough; ++i)
+                    largest = std::max(largest, double(values[i]));  // NaN is none
+            });
+    return largest;
+}
+
+bool has_color_masks(const CellArray& array) {
+    if (!array.is_color() || is_float(array.type)) return false;
+    return array.type == CellType::boolean || largest_color(array, 1) == 1;
+}
+
 uint32_t label_color(int label) {
     // Hues by the golden angle, so that neighbours differ; two lightnesses in turn.
     const double hue = std::fmod(std::abs(double(label)) * 0.381966 * 6, 6.0);

@@ -82,6 +82,11 @@ std::vector<uint64_t> shape_of(std::string_view text, const InputFile& file) {
     return shape;
 }
 
+/// Whether an array of values has the shape of a picture with colours.
+bool is_like_picture(const std::vector<uint64_t>& shape) {
+    return (shape[2] == 3 || shape[2] == 4) && shape[0] > 4 && shape[1] > 4;
+}
+
 /// The header's text, and where the values begin.
 std::string header_of(const InputFile& file, uint64_t& start) {
     std::array<unsigned char, 12> head{};
@@ -112,7 +117,8 @@ CellArray read_npy_header(const std::filesystem::path& path) {
     array.type = npy_type(descr, file);
     array.is_swapped = descr[1] == '>' && bytes_of(array.type) > 1;
     const bool is_fortran = text_after(header, "fortran_order", file).starts_with("True");
-    const std::vector<uint64_t> shape = shape_of(text_after(header, "shape", file), file);
+    std::vector<uint64_t> shape = shape_of(text_after(header, "shape", file), file);
+    if (shape.size() == 4 && shape[3] == 1) shape.pop_back();
     const bool is_color = shape.size() == 4 && (shape[3] == 3 || shape[3] == 4);
     if (shape.size() != 3 && !is_color)
         file.refuse(
@@ -123,9 +129,16 @@ CellArray read_npy_header(const std::filesystem::path& path) {
         array.channels = int(shape[3]);
         array.is_planar = is_fortran;
         const CellType t = array.type;
-        if (t != CellType::u8 && t != CellType::u16 && !is_float(t))
-            file.refuse(fmt::format("its colours are {}; uint8, uint16 and floats can be read",
-                                    name_of(t)));
+        if (t != CellType::boolean && t != CellType::u8 && t != CellType::u16 && !is_float(t))
+            file.refuse(fmt::format(
+                "its colours are {}; uint8, uint16, floats and bool can be read; labels are one "
+                "number a voxel, of the shape (x, y, z)",
+                name_of(t)));
+    } else if (is_like_picture(shape) && bytes_of(array.type) <= 2) {
+        array.notes.push_back(fmt::format(
+            "its shape may be that of a picture, but is read as {} layers of values; voxels with "
+            "colours have the shape (x, y, z, {})",
+            shape[2], shape[2]));
     }
     for (int axis = 0; axis < 3; ++axis) {
         const int from = is_fortran ? axis : 2 - axis;

@@ -59,7 +59,8 @@ class MeshBuilder {
 
     Mesh mesh() {
         if (mesh_.triangles.empty())
-            throw Error(ErrorKind::input, "{}: has no triangles to show",
+            throw Error(ErrorKind::input,
+                        "{}: has no triangles to show; points and lines are left out",
                         SourcePlace(file_.path().string()));
         fill(mesh_.positions.size());
         if (mesh_.textures.empty()) {

@@ -220,6 +220,11 @@ WriterNotes write_vox(const std::filesystem::path& path, const CubeList& cubes) 
     if (palette.places.size() > palette.colors.size())
         notes.push_back(fmt::format("{} colours became {} by median cut", palette.places.size(),
                                     palette.colors.size()));
+    const auto is_cut = [&](size_t material) {
+        return material > 0 && cubes.materials[material - 1].vox.is_flux_cut;
+    };
+    if (std::ranges::any_of(palette.materials, is_cut))
+        notes.emplace_back("emission above 81 became 81, which is MagicaVoxel's flux 8");
     const auto is_clear = [](uint32_t color) { return color >> 24 != 0; };
     if (std::ranges::any_of(cubes.colors, is_clear))
         notes.emplace_back("transparent voxels became opaque");

@@ -50,8 +50,12 @@ struct VoxMaterial {
     float specular = 1;
     float ior = 1.3f;
     float density = 0;  ///< of what attenuates light inside
-    float flux = 0;     ///< power of emission, in powers
+    float flux = 0;     ///< power of emission, in powers: light is (1 + flux)² times as strong
+    bool is_flux_cut = false;  ///< the file has more than kMaxFlux
 };
+
+/// More than MagicaVoxel gives.
+inline constexpr float kMaxFlux = 8;
 
 /// Where an object stands from a frame on.
 struct VoxPose {

@@ -70,7 +70,9 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
                                               : 1 + number_in(values, "_ior", 0.3f),
                        1.0f, 3.0f);
     m.density = std::clamp(first_in(values, {"_d", "_att"}, 0), 0.0f, 1.0f);
-    m.flux = std::clamp(number_in(values, "_flux", 0), 0.0f, 8.0f);
+    const float flux = number_in(values, "_flux", 0);
+    m.flux = std::clamp(flux, 0.0f, kMaxFlux);
+    m.is_flux_cut = flux > kMaxFlux;
 }
 
 VoxDictionary values_of(const VoxMaterial& m) {

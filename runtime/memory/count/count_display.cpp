@@ -9,6 +9,7 @@
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/stages/display/display_medium.hpp"
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -114,6 +115,14 @@ class DisplayCounter {
             is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
         const ProbePoints points = allocate_points(device_, numbered(found));
         choose(numbered(shown));
+        if (features.medium) measure_medium();
+    }
+
+    /// Counts the voxels of the medium that are looked for together.
+    void measure_medium() const {
+        const Buffer<float> means = allocate_medium_means(device_, features_, frame_.size);
+        const ProbePoints middles =
+            allocate_points(device_, is_least_ ? 16 : medium_rows(frame_.size) * frame_.size.x);
     }
 
     /// Counts the voxels that are shown, and their points.

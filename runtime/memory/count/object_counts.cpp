@@ -123,13 +123,12 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFram
 
 /// What a solid's surface takes of a lattice in its own space.
 SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& frame) {
-    const auto [entry, added] = of_solids_.try_emplace({&model, frame.voxel_edge.x});
-    if (!added) return entry->second;
-    TakenBricks taken(frame);
-    return entry->second =
-               with_margin(count_model(model, kOwnSpace, frame, whole_of(frame),
+    return of_solids_.of(model, frame.voxel_edge.x, [&] {
+        TakenBricks taken(frame);
+        return with_margin(count_model(model, kOwnSpace, frame, whole_of(frame),
                                        model_rule(model.surface, is_solid_set(model)), taken)
                                .extent);
+    });
 }
 
 /// What a solid takes of its part of the world's lattice, where it has a grid of its own.

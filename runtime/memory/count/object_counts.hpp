@@ -5,7 +5,6 @@
 
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "runtime/analysis/object_lattice.hpp"
@@ -14,6 +13,7 @@
 #include "runtime/memory/count/count_world.hpp"
 #include "runtime/memory/count/plan_extent.hpp"
 #include "runtime/memory/count/plan_object.hpp"
+#include "runtime/memory/count/solid_extents.hpp"
 
 namespace voxelume {
 
@@ -25,8 +25,12 @@ enum class Estimate : uint8_t {
 /// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
 class ObjectCounts {
   public:
-    ObjectCounts(const Scene& scene, AssetStore& meshes)
-        : scene_(scene), meshes_(meshes), extents_(scene, meshes), lattices_(scene, meshes) {}
+    ObjectCounts(const Scene& scene, AssetStore& meshes, SolidExtents& solids)
+        : scene_(scene),
+          meshes_(meshes),
+          extents_(scene, meshes),
+          lattices_(scene, meshes),
+          of_solids_(solids) {}
 
     /// The grid of a model in its own space; of an object in the world's, or a part of it.
     GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
@@ -60,8 +64,7 @@ class ObjectCounts {
     AssetStore& meshes_;
     ObjectExtents extents_;
     ObjectLattices lattices_;
-    /// Extents of solids in their models' spaces, by the edges of voxels.
-    std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
+    SolidExtents& of_solids_;
     std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
     std::optional<WorldCounts> expected_;                ///< in the world
     std::vector<SurfaceExtent> in_world_;                ///< of each object, of these

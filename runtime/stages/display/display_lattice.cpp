@@ -67,6 +67,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       mask_(allocate_display_mask(device, frame.size)),
       program_(device, "display_lattice.cl", features.defines(device)),
       aim_(program_.kernel("aim_rays")),
+      objects_(program_.kernel("note_objects")),
       note_(program_.kernel("note_view")),
       mark_(program_.kernel("mark_shown")),
       count_(program_.kernel("count_groups")),
@@ -82,15 +83,52 @@ void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32
     rays_ += count;
 }
 
+void DisplayLatticeStage::leave_out_objects(const RayBatch& batch) {
+    in_object_ = Buffer<uint32_t>(device_, "display points", batch.stride);
+}
+
+void DisplayLatticeStage::note_objects(const RayBatch& entries, uint32_t count, bool is_first) {
+    objects_.launch(WorkItem::light, count, entries, uint32_t(is_first), count, in_object_);
+}
+
 void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePoints& points,
                                  uint32_t view, float max_covered) {
     for (uint32_t first = 0; first < points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, points.count - first);
         aim(points, view + 1, first, count, batch);
+        if (!in_object_.empty()) in_object_.fill(0);
         look(batch, count);
-        note_.launch(WorkItem::light, count, batch.hits, batch.coverage, first, count, batch.stride,
-                     view, max_covered, points.views);
+        note_.launch(WorkItem::light, count, batch.hits, batch.coverage, in_object_,
+                     uint32_t(!in_object_.empty()), first, count, batch.stride, view, max_covered,
+                     points.views);
     }
+}
+
+std::vector<bool> DisplayLatticeStage::are_visible(const LookAhead& look, RayBatch& batch,
+                                                   std::span<const glm::vec3> points) {
+    std::vector<bool> visible(points.size());
+    std::vector<uint32_t> left(points.size());
+    std::iota(left.begin(), left.end(), 0u);
+    const bool is_observer = visibility_ == Visibility::observer;
+    const uint32_t first = is_observer ? 0 : 1, end = is_observer ? 1 : uint32_t(views_.size());
+    for (uint32_t view = first; view < end && !left.empty(); ++view) {
+        ProbePoints probes = allocate_points(device_, uint32_t(left.size()));
+        std::vector<float> coordinates(size_t(probes.total) * 3);
+        for (size_t i = 0; i < left.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                coordinates[size_t(axis) * probes.total + i] = points[left[i]][axis];
+        probes.coordinates.write(coordinates);
+        probes.views.fill(kNoView);
+        search(look, batch, probes, view, kMaxCovered);
+        const std::vector<uint32_t> views = probes.views.read();
+        std::vector<uint32_t> hidden;
+        for (size_t i = 0; i < left.size(); ++i) {
+            visible[left[i]] = views[i] != kNoView;
+            if (views[i] == kNoView) hidden.push_back(left[i]);
+        }
+        left = std::move(hidden);
+    }
+    return visible;
 }
 
 void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
@@ -150,14 +188,15 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     return shown;
 }
 
-void DisplayLatticeStage::keep(const Environment& environment, const RayBatch& batch,
+void DisplayLatticeStage::keep(const SpaceMedium& medium, const RayBatch& batch,
                                const NodeLight& nodes, const LightTask& task, uint32_t first,
                                uint32_t count, VoxelArrays& voxels) {
-    keep_.launch_packets(count, camera_, shape_of(world_), environment, batch, nodes, task.targets,
+    keep_.launch_packets(count, camera_, shape_of(world_), medium.environment, medium.density,
+                         medium.density.colors, batch, nodes, task.targets,
                          uint32_t(!task.targets.empty()), first, count, voxels);
 }
 
-void DisplayLatticeStage::light_points(const LightRays& light_rays, const Environment& environment,
+void DisplayLatticeStage::light_points(const LightRays& light_rays, const SpaceMedium& medium,
                                        RayBatch& batch, const LightTask& task,
                                        VoxelArrays& voxels) {
     for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
@@ -165,14 +204,13 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const Enviro
         aim(task.points, 0, first, count, batch);
         if (!transmission_) {
             light_rays(batch, count, {});
-            keep(environment, batch, {batch.radiance, {}, batch.stride}, task, first, count,
-                 voxels);
+            keep(medium, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
             continue;
         }
         // The nearest surface is the voxel's; those behind have voxels of their own.
         light_rays(batch, count,
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
-                       if (is_first) keep(environment, entries, nodes, task, first, count, voxels);
+                       if (is_first) keep(medium, entries, nodes, task, first, count, voxels);
                    });
     }
 }
@@ -210,9 +248,8 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
 }
 
 void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_rays,
-                                const Environment& environment, RayBatch& batch,
-                                ShownVoxels& shown) {
-    light_points(light_rays, environment, batch, {shown.points, {}}, shown.voxels);
+                                const SpaceMedium& medium, RayBatch& batch, ShownVoxels& shown) {
+    light_points(light_rays, medium, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
     const auto look_elsewhere = [&](bool hidden) {
         for (uint32_t view = 1; view < views_.size(); ++view) {
@@ -220,7 +257,7 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
             if (!hidden) search(look, batch, missed.points, view, kMaxCovered);
-            light_points(light_rays, environment, batch, missed, shown.voxels);
+            light_points(light_rays, medium, batch, missed, shown.voxels);
         }
     };
     // A ray along the surface at its point, as at an outline or along a wall, may miss the surface.
@@ -232,7 +269,7 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             shift[side / 2] = side % 2 == 0 ? by : -by;
             const LightTask missed = missed_points(shown, shift, host);
             if (missed.points.count == 0) return;
-            light_points(light_rays, environment, batch, missed, shown.voxels);
+            light_points(light_rays, medium, batch, missed, shown.voxels);
         }
     if (visibility_ != Visibility::observer) look_elsewhere(true);
 }

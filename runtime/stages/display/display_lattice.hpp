@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/display/display_scan.hpp"
@@ -27,6 +29,12 @@ using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 /// surfaces.
 using LightRays = std::function<void(RayBatch& batch, uint32_t count, const LayerSink& sink)>;
 
+/// The medium between the observer and surfaces. `density` is empty where it is 1 everywhere.
+struct SpaceMedium {
+    Environment environment;
+    DensityGrid density;
+};
+
 /// The kernels of display_lattice.cl: the paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:
@@ -38,11 +46,21 @@ class DisplayLatticeStage {
     /// allows.
     void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
 
+    /// Which of some points, in lattice voxels, are visible in one of the views that the display's
+    /// visibility allows. Points without a view yet are looked at together, view by view.
+    std::vector<bool> are_visible(const LookAhead& look, RayBatch& batch,
+                                  std::span<const glm::vec3> points);
+
+    /// Has points that lie in objects find no view from now on. `note_objects` must then be the
+    /// sink of the layers that `look` traces.
+    void leave_out_objects(const RayBatch& batch);
+    void note_objects(const RayBatch& entries, uint32_t count, bool is_first);
+
     /// The voxels of all points that have a view.
     ShownVoxels choose(const std::vector<ProbePoints>& pieces);
 
     /// Lights the voxels, batch by batch.
-    void light(const LookAhead& look, const LightRays& light_rays, const Environment& environment,
+    void light(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
                RayBatch& batch, ShownVoxels& shown);
 
     /// One bit for every voxel of the lattice, 1 for those that are shown.
@@ -59,9 +77,9 @@ class DisplayLatticeStage {
         Buffer<uint32_t> targets;
     };
     /// Adds the light of batch rays from `first` on, which `nodes` holds, to their voxels.
-    void keep(const Environment& environment, const RayBatch& batch, const NodeLight& nodes,
+    void keep(const SpaceMedium& medium, const RayBatch& batch, const NodeLight& nodes,
               const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
-    void light_points(const LightRays& light_rays, const Environment& environment, RayBatch& batch,
+    void light_points(const LightRays& light_rays, const SpaceMedium& medium, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
     /// The points of all voxels, read from the device when the first one is missed.
     struct HostPoints {
@@ -80,9 +98,10 @@ class DisplayLatticeStage {
     const Pyramid& world_;
     Buffer<float4> views_;
     uint32_t groups_;
-    Buffer<uint32_t> mask_;  ///< one bit for every voxel of the lattice
+    Buffer<uint32_t> in_object_;  ///< of a batch's rays; empty: points in objects have views, too
+    Buffer<uint32_t> mask_;       ///< one bit for every voxel of the lattice
     Program program_;
-    Kernel aim_, note_, mark_, count_, list_, choose_, take_, keep_;
+    Kernel aim_, objects_, note_, mark_, count_, list_, choose_, take_, keep_;
     uint64_t rays_ = 0;
 };
 

@@ -181,6 +181,9 @@ DensityGrid form_density_grid(const Device& device, const World& world,
     for (size_t number = 0; number < words.size(); ++number) words[number] = writer.add(number);
     writer.write();
     grid.values.write(constants.values());
+    // Kernels read colours wherever another lane needs one, and a product with 0 must be 0.
+    if (lattice.has_colors())
+        grid.colors.write(std::vector<float>(3 * slots.constants * kBrickCells), 0);
     join_constants(words, lattice.bricks(), 4, 6);
     join_constants(words, lattice.bricks(), 16, 8);
     grid.bricks.write(words);

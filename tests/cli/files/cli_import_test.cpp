@@ -7,6 +7,7 @@
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "tests/support/program_runner.hpp"
+#include "tests/support/writers/vox_writer.hpp"
 
 namespace voxelume {
 
@@ -100,6 +101,16 @@ TEST_F(CliImportTest, InfoListsWhatAMagicaVoxelFileHolds) {
     EXPECT_EQ(report["object list"][5]["mirrored"], true);
     EXPECT_EQ(report["material list"][0]["material"], "glass 7");
     EXPECT_FALSE(report.contains("not shown"));
+}
+
+TEST_F(CliImportTest, InfoSaysWhichFluxesAreCut) {
+    VoxWriter writer;
+    writer.model({2, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}});
+    writer.material(1, {{"_type", "_emit"}, {"_flux", "8"}});
+    writer.material(2, {{"_type", "_emit"}, {"_flux", "9.5"}});
+    put_bytes(folder / "bright.vox", writer.bytes());
+    const auto report = nlohmann::json::parse(run("info --json bright.vox").out);
+    EXPECT_EQ(report["not shown"], nlohmann::json({"1 fluxes above 8, which are 8 here"}));
 }
 
 TEST_F(CliImportTest, ChoicesThatMakeNoSenseAreUsageErrors) {

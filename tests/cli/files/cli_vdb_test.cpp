@@ -54,6 +54,11 @@ TEST_F(CliVdbTest, ASequenceWithOverlappingFramesIsReadToItsEnd) {
     EXPECT_TRUE(std::filesystem::exists(folder / fmt::format("o.{:03}.png", frames)));
 }
 
+TEST_F(CliVdbTest, ALevelSetIsViewedAsWhatItIs) {
+    ASSERT_EQ(run("view a.vdb -o a.png --size 80x64").exit_code, 0);
+    EXPECT_GT(bytes_of(folder / "a.png").size(), 200u);
+}
+
 TEST_F(CliVdbTest, DamagedFilesAreRefusedByEveryCommand) {
     write_vdb_scene("bad.vdb");
     const auto expect_refused = [&](int code, const std::string& arguments) {

@@ -25,6 +25,15 @@ struct ColorCells {
     }
 };
 
+/// The shape of an array without colours.
+std::array<int, 3> shape_of(const std::string& npy) {
+    std::array<int, 3> shape{};
+    EXPECT_EQ(std::sscanf(npy.c_str() + npy.find("'shape': ("), "'shape': (%d, %d, %d)",
+                          shape.data(), &shape[1], &shape[2]),
+              3);
+    return shape;
+}
+
 ColorCells cells_of(const std::string& npy) {
     const size_t shape = npy.find("'shape': (");
     ColorCells cells;
@@ -166,6 +175,57 @@ TEST_F(CliVoxelizeTest, AMeshHasTheColorsOfItsMaterials) {
     EXPECT_EQ(cells.at(4, 4, 0), (std::array{255, 0, 0, 255}));
     EXPECT_EQ(cells.at(4, 4, cells.size[2] - 1), (std::array{0, 255, 0, 255}));
     EXPECT_EQ(cells.at(4, 4, cells.size[2] / 2), (std::array{0, 0, 0, 0}));
+}
+
+TEST_F(CliVoxelizeTest, NumberedFilesAreFramesWithVoxelsOfOneSize) {
+    for (const int number : {1, 2, 4})
+        put_bytes(folder / fmt::format("m.{:04}.obj", number),
+                  fmt::format("v 0 0 0\nv {} 0 0\nv 0 1 0\nv 0 0 1\n"
+                              "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+                              number));
+    const ProgramResult all = run("voxelize m.####.obj -o v.####.npy -o v.%04d.vox --resolution 8");
+    ASSERT_EQ(all.exit_code, 0) << all.err;
+    EXPECT_THAT(all.err, HasSubstr("1 gap; the first begins at m.0003.obj"));
+    for (const int number : {1, 2, 4}) {
+        // Triangles that lie between two voxels belong to both.
+        EXPECT_EQ(shape_of(bytes_of(folder / fmt::format("v.{:04}.npy", number))),
+                  (std::array{8 * number + 2, 10, 10}));
+        EXPECT_FALSE(bytes_of(folder / fmt::format("v.{:04}.vox", number)).empty());
+    }
+    ASSERT_EQ(run("voxelize m.####.obj --frames 2 -o one.npy --voxel-size 0.5 -q").exit_code, 0);
+    EXPECT_EQ(shape_of(bytes_of(folder / "one0002.npy")), (std::array{6, 4, 4}));
+}
+
+TEST_F(CliVoxelizeTest, FramesThatAreMissingOrShareAFileAreRefusedBeforeAnyIsWritten) {
+    put_bytes(folder / "t.obj", kTetrahedron);
+    put_bytes(folder / "m.0002.obj", kTetrahedron);
+    for (const auto& [code, words, message] :
+         {std::tuple{4, "m.####.obj --frames 1-8 -o v.####.vox",
+                     "7 of the 8 files are missing: m.0001.obj, m.0003.obj"},
+          {4, "n.####.obj -o v.####.vox", "no file has such a name"},
+          {2, "t.obj -o v.####.vox", "a mesh is one frame"},
+          {2, "m.####.obj -o v.####.vox --frame 2", "--frames chooses among numbered files"},
+          {2, "m.####.obj -o v.####.vox -o v.%04d.vox", "v.0002.vox"},
+          {2, "scene.json --frames 1-2 -o v.####.vox", "no frame 2: the last one is 1"},
+          {2, "scene.json --frames 1 --frame 1 -o v.####.vox", "excludes"}})
+        EXPECT_THAT(expect_failure(code, fmt::format("voxelize {}", words)), HasSubstr(message));
+    put_bytes(folder / "w.0001.vox", "VOX ");
+    EXPECT_THAT(expect_failure(2, "voxelize w.####.vox -o w.####.vox"),
+                HasSubstr("would replace a file"));
+}
+
+TEST_F(CliVoxelizeTest, AllFramesOfASceneAreWritten) {
+    write_scene([](Json& scene) {
+        scene["animation"] = {
+            {"frames", 3},
+            {"tracks",
+             {{{"target", "materials.brick.color"},
+               {"keys",
+                {{{"frame", 1}, {"value", {1, 0, 0}}}, {{"frame", 3}, {"value", {0, 0, 1}}}}}}}}};
+    });
+    ASSERT_EQ(run("voxelize scene.json -o s.##.npy").exit_code, 0);
+    EXPECT_EQ(cells_of(bytes_of(folder / "s.01.npy")).at(0, 0, 0), (std::array{255, 0, 0, 255}));
+    EXPECT_EQ(cells_of(bytes_of(folder / "s.03.npy")).at(0, 0, 0), (std::array{0, 0, 255, 255}));
 }
 
 TEST_F(CliVoxelizeTest, OptionsOfOtherInputsAreRefused) {

@@ -107,6 +107,30 @@ TEST_F(ArraySurfaceTest, NodesAtTheSurfaceHaveTheirValuesAndOthersTheirSides) {
     }
 }
 
+// Values close to `iso` at the end once went on through the nodes around the array, as rods.
+TEST_F(ArraySurfaceTest, NothingIsNearTheSurfaceTwoNodesBeyondTheEnd) {
+    std::mt19937 random(5);
+    CellArray array;
+    array.data = folder / "a.raw";
+    array.counts = {3, 19, 21};
+    std::vector<uint8_t> values(size_t(3) * 19 * 21);
+    for (uint8_t& value : values) value = uint8_t(random());
+    put_bytes(array.data, bytes_of_values(values));
+    const VoxelModel model = surface_of_array(array, {.iso = 127.5});
+    int beyond = 0;
+    for (int z = 0; z < model.frame.size.z; ++z)
+        for (int y = 0; y < model.frame.size.y; ++y)
+            for (int x = 0; x < model.frame.size.x; ++x) {
+                const glm::ivec3 node(x, y, z);
+                const glm::ivec3 off =
+                    glm::abs(node - glm::clamp(node, glm::ivec3(4), array.counts + 3));
+                if (std::max({off.x, off.y, off.z}) < 2) continue;
+                EXPECT_GE(distance_at(model, node), kDistanceUnitsPerVoxel) << x << " " << y;
+                ++beyond;
+            }
+    EXPECT_GT(beyond, 1000);
+}
+
 TEST(CellBits, CellsSpreadAlongEachAxis) {
     std::mt19937 random(4);
     for (const glm::ivec3& counts : {glm::ivec3(130, 7, 5), {64, 9, 3}, {3, 1, 12}}) {

@@ -180,6 +180,17 @@ TEST_F(CubeWritersTest, MagicaVoxelKeepsMaterials) {
     }
 }
 
+TEST_F(CubeWritersTest, LightThatAMaterialCantHaveIsNoted) {
+    CubeList cubes = odd_cubes(100, 4);
+    cubes.materials = {{}, material_of(VoxMaterialKind::emit, 1)};
+    cubes.materials[1].vox.flux = kMaxFlux;
+    cubes.materials[1].vox.is_flux_cut = true;
+    cubes.material_numbers.assign(cubes.cells.size(), 0);
+    EXPECT_THAT(write(cubes, "a.vox"), IsEmpty()) << "no voxel has it";
+    cubes.material_numbers[7] = 1;
+    EXPECT_THAT(write(cubes, "a.vox"), HasSubstr("emission above 81 became 81"));
+}
+
 TEST_F(CubeWritersTest, MagicaVoxelSharesItsColoursAmongMaterials) {
     CubeList cubes = odd_cubes(4000, 2000);
     cubes.materials = {

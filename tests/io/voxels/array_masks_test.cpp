@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays of masks, one for each of several labels, and of one channel.
+#include <gtest/gtest.h>
+
+#include "runtime/assets/voxel_model_file.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/voxel_cells.hpp"
+#include "tests/support/writers/array_writer.hpp"
+
+namespace voxelume {
+
+class ArrayMasksTest : public FileTest {
+  protected:
+    std::filesystem::path put(const std::string& name, const std::string& bytes) {
+        put_bytes(folder / name, bytes);
+        return folder / name;
+    }
+    VoxelModel cubes(const std::filesystem::path& file) {
+        return read_voxel_model(file, Surface::cubes, 0, {});
+    }
+};
+
+TEST_F(ArrayMasksTest, ColoursOfZeroAndOneAreNoneAndAllOfAColour) {
+    // Masks of three labels, one behind the other: (1, 1, 3) cells, and the same with an opacity.
+    const VoxelCells expected = {{{0, 0, 0}, {0x0000FF, ""}}, {{0, 0, 1}, {0xFFFF00, ""}}};
+    const std::vector<uint8_t> masks = {1, 0, 0, 0, 1, 1, 0, 0, 0};
+    for (const char* type : {"|u1", "|b1"})
+        EXPECT_EQ(
+            cells_of(cubes(put("m.npy", npy_bytes(type, "1, 1, 3, 3", bytes_of_values(masks))))),
+            expected);
+    EXPECT_EQ(cells_of(cubes(put("w.npy", npy_bytes("<u2", "1, 1, 3, 3",
+                                                    bytes_of_values(std::vector<uint16_t>(
+                                                        masks.begin(), masks.end())))))),
+              expected);
+    // Fortran's order has all reds first.
+    const std::vector<uint8_t> planes = {1, 0, 0, 0, 1, 0, 0, 1, 0};
+    EXPECT_EQ(cells_of(cubes(
+                  put("f.npy", npy_bytes("|u1", "1, 1, 3, 3", bytes_of_values(planes), true)))),
+              expected);
+    // One number above 1, and they are colours as they are.
+    const std::vector<uint8_t> colors = {1, 0, 0, 0, 1, 2, 0, 0, 0};
+    EXPECT_EQ(
+        cells_of(cubes(put("c.npy", npy_bytes("|u1", "1, 1, 3, 3", bytes_of_values(colors))))),
+        (VoxelCells{{{0, 0, 0}, {0x000001, ""}}, {{0, 0, 1}, {0x020100, ""}}}));
+}
+
+TEST_F(ArrayMasksTest, OneChannelIsValues) {
+    const std::vector<uint8_t> values = {0, 3, 3, 0};
+    EXPECT_EQ(
+        cells_of(cubes(put("a.npy", npy_bytes("|u1", "1, 2, 2, 1", bytes_of_values(values))))),
+        (VoxelCells{{{0, 0, 1}, {}}, {{0, 1, 0}, {}}}));
+}
+
+}  // namespace voxelume
