@@ -36,6 +36,10 @@ double common_value(double a, double b) {
     return std::max(a, b);
 }
 
+double bitten_value(double body, double bite) {
+    return std::max(body, -bite);
+}
+
 /// A solid of rounded parts, and its function.
 struct CombinedSolid {
     const char* name;
@@ -84,6 +88,51 @@ const std::array kCombinedSolids = {
                                              -ball_value(p, {-0.3, 0.6, 0.4}, glm::dvec3(0.4)));
             return std::min(ring_value(p),
                             common_value(ball_value(p, glm::dvec3(0), {0.7, 0.9, 0.6}), left));
+        }},
+    CombinedSolid{
+        "two bitten balls and a lens", R"("shape": "union", "parts": [
+              {"shape": "difference", "position": [-0.3, 0, 0], "parts": [
+                  {"shape": "sphere", "radius": 0.6},
+                  {"shape": "sphere", "radius": 0.4, "position": [-0.1, 0.4, 0.35]}]},
+              {"shape": "difference", "position": [0.4, 0.1, 0.1], "parts": [
+                  {"shape": "sphere", "radius": 0.5},
+                  {"shape": "sphere", "radius": 0.3, "position": [0.1, 0.3, 0.3]}]},
+              {"shape": "intersection", "position": [0, -0.35, 0.4], "parts": [
+                  {"shape": "sphere", "radius": 0.5, "position": [-0.2, 0, 0]},
+                  {"shape": "sphere", "radius": 0.5, "position": [0.2, 0, 0]}]}])",
+        [](const glm::dvec3& p) {
+            const double left = bitten_value(ball_value(p, {-0.3, 0, 0}, glm::dvec3(0.6)),
+                                             ball_value(p, {-0.4, 0.4, 0.35}, glm::dvec3(0.4)));
+            const double right = bitten_value(ball_value(p, {0.4, 0.1, 0.1}, glm::dvec3(0.5)),
+                                              ball_value(p, {0.5, 0.4, 0.4}, glm::dvec3(0.3)));
+            const double lens = common_value(ball_value(p, {-0.2, -0.35, 0.4}, glm::dvec3(0.5)),
+                                             ball_value(p, {0.2, -0.35, 0.4}, glm::dvec3(0.5)));
+            return std::min({left, right, lens});
+        }},
+    CombinedSolid{
+        "ball without two rings of bites", R"("shape": "difference", "parts": [
+              {"shape": "union", "parts": [
+                  {"shape": "difference", "parts": [
+                      {"shape": "sphere", "radius": 0.9},
+                      {"shape": "sphere", "radius": 0.5, "position": [0.2, 0.6, 0.5]}]},
+                  {"shape": "sphere", "radius": 0.35, "position": [0.25, 0.5, 0.45]}]},
+              {"shape": "difference", "position": [-0.5, 0.2, 0.6], "parts": [
+                  {"shape": "sphere", "radius": 0.4},
+                  {"shape": "union", "parts": [
+                      {"shape": "sphere", "radius": 0.25, "position": [-0.05, 0, 0.1]},
+                      {"shape": "difference", "parts": [
+                          {"shape": "sphere", "radius": 0.2, "position": [0.2, 0.1, 0.1]},
+                          {"shape": "sphere", "radius": 0.12, "position": [0.25, 0.15, 0.2]}]}]}]}])",
+        [](const glm::dvec3& p) {
+            const auto ball = [&](const glm::dvec3& centre, double radius) {
+                return ball_value(p, centre, glm::dvec3(radius));
+            };
+            const double body = bitten_value(ball(glm::dvec3(0), 0.9), ball({0.2, 0.6, 0.5}, 0.5));
+            const double kept =
+                bitten_value(ball({-0.3, 0.3, 0.7}, 0.2), ball({-0.25, 0.35, 0.8}, 0.12));
+            const double bite = bitten_value(ball({-0.5, 0.2, 0.6}, 0.4),
+                                             std::min(ball({-0.55, 0.2, 0.7}, 0.25), kept));
+            return bitten_value(std::min(body, ball({0.25, 0.5, 0.45}, 0.35)), bite);
         }}};
 
 /// `cells`: the world's voxels along an axis.
