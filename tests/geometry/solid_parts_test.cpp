@@ -124,6 +124,9 @@ TEST(SolidParts, StandInThreeBracketsAtMost) {
     EXPECT_EQ(parts_of(alternating(4)).size(), 16u);
     const std::vector<SolidPart> parts = parts_of(alternating(5));
     EXPECT_EQ(parts.size(), 31u) << "one pair is left whole";
+    EXPECT_TRUE(parts.back().is_undivided);
+    EXPECT_EQ(count_undivided(alternating(5)), 1u);
+    EXPECT_EQ(count_undivided(alternating(4)), 0u);
 }
 
 TEST(SolidParts, WithFacesInOnePlaneAreOnePart) {

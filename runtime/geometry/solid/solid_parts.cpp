@@ -58,7 +58,7 @@ class PartWriter {
     }
 
     void write_whole(const SolidTerm& term, FieldLink link) {
-        parts.push_back({term.whole, term.is_complement, {link, brackets_}});
+        parts.push_back({term.whole, term.is_complement, {link, brackets_}, !term.is_shape()});
     }
 
     std::vector<FieldBracket> brackets_;
@@ -71,6 +71,10 @@ std::vector<SolidPart> parts_of(const Solid& solid) {
     PartWriter writer;
     writer.write(formula_of(solid), FieldLink::none);
     return std::move(writer.parts);
+}
+
+size_t count_undivided(const Solid& solid) {
+    return size_t(std::ranges::count_if(parts_of(solid), &SolidPart::is_undivided));
 }
 
 uint32_t count_nodes(const Solid& solid) {

@@ -14,6 +14,7 @@ struct SolidPart {
     Solid solid;
     bool is_complement = false;  ///< the part is all that lies outside of `solid`
     FieldPlace place;            ///< in the formula of the parts
+    bool is_undivided = false;   ///< `solid` is a combination whose brackets were too many
 };
 
 /// The parts that make up a solid when they are joined by their places: all shapes of its tree.
@@ -21,6 +22,9 @@ struct SolidPart {
 /// which takes a tree of 32 shapes at least. Shapes of a union that have faces in one plane where
 /// they meet are one part.
 std::vector<SolidPart> parts_of(const Solid& solid);
+
+/// Combinations among a solid's parts that stay whole, so that edges within them are rounded.
+size_t count_undivided(const Solid& solid);
 
 /// The nodes of a solid's tree.
 uint32_t count_nodes(const Solid& solid);
