@@ -27,11 +27,14 @@ class PartWriter {
 
     /// Writes a term whose first part is joined by `link`, inside of the brackets that are open.
     void write(const SolidTerm& term, FieldLink link) {
-        if (term.is_shape()) {
+        if (term.is_shape())
             write_whole(term, link);
-            return;
-        }
-        const size_t first = first_of(term);
+        else
+            write_from(term, first_of(term), link);
+    }
+
+    /// Writes a term that isn't a shape, its inner term `first` before the others.
+    void write_from(const SolidTerm& term, size_t first, FieldLink link) {
         write(term.terms[first], link);
         for (size_t i = 0; i < term.terms.size(); ++i)
             if (i != first) write_joined(term.terms[i], term.link);
@@ -70,6 +73,16 @@ class PartWriter {
 std::vector<SolidPart> parts_of(const Solid& solid) {
     PartWriter writer;
     writer.write(formula_of(solid), FieldLink::none);
+    return std::move(writer.parts);
+}
+
+std::vector<SolidPart> parts_behind_first(const Solid& difference) {
+    PartWriter writer;
+    const SolidTerm formula = formula_of(difference);
+    if (formula.is_shape())
+        writer.write(formula, FieldLink::none);
+    else
+        writer.write_from(formula, 0, FieldLink::none);
     return std::move(writer.parts);
 }
 

@@ -23,6 +23,9 @@ struct SolidPart {
 /// they meet are one part.
 std::vector<SolidPart> parts_of(const Solid& solid);
 
+/// The parts of a difference whose first part is a shape: that shape comes first.
+std::vector<SolidPart> parts_behind_first(const Solid& difference);
+
 /// Combinations among a solid's parts that stay whole, so that edges within them are rounded.
 size_t count_undivided(const Solid& solid);
 
