@@ -15,6 +15,7 @@
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"
+#include "runtime/stages/display/display_samples.hpp"
 #include "runtime/stages/trace/beam.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -203,7 +204,17 @@ void render_lattice(Work& work, Volume& volume) {
     const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
         illumination.light(rays, count, sink);
     };
-    display.light(look, light_rays, environment_of(work.scene.world), batch, shown);
+    const Environment environment = environment_of(work.scene.world);
+    std::optional<DisplaySampleStage> samples;
+    DisplayLatticeStage::PointSink keep_normals;
+    if (work.scene.render.samples > 1 && shown.voxels.count > 0) {
+        samples.emplace(work.device, without_varying_medium(work.features), work.camera, work.frame,
+                        work.world, uint32_t(work.scene.render.samples), shown);
+        keep_normals = [&](const RayBatch& rays, const Buffer<uint32_t>& targets, uint32_t first,
+                           uint32_t count) { samples->keep_normals(rays, targets, first, count); };
+    }
+    display.light(look, light_rays, environment, batch, shown, keep_normals);
+    if (samples) samples->light(light_rays, environment, display.views(), batch, shown);
     std::optional<DisplayCoverStage> cover;
     if (work.features.transmission && shown.voxels.count > 0) {
         cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
@@ -214,7 +225,7 @@ void render_lattice(Work& work, Volume& volume) {
     report_progress(3);
     work.report.display_lines = scan.lines();
     work.report.clear_display_lines = scan.clear_lines();
-    work.report.sight_rays += scan.lines() + display.rays();
+    work.report.sight_rays += scan.lines() + display.rays() + (samples ? samples->rays() : 0);
     count_rays(illumination, work.report);
     read_voxels(shown.voxels, volume);
     if (cover)

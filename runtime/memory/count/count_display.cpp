@@ -10,6 +10,7 @@
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"
+#include "runtime/stages/display/display_samples.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -120,8 +121,12 @@ class DisplayCounter {
     void choose(uint32_t shown) const {
         const VoxelArrays voxels = allocate_voxels(device_, shown);
         const ProbePoints chosen = allocate_points(device_, shown);
-        const Buffer<uint32_t> distances(device_, "display distances", shown);
-        const Buffer<uint32_t> numbers(device_, "display numbers", shown);
+        {
+            const Buffer<uint32_t> distances(device_, "display distances", shown);
+            const Buffer<uint32_t> numbers(device_, "display numbers", shown);
+        }
+        SampleSums sums;
+        if (scene_.render.samples > 1) sums = allocate_sample_sums(device_, shown);
         if (!features_.transmission) return;
         const Buffer<uint32_t> covers = allocate_covers(device_, shown);
     }

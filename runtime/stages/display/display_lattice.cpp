@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_arguments.hpp"
@@ -155,6 +156,7 @@ void DisplayLatticeStage::keep(const Environment& environment, const RayBatch& b
                                uint32_t count, VoxelArrays& voxels) {
     keep_.launch_packets(count, camera_, shape_of(world_), environment, batch, nodes, task.targets,
                          uint32_t(!task.targets.empty()), first, count, voxels);
+    if (sink_) sink_(batch, task.targets, first, count);
 }
 
 void DisplayLatticeStage::light_points(const LightRays& light_rays, const Environment& environment,
@@ -210,8 +212,9 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
 }
 
 void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_rays,
-                                const Environment& environment, RayBatch& batch,
-                                ShownVoxels& shown) {
+                                const Environment& environment, RayBatch& batch, ShownVoxels& shown,
+                                PointSink sink) {
+    sink_ = std::move(sink);
     light_points(light_rays, environment, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
     const auto look_elsewhere = [&](bool hidden) {

@@ -41,9 +41,16 @@ class DisplayLatticeStage {
     /// The voxels of all points that have a view.
     ShownVoxels choose(const std::vector<ProbePoints>& pieces);
 
-    /// Lights the voxels, batch by batch.
+    /// What else is kept of rays 0 .. count-1 of a batch, which are lit: ray n was aimed at voxel
+    /// targets[first + n], or first + n without targets.
+    using PointSink = std::function<void(const RayBatch& batch, const Buffer<uint32_t>& targets,
+                                         uint32_t first, uint32_t count)>;
+
+    /// Lights the voxels, batch by batch; `sink` may be empty.
     void light(const LookAhead& look, const LightRays& light_rays, const Environment& environment,
-               RayBatch& batch, ShownVoxels& shown);
+               RayBatch& batch, ShownVoxels& shown, PointSink sink = {});
+
+    const Buffer<float4>& views() const { return views_; }
 
     /// One bit for every voxel of the lattice, 1 for those that are shown.
     const Buffer<uint32_t>& mask() const { return mask_; }
@@ -82,6 +89,7 @@ class DisplayLatticeStage {
     uint32_t groups_;
     Buffer<uint32_t> mask_;  ///< one bit for every voxel of the lattice
     Program program_;
+    PointSink sink_;
     Kernel aim_, note_, mark_, count_, list_, choose_, take_, keep_;
     uint64_t rays_ = 0;
 };
