@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxels shown in the layout `lattice` -> the mean light of the surface in each.
 //
-// A voxel's probe point and the normal there stand for the surface in it: samples are spread evenly
-// over the part of that plane that lies in the voxel. Rays look at them as at the probe point, and
-// count where they meet a surface in the voxel.
+// A probe point and the normal there stand for a surface in a voxel: samples are spread evenly over
+// the part of that plane that lies in the voxel. Rays look at them as at the probe point, and count
+// where they meet a surface in the voxel. Of the probe points on lines along each axis a voxel has
+// one, which counts where its plane faces that axis most: two surfaces that meet in a voxel, as at
+// the rim of a plate, have a plane each.
 #include "lib/display/lattice_mask.h"
 #include "lib/display/probe.h"
 #include "lib/display/voxel_light.h"
@@ -16,13 +18,17 @@
 // How far outside of its voxel a sample may be met, in lattice voxels: surfaces lie on sides, too.
 #define VXL_SAMPLE_SLACK 0.00390625f
 
-/// Keeps the normals of rays 0 .. count-1, which were aimed as keep_light has it.
+// Surfaces that look downwards by so much have no samples: few see them, and the rims of plates
+// would have dark spots.
+#define VXL_LOOKS_DOWN 0.7f
+
+/// Keeps the normals of rays 0 .. count-1, which were aimed at voxels from `first_voxel` on.
 kernel void keep_normals(global const uint* restrict hits, global const float* restrict normals,
-                         uint stride, global const uint* restrict targets, uint listed,
-                         uint first_voxel, uint count, global float* restrict voxel_normals) {
+                         uint stride, uint first_voxel, uint count,
+                         global float* restrict voxel_normals) {
     const uint n = work_item();
     if (n >= count || hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL) return;
-    const size_t voxel = listed ? targets[first_voxel + n] : first_voxel + n;
+    const size_t voxel = first_voxel + n;
     for (uint axis = 0; axis < 3; ++axis)
         voxel_normals[3 * voxel + axis] = normals[axis * stride + n];
 }
@@ -39,6 +45,17 @@ static inline Vector voxel_corners(const DisplayLattice* l, global const ulong* 
     }
     const Vector corners = {LANES_LOAD(x, 0), LANES_LOAD(y, 0), LANES_LOAD(z, 0)};
     return corners;
+}
+
+/// The normals of a packet's voxels.
+static inline Vector kept_normals(global const float* restrict voxel_normals, uint first,
+                                  uint end) {
+    float n[3][VXL_LANES];
+    for (uint i = 0; i < VXL_LANES; ++i)
+        for (uint axis = 0; axis < 3; ++axis)
+            n[axis][i] = first + i < end ? voxel_normals[3 * (size_t)(first + i) + axis] : 0.0f;
+    const Vector normals = {LANES_LOAD(n[0], 0), LANES_LOAD(n[1], 0), LANES_LOAD(n[2], 0)};
+    return normals;
 }
 
 /// The planes that stand for the surfaces in a packet's voxels, in lattice voxels from their
@@ -94,17 +111,22 @@ static inline lane_int place_on_plane(const SamplePlane* s, lane_uint number, in
     p->x = LANES_SELECT(s->by_x, height, u);
     p->y = LANES_SELECT(s->by_y, height, LANES_SELECT(s->by_x, u, v));
     p->z = LANES_SELECT(s->by_z, height, v);
-    return some & LANE_MASK(height >= 0.0f) & LANE_MASK(height <= 1.0f);
+    const float slack = 0.5f * VXL_SAMPLE_SLACK;
+    return some & LANE_MASK(height >= -slack) & LANE_MASK(height <= 1.0f + slack);
 }
 
 /// Sample `sample` of `samples` on each plane: one of the places in its voxel, of that part of
 /// their order. `shift`, in 0 .. 1, says which. The mask of planes that have one.
 static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint samples,
-                                       lane_float shift, int log2, Vector* p) {
+                                       lane_float shift, int log2, Vector* p, lane_float* area) {
     const uint places = 1u << 2 * log2;
     lane_uint count = (lane_uint)0u;
     for (uint i = 0; i < places; ++i)
         count += LANES_AS_UINT(place_on_plane(s, (lane_uint)i, log2, p)) & 1u;
+    const Vector n = s->normal;
+    const lane_float most = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z));
+    *area = exact_divide(LANES_FLOAT(LANES_AS_INT(count)) * exact_sqrt(dot_product(n, n)),
+                         LANES_SELECT(LANE_MASK(most > 0.0f), most, (lane_float)1.0f));
     const lane_float in_order =
         ((float)sample + shift) * LANES_FLOAT(LANES_AS_INT(count)) * (1.0f / (float)samples);
     const lane_uint wanted =
@@ -134,34 +156,37 @@ static inline lane_float voxel_shift(global const ulong* restrict indices, uint 
     return sum - floor(sum);
 }
 
-/// Aims rays at sample `sample` of `samples` of voxels first_voxel .. first_voxel+count-1, of
-/// 4^log2 places. Where the plane isn't in the voxel, they are idle.
+/// Aims rays at sample `sample` of `samples` of voxels first_voxel .. first_voxel+count-1, and
+/// writes the rays' weights. Planes have 4^log2 places, and face `axis` most. Without `samples`
+/// rays are aimed at the probe points themselves. Where there is nothing to aim at, they are idle.
 kernel void aim_samples(Camera camera, PyramidShape shape, DisplayLattice lattice,
                         global const float4* restrict views, VXL_POINTS_PARAMETERS,
                         global const ulong* restrict indices,
-                        global const float* restrict voxel_normals, uint sample, uint samples,
-                        float turn, int log2, uint first_voxel, uint count, uint stride,
-                        global float* restrict rays) {
+                        global const float* restrict voxel_normals, int axis, uint sample,
+                        uint samples, float turn, int log2, uint first_voxel, uint count,
+                        uint stride, global float* restrict weights, global float* restrict rays) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const ProbePoints all = VXL_POINTS;
     const uint voxel = first_voxel + first;
-    const Vector at = load_vector(all.points + first_voxel, all.total, first);
-    const Vector corner = voxel_corners(&lattice, indices, voxel, first_voxel + count);
-    float n[3][VXL_LANES];
-    for (uint i = 0; i < VXL_LANES; ++i)
-        for (uint axis = 0; axis < 3; ++axis)
-            n[axis][i] = first + i < count ? voxel_normals[3 * (size_t)(voxel + i) + axis] : 0.0f;
-    const Vector normal = {LANES_LOAD(n[0], 0), LANES_LOAD(n[1], 0), LANES_LOAD(n[2], 0)};
-    const Vector in_voxel = {at.x - corner.x, at.y - corner.y, at.z - corner.z};
-    const SamplePlane plane = sample_plane(&lattice, shape.edge, in_voxel, normal);
-    const lane_float shift = voxel_shift(indices, voxel, first_voxel + count, turn);
-    Vector p;
+    Vector point = load_vector(all.points + first_voxel, all.total, first);
     const lane_uint known = LANES_LOAD(all.views, voxel);
-    const lane_int aimed = sample_on_plane(&plane, sample, samples, shift, log2, &p) &
-                           LANE_MASK(LANES_NUMBERS + (int)first < (int)count) &
-                           LANE_MASK(known != 0xFFFFFFFFu);
-    const Vector point = {corner.x + p.x, corner.y + p.y, corner.z + p.z};
+    lane_int aimed =
+        LANE_MASK(LANES_NUMBERS + (int)first < (int)count) & LANE_MASK(known != 0xFFFFFFFFu);
+    if (samples > 0u) {
+        const Vector corner = voxel_corners(&lattice, indices, voxel, first_voxel + count);
+        const Vector in_voxel = {point.x - corner.x, point.y - corner.y, point.z - corner.z};
+        const Vector normal = kept_normals(voxel_normals, voxel, first_voxel + count);
+        const SamplePlane plane = sample_plane(&lattice, shape.edge, in_voxel, normal);
+        aimed &= LANE_MASK(normal.y >= -VXL_LOOKS_DOWN);
+        const lane_float shift = voxel_shift(indices, voxel, first_voxel + count, turn);
+        Vector p;
+        lane_float area;
+        aimed &= axis == 0 ? plane.by_x : axis == 1 ? plane.by_y : plane.by_z;
+        aimed &= sample_on_plane(&plane, sample, samples, shift, log2, &p, &area);
+        point.x = corner.x + p.x, point.y = corner.y + p.y, point.z = corner.z + p.z;
+        LANES_STORE(LANES_SELECT(aimed, area, (lane_float)0.0f), weights, first);
+    }
     ProbeWay way = way_from_eye(&camera, shape.edge, point_in_world(&lattice, point));
     look_along_views(views, known & LANES_AS_UINT(aimed), &way);
     way.aimed &= aimed;
@@ -178,12 +203,12 @@ static inline lane_int is_within(lane_float coordinate, lane_float corner) {
            LANE_MASK(coordinate <= corner + (1.0f + VXL_SAMPLE_SLACK));
 }
 
-/// Adds the light of rays that aim_samples aimed to their voxels' sums: of colours times opacities,
-/// and of opacities.
+/// Adds the light of rays that aim_samples aimed to their voxels' sums: of colours times weights,
+/// and of weights, which are areas times opacities.
 kernel void add_samples(PyramidShape shape, DisplayLattice lattice, Environment environment,
                         VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
-                        global const ulong* restrict indices, uint first_voxel, uint count,
-                        global float* restrict sums) {
+                        global const ulong* restrict indices, global const float* restrict weights,
+                        uint first_voxel, uint count, global float* restrict sums) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;
@@ -205,9 +230,10 @@ kernel void add_samples(PyramidShape shape, DisplayLattice lattice, Environment 
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         if (!added[i]) continue;
         global float* sum = sums + 4 * (size_t)(first_voxel + first + i);
+        const float weight = opacity[i] * weights[first + i];
         for (uint channel = 0; channel < 3; ++channel)
-            sum[channel] += opacity[i] * color[channel * VXL_LANES + i];
-        sum[3] += opacity[i];
+            sum[channel] += weight * color[channel * VXL_LANES + i];
+        sum[3] += weight;
     }
 }
 

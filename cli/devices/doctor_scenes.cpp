@@ -184,8 +184,8 @@ std::vector<KnownPicture> known_pictures() {
         {"clear rays", lattice("default", "rays", "observer", ""), true, "10c69d6634bd4439"},
         {"rays in fog", lattice("default", "rays", "observer", kFog), true, "64f4fababf3ffcce"},
         {"display of voxels", lattice("default", "lattice", "outside", ""), true,
-         "012877b2d6996138"},
-        {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "323614d3ff5402ae"},
+         "0c28be7a202cf243"},
+        {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2de843ba4414102e"},
     };
 }
 

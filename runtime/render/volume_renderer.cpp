@@ -198,23 +198,20 @@ void render_lattice(Work& work, Volume& volume) {
         look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
     }
     display.find_views(look, batch, pieces);
-    ShownVoxels shown = display.choose(pieces);
+    ShownVoxels shown = display.choose(pieces, work.scene.render.samples);
     report_progress(2);
     pieces.clear();
     const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
         illumination.light(rays, count, sink);
     };
     const Environment environment = environment_of(work.scene.world);
+    display.light(look, light_rays, environment, batch, shown);
     std::optional<DisplaySampleStage> samples;
-    DisplayLatticeStage::PointSink keep_normals;
     if (work.scene.render.samples > 1 && shown.voxels.count > 0) {
         samples.emplace(work.device, without_varying_medium(work.features), work.camera, work.frame,
-                        work.world, uint32_t(work.scene.render.samples), shown);
-        keep_normals = [&](const RayBatch& rays, const Buffer<uint32_t>& targets, uint32_t first,
-                           uint32_t count) { samples->keep_normals(rays, targets, first, count); };
+                        work.world, work.scene.render.samples);
+        samples->light(light_rays, environment, display.views(), batch, shown);
     }
-    display.light(look, light_rays, environment, batch, shown, keep_normals);
-    if (samples) samples->light(light_rays, environment, display.views(), batch, shown);
     std::optional<DisplayCoverStage> cover;
     if (work.features.transmission && shown.voxels.count > 0) {
         cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);

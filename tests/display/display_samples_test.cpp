@@ -3,7 +3,9 @@
 // mix as they do in flat pictures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -76,6 +78,36 @@ TEST(DisplaySamples, MixColorsAndShadowsAsFlatPicturesDo) {
             EXPECT_LT(four, 0.55 * one) << surface << placement;
             EXPECT_LT(many, 0.15 * one) << surface << placement;
         }
+}
+
+/// A box whose edges lie within voxels, at these parts of them.
+constexpr double kFace = 0.3, kSide = 0.8;
+
+TEST(DisplaySamples, MixTheFacesThatMeetInAVoxel) {
+    const Scene scene = parsed(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.05, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}}}},
+"models": {{"box": {{"shape": "box", "size": [{}, 1.2, {}]}}}},
+"objects": [{{"model": "box"}}],
+"lights": [{{"type": "directional", "direction": [1, -0.1, 0.4], "intensity": 1}}],
+"observer": {{"position": [0, 0, -1], "look_at": [0, 0, 0],
+             "display": {{"shape": "box", "size": [2, 2, 2], "voxels": [20, 20, 20],
+                         "layout": "lattice", "visibility": "outside"}}}},
+"render": {{"samples": 16, "shadows": false}}}})",
+                                           2 * (0.5 + 0.1 * kSide), 2 * (0.5 + 0.1 * kFace)));
+    const Volume volume = volume_of(scene);
+    const auto color_at = [&](int x, int z) {
+        const uint64_t place = uint64_t(x) + 20 * (10 + 20 * uint64_t(z));
+        const auto found = std::ranges::find(volume.indices, place);
+        EXPECT_NE(found, volume.indices.end()) << x << " " << z;
+        return volume.colors[size_t(found - volume.indices.begin())];
+    };
+    // X_E is -X: the side at low X_W, which is lit, lies at high x.
+    const int edge_x = color_at(15, 8).x > color_at(4, 8).x ? 15 : 4;
+    const glm::vec3 face = color_at(8, 4), side = color_at(edge_x, 8), edge = color_at(edge_x, 4);
+    EXPECT_GT(side.x, 2 * face.x);
+    const auto share = float(kSide / (kSide + kFace));  // of the face, in the edge's voxel
+    EXPECT_LT(glm::length(edge - glm::mix(side, face, share)), 0.03f * side.x)
+        << edge.x << " " << face.x << " " << side.x;
 }
 
 TEST(DisplaySamples, OfSurfacesThatLightPassesAreThoseOfOpaqueOnes) {

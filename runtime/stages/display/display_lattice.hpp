@@ -2,6 +2,7 @@
 // probe points -> P in the layout `lattice`: the voxels that are shown, and their light.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "runtime/stages/display/display_rays.hpp"
@@ -11,9 +12,10 @@ namespace voxelume {
 
 /// The voxels that a lattice shows, each with the probe point that gives it its light.
 struct ShownVoxels {
-    VoxelArrays voxels;       ///< only `indices` are filled
-    ProbePoints points;       ///< one for each voxel
-    Buffer<uint32_t> starts;  ///< the number of voxels before each group of the mask
+    VoxelArrays voxels;                  ///< only `indices` are filled
+    ProbePoints points;                  ///< one for each voxel
+    std::array<ProbePoints, 3> of_axes;  ///< those on lines along each axis, or none of a voxel
+    Buffer<uint32_t> starts;             ///< the number of voxels before each group of the mask
 };
 
 /// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
@@ -38,17 +40,12 @@ class DisplayLatticeStage {
     /// allows.
     void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
 
-    /// The voxels of all points that have a view.
-    ShownVoxels choose(const std::vector<ProbePoints>& pieces);
+    /// The voxels of all points that have a view. Finds `of_axes` for `samples` above 1.
+    ShownVoxels choose(const std::vector<ProbePoints>& pieces, int samples);
 
-    /// What else is kept of rays 0 .. count-1 of a batch, which are lit: ray n was aimed at voxel
-    /// targets[first + n], or first + n without targets.
-    using PointSink = std::function<void(const RayBatch& batch, const Buffer<uint32_t>& targets,
-                                         uint32_t first, uint32_t count)>;
-
-    /// Lights the voxels, batch by batch; `sink` may be empty.
+    /// Lights the voxels, batch by batch.
     void light(const LookAhead& look, const LightRays& light_rays, const Environment& environment,
-               RayBatch& batch, ShownVoxels& shown, PointSink sink = {});
+               RayBatch& batch, ShownVoxels& shown);
 
     const Buffer<float4>& views() const { return views_; }
 
@@ -58,6 +55,7 @@ class DisplayLatticeStage {
     uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 
   private:
+    ProbePoints nearest(const std::vector<ProbePoints>& pieces, const ShownVoxels& shown, int axis);
     void aim(const ProbePoints& points, uint32_t search, uint32_t first, uint32_t count,
              RayBatch& batch);
     /// Points, and the voxels that get their light. If `targets` is empty, point n lights voxel n.
@@ -89,7 +87,6 @@ class DisplayLatticeStage {
     uint32_t groups_;
     Buffer<uint32_t> mask_;  ///< one bit for every voxel of the lattice
     Program program_;
-    PointSink sink_;
     Kernel aim_, note_, mark_, count_, list_, choose_, take_, keep_;
     uint64_t rays_ = 0;
 };

@@ -26,42 +26,33 @@ float turn_of(uint32_t i) {
 
 }  // namespace
 
-SampleSums allocate_sample_sums(const Device& device, size_t voxels) {
+SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays) {
     return {Buffer<float>(device, "display normals", 3 * voxels),
-            Buffer<float>(device, "display sums", 4 * voxels)};
+            Buffer<float>(device, "display sums", 4 * voxels),
+            Buffer<float>(device, "display weights", rays)};
 }
 
 DisplaySampleStage::DisplaySampleStage(const Device& device, const Features& features,
                                        const Camera& camera, const VolumeFrame& frame,
-                                       const Pyramid& world, uint32_t samples,
-                                       const ShownVoxels& shown)
-    : camera_(camera),
+                                       const Pyramid& world, int samples)
+    : device_(device),
+      camera_(camera),
       lattice_(display_lattice(frame, world.frame)),
       transmission_(features.transmission),
       world_(world),
-      samples_(samples),
-      sums_(allocate_sample_sums(device, shown.voxels.count)),
+      samples_(uint32_t(samples)),
       program_(device, "display_samples.cl", features.defines(device)),
       normals_(program_.kernel("keep_normals")),
       aim_(program_.kernel("aim_samples")),
       add_(program_.kernel("add_samples")),
-      mix_(program_.kernel("mix_samples")) {
-    sums_.normals.fill(0);
-    sums_.sums.fill(0);
-}
+      mix_(program_.kernel("mix_samples")) {}
 
-void DisplaySampleStage::keep_normals(const RayBatch& batch, const Buffer<uint32_t>& targets,
-                                      uint32_t first, uint32_t count) {
-    normals_.launch(WorkItem::light, count, batch.hits, batch.normals, batch.stride, targets,
-                    uint32_t(!targets.empty()), first, count, sums_.normals);
-}
-
-void DisplaySampleStage::light_batch(const LightRays& light_rays, const Environment& environment,
-                                     RayBatch& batch, const ShownVoxels& shown, uint32_t first,
-                                     uint32_t count) {
+void DisplaySampleStage::add(const LightRays& light_rays, const Environment& environment,
+                             RayBatch& batch, const Facing& facing, uint32_t first,
+                             uint32_t count) {
     const auto add = [&](const RayBatch& entries, const NodeLight& nodes) {
         add_.launch_packets(count, shape_of(world_), lattice_, environment, entries, nodes,
-                            shown.voxels.indices, first, count, sums_.sums);
+                            facing.shown.voxels.indices, sums_.weights, first, count, sums_.light);
     };
     if (!transmission_) {
         light_rays(batch, count, {});
@@ -74,20 +65,48 @@ void DisplaySampleStage::light_batch(const LightRays& light_rays, const Environm
                });
 }
 
+/// Finds the normals at the points, with a first ray, and then lights the samples.
+void DisplaySampleStage::light_facing(const LightRays& light_rays, const Environment& environment,
+                                      const Buffer<float4>& views, RayBatch& batch,
+                                      const Facing& facing) {
+    const uint32_t voxels = facing.points.count;
+    sums_.normals.fill(0);
+    for (uint32_t first = 0; first < voxels; first += batch.stride) {
+        const uint32_t count = std::min(batch.stride, voxels - first);
+        const auto aim = [&](uint32_t sample, uint32_t samples) {
+            aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views, facing.points,
+                                facing.shown.voxels.indices, sums_.normals, facing.points.axis,
+                                sample, samples, turn_of(sample), log2_of_places(samples_), first,
+                                count, batch.stride, sums_.weights, batch.rays);
+            rays_ += count;
+        };
+        const auto keep = [&](const RayBatch& entries) {
+            normals_.launch(WorkItem::light, count, entries.hits, entries.normals, entries.stride,
+                            first, count, sums_.normals);
+        };
+        aim(0, 0);
+        if (transmission_)
+            light_rays(batch, count,
+                       [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight&) {
+                           if (is_first) keep(entries);
+                       });
+        else
+            light_rays(batch, count, {}), keep(batch);
+        for (uint32_t i = 0; i < samples_; ++i) {
+            aim(i, samples_);
+            add(light_rays, environment, batch, facing, first, count);
+        }
+    }
+}
+
 void DisplaySampleStage::light(const LightRays& light_rays, const Environment& environment,
                                const Buffer<float4>& views, RayBatch& batch, ShownVoxels& shown) {
     const auto voxels = uint32_t(shown.voxels.count);
-    for (uint32_t i = 0; i < samples_; ++i) {
-        for (uint32_t first = 0; first < voxels; first += batch.stride) {
-            const uint32_t count = std::min(batch.stride, voxels - first);
-            aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views, shown.points,
-                                shown.voxels.indices, sums_.normals, i, samples_, turn_of(i),
-                                log2_of_places(samples_), first, count, batch.stride, batch.rays);
-            rays_ += count;
-            light_batch(light_rays, environment, batch, shown, first, count);
-        }
-    }
-    mix_.launch(WorkItem::light, voxels, voxels, sums_.sums, shown.voxels.colors);
+    sums_ = allocate_sample_sums(device_, voxels, batch.stride);
+    sums_.light.fill(0);
+    for (const ProbePoints& points : shown.of_axes)
+        light_facing(light_rays, environment, views, batch, {shown, points});
+    mix_.launch(WorkItem::light, voxels, voxels, sums_.light, shown.voxels.colors);
 }
 
 }  // namespace voxelume

@@ -7,26 +7,21 @@
 
 namespace voxelume {
 
-/// Of each voxel, for its samples: the normal at its probe point, and sums of light.
+/// What samples add up in: for each voxel 3 numbers of a normal and 4 of light, the sums of colours
+/// times weights, and of weights; for each ray of a batch its weight.
 struct SampleSums {
-    Buffer<float> normals;  ///< 3 for each voxel, one after another; 0 where no surface was met
-    Buffer<float> sums;     ///< 4 for each: of colours times opacities, and of opacities
+    Buffer<float> normals, light, weights;
 };
 
-SampleSums allocate_sample_sums(const Device& device, size_t voxels);
+SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays);
 
-/// The kernels of display_samples.cl.
+/// The kernels of display_samples.cl. A voxel may hold several surfaces, of which each crosses
+/// lines along the axis that it faces most: it has a probe point on these.
 class DisplaySampleStage {
   public:
-    /// `samples` of each voxel that is shown, at least 2.
+    /// `samples` of each surface in a voxel, at least 2.
     DisplaySampleStage(const Device& device, const Features& features, const Camera& camera,
-                       const VolumeFrame& frame, const Pyramid& world, uint32_t samples,
-                       const ShownVoxels& shown);
-
-    /// Keeps the normals at the points of voxels `first` .. first+count-1 of the `targets`, or of
-    /// all voxels without them. The batch's rays were aimed there and are lit.
-    void keep_normals(const RayBatch& batch, const Buffer<uint32_t>& targets, uint32_t first,
-                      uint32_t count);
+                       const VolumeFrame& frame, const Pyramid& world, int samples);
 
     /// Lights the samples batch by batch, and gives the voxels their means.
     void light(const LightRays& light_rays, const Environment& environment,
@@ -35,9 +30,17 @@ class DisplaySampleStage {
     uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 
   private:
-    void light_batch(const LightRays& light_rays, const Environment& environment, RayBatch& batch,
-                     const ShownVoxels& shown, uint32_t first, uint32_t count);
+    /// The surfaces that face an axis.
+    struct Facing {
+        const ShownVoxels& shown;
+        const ProbePoints& points;
+    };
+    void light_facing(const LightRays& light_rays, const Environment& environment,
+                      const Buffer<float4>& views, RayBatch& batch, const Facing& facing);
+    void add(const LightRays& light_rays, const Environment& environment, RayBatch& batch,
+             const Facing& facing, uint32_t first, uint32_t count);
 
+    Device device_;
     Camera camera_;
     DisplayLattice lattice_;
     bool transmission_;
