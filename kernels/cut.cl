@@ -11,24 +11,6 @@ static inline int is_stored(uint slot) {
     return slot < VXL_BRICK_INSIDE;
 }
 
-static inline short distance_at(global const short* restrict distance, uint slot, uint node) {
-    if (is_stored(slot)) return distance[4096u * (size_t)slot + node];
-    return slot == VXL_BRICK_INSIDE ? -32767 : 32767;
-}
-
-/// One work-item: one brick of the result. Computes the distances to the intersection of two
-/// bodies.
-kernel void join_distances(uint count, global const uint2* restrict sources,
-                           global const short* restrict body, global const short* restrict rest,
-                           global short* restrict distance) {
-    const uint brick = work_item();
-    if (brick >= count) return;
-    const uint2 slots = sources[brick];
-    global short* nodes = distance + 4096u * (size_t)brick;
-    for (uint node = 0; node < 4096u; ++node)
-        nodes[node] = max(distance_at(body, slots.x, node), distance_at(rest, slots.y, node));
-}
-
 static inline ulong mask_at(global const ulong* restrict occupancy, uint slot, uint leaf) {
     if (is_stored(slot)) return occupancy[64u * slot + leaf];
     return slot == VXL_BRICK_INSIDE ? ~0ul : 0ul;

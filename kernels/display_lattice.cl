@@ -8,24 +8,18 @@
 #include "lib/display/depth.h"
 #include "lib/display/lattice_mask.h"
 #include "lib/display/probe.h"
+#include "lib/display/voxel_light.h"
 #include "lib/display/voxels.h"
-#include "lib/lanes/exact_exp.h"
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/paths.h"
-#include "lib/medium/veil.h"
 #include "lib/traverse/display_shape.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
-
-// The least part of a surface's light that is taken back out of the medium before it. The medium's
-// own light has three roundings of 2^-24 by then, and dividing by this makes 18 % of it of them:
-// through more medium they would be all that is left.
-#define VXL_MIN_TRANSMITTANCE 1e-6f
 
 /// Aims a ray at each of the probe points first_point .. first_point+count-1: from E where its view
 /// is 0, else along views[view], a vector as long as the world in voxels. Points without a view
@@ -152,9 +146,7 @@ kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
 
 /// Adds the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
 /// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
-/// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
-/// surface counts as air. Where surfaces let light through, the nodes hold its own light and
-/// coverage.
+/// passes by its surface, the voxel gets object 0.
 kernel void keep_light(Camera camera, PyramidShape shape, Environment environment,
                        VXL_DENSITY_PARAMETERS, global const float* restrict density_colors,
                        VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
@@ -165,37 +157,17 @@ kernel void keep_light(Camera camera, PyramidShape shape, Environment environmen
     const RayBatch batch = VXL_BATCH;
     const NodeLight nodes = VXL_NODES;
     const VoxelArrays voxels = VXL_VOXELS;
-    lane_int hit = LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
-    lane_float opacity = (lane_float)1.0f;
-    if (VXL_TRANSMISSION) {
-        opacity = LANES_LOAD(nodes.coverage, first);
-        hit &= LANE_MASK(opacity > 0.0f);
-        opacity = LANES_SELECT(hit, opacity, (lane_float)1.0f);
-    }
-    const Vector p = load_vector(positions, stride, first);
-    Veil veil;
-    if (VXL_MEDIUM) {
-        const DensityView density = VXL_DENSITY;
-        const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-        const Segment before = {load_vector(rays, stride, first),
-                                load_vector(rays + VXL_RAY_DX * stride, stride, first),
-                                (lane_float)0.0f, LANES_SELECT(hit, t, (lane_float)0.0f)};
-        veil = veil_before(shape, environment, &density, density_colors, &before, hit);
-    }
+    const SpaceMedium medium = {environment, VXL_DENSITY, density_colors};
+    const SeenLight seen = seen_light(shape, &medium, &batch, &nodes, first);
     VoxelValues values;
-    for (uint channel = 0; channel < 3; ++channel) {
-        lane_float value = LANES_LOAD(nodes.radiance, channel * nodes.stride + first);
-        if (VXL_MEDIUM) {
-            const lane_float passed = fmax(veil.passed[channel], VXL_MIN_TRANSMITTANCE);
-            value = fmax(exact_divide(value - veil.emitted[channel], passed), 0.0f);
-        }
-        if (VXL_TRANSMISSION) value = exact_divide(value, opacity);
-        LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), values.color, channel * VXL_LANES);
-    }
-    LANES_STORE(depth_of(&camera, shape.edge, from_eye(&camera, p)) + camera.lead, values.depth, 0);
-    LANES_STORE(opacity, values.opacity, 0);
-    LANES_STORE(((LANES_LOAD(hit_attributes, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit),
-                values.object, 0);
+    for (uint channel = 0; channel < 3; ++channel)
+        LANES_STORE(seen.color[channel], values.color, channel * VXL_LANES);
+    LANES_STORE(depth_of(&camera, shape.edge, from_eye(&camera, seen.point)) + camera.lead,
+                values.depth, 0);
+    LANES_STORE(seen.opacity, values.opacity, 0);
+    LANES_STORE(
+        ((LANES_LOAD(hit_attributes, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(seen.hit),
+        values.object, 0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
         store_voxel(&voxels, voxel, &values, i);

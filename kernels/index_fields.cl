@@ -8,17 +8,18 @@
 // Build constants: VXL_BASE: there are cubes or exact voxels, too. VXL_BASE_ATTRIBUTES,
 // VXL_PRIMITIVES: these have attributes of their own, primitives. VXL_COLORS: the world has
 // colours. VXL_VOXEL_NORMALS: its cubes have normals. VXL_ATTRIBUTES, VXL_OWN_COLORS: the object
-// whose fields are written has them. VXL_LINK: how the field is joined to those of the object
-// before it (VXL_LINK_*), or 0.
+// whose fields are written has them. VXL_LINKED: the field before it is the same object's.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
+#include "lib/surface/field_brackets.h"
 #include "lib/voxelize/brick_grid.h"
 #include "lib/voxelize/brick_nodes.h"
 #include "lib/voxelize/leaf_voxels.h"
 
 // The fields in the world's bricks that hold any voxels: entries first[b] .. first[b + 1] are those
 // in brick b, the object that comes first in the order of priorities first. An entry is the number
-// of an object's brick among all objects' (x) and the object's rank (y).
+// of an object's brick among all objects' (x), the object's rank (y), and the brackets that the
+// field stands in (z, shared/field_place.h).
 #define VXL_ENTRY_PARAMETERS \
     global const uint *restrict entry_first, global const uint *restrict entries
 
@@ -45,10 +46,54 @@ kernel void mark_inside(const uint count, const uint first, global const short* 
     }
 }
 
+// The parts in a brick, as join_parts has them.
+typedef struct {
+    global const uint* restrict entries;
+    global ulong* masks;
+    int leaf;
+} ChainParts;
+
+// Keeps only `cells` in the masks of parts begin .. end.
+static inline void keep_cells(const ChainParts* parts, uint begin, uint end, ulong cells) {
+    for (uint e = begin; e < end && ~cells != 0; ++e)
+        if (brick_is_stored(parts->entries[3 * e]))
+            parts->masks[(size_t)parts->entries[3 * e] * 64 + parts->leaf] &= cells;
+}
+
+// Parts that are joined, from number `begin` on: the cells inside of them and on their surface, and
+// how they will be joined to those before them.
+typedef struct {
+    ulong within, crossed;
+    uint begin, link;
+} Joined;
+
+// Joins parts, those up to before `end`, to the ones before them, and takes from the masks of both
+// the cells in which the others decide.
+static inline void join(const ChainParts* parts, Joined* all, const Joined* next, uint end) {
+    ulong before = 0, behind = ~0ul;  // the cells in which either matters
+    ulong within = next->within;
+    if (next->link == VXL_LINK_UNION) {
+        before = ~next->within;
+        behind = ~all->within;
+        within |= all->within;
+    } else if (next->link == VXL_LINK_INTERSECTION) {
+        before = next->crossed | next->within;
+        behind = all->crossed | all->within;
+        within &= all->within;
+    }
+    if (next->link != 0) {
+        keep_cells(parts, all->begin, next->begin, before);
+        keep_cells(parts, next->begin, end, behind);
+    }
+    all->crossed = (all->crossed & before) | (next->crossed & behind);
+    all->within = within;
+}
+
 // One brick of a solid: takes the cells from its parts' masks in which a part's surface is not the
 // solid's, since another part decides there. Entries chain_first[b] .. chain_first[b + 1] are the
 // parts in brick b, in their order: the number of a part's brick among all fields', or that it has
-// none (x), and how the part is joined to those before it (y).
+// none (x), the brackets that it stands in (y), and their links and its own (z,
+// shared/field_place.h).
 kernel void join_parts(const uint count, global const uint* restrict chain_first,
                        global const uint* restrict chain, global const ulong* restrict inside,
                        global ulong* masks) {
@@ -56,30 +101,23 @@ kernel void join_parts(const uint count, global const uint* restrict chain_first
     if (item >= count) return;
     const uint begin = chain_first[item], end = chain_first[item + 1];
     for (int leaf = 0; leaf < 64; ++leaf) {
-        ulong within = 0, crossed = 0;  // the cells inside of what is joined so far, and on it
+        const ChainParts parts = {chain, masks, leaf};
+        Joined open[VXL_MAX_BRACKETS + 1] = {{0, 0, begin, 0}};
+        int depth = 0;
+        uint path = 0;
         for (uint e = begin; e < end; ++e) {
-            const uint own = chain[2 * e], link = chain[2 * e + 1];
+            const uint own = chain[3 * e], links = chain[3 * e + 2];
+            const int shared = e > begin ? shared_brackets(path, chain[3 * e + 1]) : 0;
+            for (; depth > shared; --depth) join(&parts, &open[depth - 1], &open[depth], e);
+            path = chain[3 * e + 1];
+            uint link = e > begin ? links >> VXL_LINK_BITS * shared & 3u : 0;
+            for (; depth < bracket_depth(path); link = 0) open[++depth] = (Joined){0, 0, e, link};
             const size_t at = (size_t)own * 64 + leaf;
-            ulong on = brick_is_stored(own) ? masks[at] : 0;
-            const ulong in = brick_is_stored(own) ? inside[at] : own == VXL_BRICK_INSIDE ? ~0ul : 0;
-            ulong open = ~0ul;  // where what is joined so far still matters
-            if (link == VXL_LINK_UNION) {
-                open = ~in;
-                on &= ~within;
-                within |= in;
-            } else if (link == VXL_LINK_INTERSECTION) {
-                open = on | in;
-                on &= within | crossed;
-                within &= in;
-            } else {
-                within = in;
-            }
-            for (uint before = begin; before < e && ~open != 0; ++before)
-                if (brick_is_stored(chain[2 * before]))
-                    masks[(size_t)chain[2 * before] * 64 + leaf] &= open;
-            crossed = (crossed & open) | on;
-            if (brick_is_stored(own)) masks[at] = on;
+            Joined part = {own == VXL_BRICK_INSIDE ? ~0ul : 0, 0, e, link};
+            if (brick_is_stored(own)) part = (Joined){inside[at], masks[at], e, link};
+            join(&parts, &open[depth], &part, e + 1);
         }
+        for (; depth > 0; --depth) join(&parts, &open[depth - 1], &open[depth], end);
     }
 }
 
@@ -102,11 +140,11 @@ static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulo
         if (packed >> VXL_KIND_SHIFT != VXL_KIND_CUBES) continue;
         uint first = 0xFFFFFFFFu;
         for (uint e = begin; e < end && first == 0xFFFFFFFFu; ++e)
-            if (masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1) first = entries[2 * e + 1];
+            if (masks[(size_t)entries[3 * e] * 64 + leaf] >> bit & 1) first = entries[3 * e + 1];
         if (ranks[packed & VXL_OBJECT_MASK] < first) stay |= 1ul << bit;
     }
     for (uint e = begin; stay != 0 && e < end; ++e)
-        masks[(size_t)entries[2 * e] * 64 + leaf] &= ~stay;
+        masks[(size_t)entries[3 * e] * 64 + leaf] &= ~stay;
     return stay;
 }
 
@@ -132,7 +170,7 @@ kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
     for (int leaf = 0; leaf < 64; ++leaf) {
         ulong some = 0, several = 0;
         for (uint e = begin; e < end; ++e) {
-            const ulong mask = masks[(size_t)entries[2 * e] * 64 + leaf];
+            const ulong mask = masks[(size_t)entries[3 * e] * 64 + leaf];
             several |= some & mask;
             some |= mask;
         }
@@ -151,7 +189,7 @@ kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
         if (all != 0) leaf_mask |= 1ul << leaf;
         voxels += (uint)popcount(all);
         for (uint e = begin; several != 0 && e < end; ++e)
-            fields += (uint)popcount(masks[(size_t)entries[2 * e] * 64 + leaf] & several);
+            fields += (uint)popcount(masks[(size_t)entries[3 * e] * 64 + leaf] & several);
         if (VXL_PRIMITIVES && has_base)
             for (; base != 0; base &= base - 1) {
                 const size_t voxel =
@@ -197,7 +235,7 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
             uint fields = 0;
             if (lists >> bit & 1)
                 for (uint e = begin; e < end; ++e)
-                    fields += (uint)(masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1);
+                    fields += (uint)(masks[(size_t)entries[3 * e] * 64 + leaf] >> bit & 1);
             if (fields > 0) voxel_attributes[number] = VXL_KIND_EXACT << VXL_KIND_SHIFT;
             if (fields > 0 || is_base) {
                 vstore8((uint8)(field, fields, 0, 0, 0, 0, 0, 0), number, voxel_fields);
@@ -222,13 +260,13 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
 
 // One brick of an object, number `first` + its slot among all objects': the records of its fields.
 // `bricks_of` holds the brick of the world of each; numbers of voxels are as `write_united` has
-// them.
-kernel void write_fields(const uint count, const uint first, VXL_BRICK_GRID_PARAMETERS,
-                         global const uint* restrict bricks_of, VXL_ENTRY_PARAMETERS,
-                         global const ulong* restrict masks, global const ulong* restrict united,
-                         global const ulong* restrict listing, global const uint* restrict starts,
-                         global uint* voxel_attributes, global uint* restrict voxel_colors,
-                         global uint* voxel_fields) {
+// them. `links` are those of the field's brackets and its own.
+kernel void write_fields(const uint count, const uint first, const uint links,
+                         VXL_BRICK_GRID_PARAMETERS, global const uint* restrict bricks_of,
+                         VXL_ENTRY_PARAMETERS, global const ulong* restrict masks,
+                         global const ulong* restrict united, global const ulong* restrict listing,
+                         global const uint* restrict starts, global uint* voxel_attributes,
+                         global uint* restrict voxel_colors, global uint* voxel_fields) {
     const uint slot = work_item();
     if (slot >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;
@@ -249,16 +287,18 @@ kernel void write_fields(const uint count, const uint first, VXL_BRICK_GRID_PARA
         for (; mask != 0; mask &= mask - 1) {
             const int bit = lowest_bit(mask);
             uint record = number + (uint)popcount(all & ((1ul << bit) - 1));
-            uint rank_before = 0xFFFFFFFFu, rank = 0;
+            uint rank_before = 0xFFFFFFFFu, path_before = 0, rank = 0, path = 0;
             if (lists >> bit & 1) {
                 record = voxel_fields[(size_t)record * VXL_FIELD_WORDS];
                 uint e = entry_first[brick];
-                for (; entries[2 * e] != own; ++e) {
-                    if (!(masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1)) continue;
+                for (; entries[3 * e] != own; ++e) {
+                    if (!(masks[(size_t)entries[3 * e] * 64 + leaf] >> bit & 1)) continue;
                     ++record;
-                    rank_before = entries[2 * e + 1];
+                    rank_before = entries[3 * e + 1];
+                    path_before = entries[3 * e + 2];
                 }
-                rank = entries[2 * e + 1];
+                rank = entries[3 * e + 1];
+                path = entries[3 * e + 2];
             }
             const int in_brick = voxel_in_brick(leaf, bit);
             const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + in_brick;
@@ -268,7 +308,13 @@ kernel void write_fields(const uint count, const uint first, VXL_BRICK_GRID_PARA
             if (VXL_COLORS) voxel_colors[record] = VXL_OWN_COLORS ? grid.colors[voxel] : 0xFFFFFFu;
             const int4 cell = (int4)(in_brick & 15, in_brick >> 4 & 15, in_brick >> 8, 0);
             uint8 words = field_record(nodes, cell);
-            if (VXL_LINK && rank == rank_before) words.s4 |= (uint)VXL_LINK << VXL_LINK_SHIFT;
+            const bool linked = VXL_LINKED && rank == rank_before;
+            const int shared = linked ? shared_brackets(path_before, path) : 0;
+            words.s5 |= (uint)(bracket_depth(path) - shared) << VXL_LINK_SHIFT;
+            if (linked) {
+                words.s4 |= links >> VXL_LINK_BITS * shared << VXL_LINK_SHIFT;
+                words.s6 |= (uint)(bracket_depth(path_before) - shared) << VXL_LINK_SHIFT;
+            }
             vstore8(words, record, voxel_fields);
         }
         number += (uint)popcount(all);

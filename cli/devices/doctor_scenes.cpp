@@ -75,7 +75,8 @@ constexpr const char* kLattice = R"({"voxelume": 1,
 "lights": [{"type": "directional", "direction": [1, -1, 1]}],
 "observer": {"position": [0, 0, -1], "look_at": [0, 0, 0],
              "display": {"shape": "box", "size": [1.8, 1.7, 1.9], "voxels": [18, 17, 19],
-                         "layout": "LAYOUT", "visibility": "VISIBILITY"}}})";
+                         "layout": "LAYOUT", "visibility": "VISIBILITY"}},
+"render": {"samples": 2}})";
 
 // Meshes with textures, groups and normals of their own; cuts in them; an open one.
 constexpr const char* kMeshes = R"({"voxelume": 1,
@@ -177,15 +178,15 @@ std::vector<KnownPicture> known_pictures() {
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
          false, "a5b9f7b087340160"},
-        {"meshes", kMeshes, false, "d0f5f6be5e68e8f8"},
+        {"meshes", kMeshes, false, "ae7d5428b2dd3899"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},
         {"clear rays", lattice("default", "rays", "observer", ""), true, "10c69d6634bd4439"},
         {"rays in fog", lattice("default", "rays", "observer", kFog), true, "64f4fababf3ffcce"},
         {"display of voxels", lattice("default", "lattice", "outside", ""), true,
-         "6ee843d60716faea"},
+         "0c28be7a202cf243"},
         {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "5d57b4caf08e6231"},
-        {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2ea30b3e2173c4be"},
+        {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2de843ba4414102e"},
     };
 }
 

@@ -3,6 +3,12 @@
 #ifndef VXL_SHARED_VOXEL_H
 #define VXL_SHARED_VOXEL_H
 
+#ifdef __cplusplus
+#include <kernels/shared/field_place.h>
+#else
+#include "shared/field_place.h"
+#endif
+
 // The packed attributes of a voxel:
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
@@ -37,7 +43,8 @@
 //   The ten bits are a sign and 64 e + m: |D| = 2^e (64 + m) - 64, in 1/8192 voxel, up to 16192.
 //   D of flat surfaces is kept to the unit of f, whatever edges the world has besides. An edge's
 //   bits depend on its own four nodes only, so the voxels around it agree.
-//   bits 30-31 of word 4: 0, or how the field is joined to that of the record before, below
+//   bits 30-31 of word 4: 0, or how the field is joined to those of the records before, below;
+//   of words 5 and 6: how many brackets open and close in front of it
 //
 // Where surfaces of several smooth objects pass one voxel, or one passes an exact voxel, each keeps
 // a record of its own, numbered after all voxels': a number for attributes, colours and fields
@@ -47,12 +54,14 @@
 // Where surfaces of several parts of one solid pass a voxel, each keeps a record, too. Those of one
 // object follow each other and are a chain: its field is that of the first record, joined to the
 // next by the lesser (VXL_LINK_UNION) or the larger (VXL_LINK_INTERSECTION) of the two, joined to
-// the one after that, and so on.
+// the one after that, and so on. Between brackets is a chain of its own, which the link of its
+// first record joins to what stands before; of several brackets that open at once, this is the
+// outermost.
 #define VXL_FIELD_WORDS 8
 #define VXL_LINK_WORD 4
+#define VXL_OPENS_WORD 5
+#define VXL_CLOSES_WORD 6
 #define VXL_LINK_SHIFT 30
-#define VXL_LINK_UNION 1u
-#define VXL_LINK_INTERSECTION 2u
 #define VXL_DISTANCE_UNITS 8192
 
 // Values of a brick table for bricks that are not stored.

@@ -16,6 +16,7 @@
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"
+#include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
@@ -236,6 +237,19 @@ void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetS
              warnings);
 }
 
+void add_rounding_warning(const Object& object, const Model& model,
+                          std::vector<Warning>& warnings) {
+    if (!model.solid || !stores_distances(model.surface)) return;
+    const size_t rounded = count_undivided(*model.solid);
+    if (rounded == 0) return;
+    add_once({WarningKind::rounded_edges, model.where,
+              fmt::format("edges within {} of this solid's combinations, which stand too deep in "
+                          "others, are rounded on \"smooth\": leave \"surface\" out or give "
+                          "\"exact\", or make {} of several objects",
+                          rounded, title_of(object))},
+             warnings);
+}
+
 void add_ratio_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                        std::vector<Warning>& warnings) {
     const Model& model = placed.model;
@@ -275,6 +289,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     if (add_outside_warning(scene, object, model, warnings)) return;
     add_thin_warning(scene, object, model, warnings);
     add_thin_part_warning(scene, model, meshes, warnings);
+    add_rounding_warning(object, model.model, warnings);
     add_ratio_warning(scene, object, model, warnings);
 }
 

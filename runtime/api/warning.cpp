@@ -10,9 +10,10 @@ constexpr std::array kWarningNames = {
     "outside_world",      "no_voxels",        "thinner_than_voxel", "light_inside_object",
     "observer_in_object", "nothing_in_view",  "no_light",           "finer_than_world",
     "coarser_than_world", "open_mesh",        "inside_out_mesh",    "unlikely_unit",
-    "ignored_materials",  "world_not_cached", "cache_not_writable", "ignored_scattering"};
-static_assert(kWarningNames.size() == size_t(WarningKind::ignored_scattering) + 1);
-static_assert(int(v1::WarningKind::ignored_scattering) == int(WarningKind::ignored_scattering));
+    "ignored_materials",  "world_not_cached", "cache_not_writable", "ignored_scattering",
+    "rounded_edges"};
+static_assert(kWarningNames.size() == size_t(WarningKind::rounded_edges) + 1);
+static_assert(int(v1::WarningKind::rounded_edges) == int(WarningKind::rounded_edges));
 
 }  // namespace
 

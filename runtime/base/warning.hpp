@@ -30,6 +30,7 @@ enum class WarningKind : uint8_t {
     world_not_cached,     ///< it is too large for the cache
     cache_not_writable,   ///< so that each run does everything again
     ignored_scattering,   ///< the medium's, in local light
+    rounded_edges,        ///< of a smooth solid whose formula is too deep
 };
 
 /// A finished sentence in two parts: where, and what is wrong and what to do. `text` begins with a

@@ -17,6 +17,7 @@
 
 #include "kernels/shared/instance.h"
 #include "kernels/shared/source_mesh.h"
+#include "runtime/grid/field_place.hpp"
 #include "runtime/grid/grid_frame.hpp"
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/scene/parts/surface.hpp"
@@ -70,17 +71,14 @@ struct BrickGrid {
     bool texture_maps = false;             ///< true if one of them has maps
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 
+    FieldPlace place;             ///< of this grid among parts
     std::vector<GridPart> parts;  ///< of a solid of several, all but the first, which this grid is
 };
-
-/// How the distances of a solid's part are joined to those of the parts before it: by the lesser or
-/// the larger of the two; kernels/shared/voxel.h has the numbers.
-enum class FieldLink : uint8_t { none, least, largest };
 
 /// A part of a solid, in the same frame as the solid's first.
 struct GridPart {
     std::shared_ptr<const BrickGrid> grid;
-    FieldLink link = FieldLink::none;
+    FieldPlace place;
 };
 
 /// A model that instances share, and the place of its voxels in a pyramid's buffers.
@@ -151,6 +149,7 @@ struct Pyramid {
     uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
                                  ///< of voxels that several surfaces pass
     bool has_chains = false;     ///< true if some of them are linked
+    uint32_t chain_depth = 0;    ///< brackets of their formulas that are within each other
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
     Buffer<uint32_t> primitives;       ///< this and the next eight are as in BrickGrid
     Buffer<float> triangles;

@@ -12,11 +12,12 @@ namespace voxelume {
 /// The distance field of one smooth object, or of a part of it, in a part of the world's lattice
 /// that holds the object.
 struct PlacedField {
-    BrickGrid grid;                    ///< packed attributes are the world's
-    glm::ivec3 first_brick{0};         ///< of the part, in the world's bricks
-    uint32_t object = 0;               ///< the object's number in the scene
-    FieldLink link = FieldLink::none;  ///< to the field before it, which is the same object's
-    uint64_t version = 0;              ///< differs between any two fields that aren't the same
+    BrickGrid grid;             ///< packed attributes are the world's
+    glm::ivec3 first_brick{0};  ///< of the part, in the world's bricks
+    uint32_t object = 0;        ///< the object's number in the scene
+    FieldPlace place;           ///< of a part among those of the object
+    bool is_first = true;       ///< false if the field before it is the same object's
+    uint64_t version = 0;       ///< differs between any two fields that aren't the same
 };
 
 /// What `index` makes a pyramid of.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/grid/pyramid_bytes.hpp"
 
+#include <algorithm>
+
 #include "runtime/grid/packed_grid.hpp"
 
 namespace voxelume {
@@ -49,7 +51,8 @@ std::string bytes_of_pyramid(const Pyramid& pyramid) {
     const std::array<uint32_t, 5> counts{
         pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
         uint32_t(pyramid.transparent) | uint32_t(pyramid.texture_alpha) << 1 |
-            uint32_t(pyramid.texture_maps) << 2 | uint32_t(pyramid.has_chains) << 3,
+            uint32_t(pyramid.texture_maps) << 2 | uint32_t(pyramid.has_chains) << 3 |
+            pyramid.chain_depth << 4,
         pyramid.listed_fields};
     return *packed_bytes({pyramid.frame, counts}, pyramid_buffers(pyramid));
 }
@@ -66,6 +69,7 @@ std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view b
     pyramid.texture_alpha = (header->counts[3] & 2) != 0;
     pyramid.texture_maps = (header->counts[3] & 4) != 0;
     pyramid.has_chains = (header->counts[3] & 8) != 0;
+    pyramid.chain_depth = std::min(header->counts[3] >> 4, uint32_t(kMaxBracketDepth));
     pyramid.listed_fields = header->counts[4];
     const bool fits = pyramid.leaves.size() == size_t(pyramid.leaf_count) * 2 &&
                       pyramid.leaf_voxels.size() == pyramid.leaf_count;

@@ -19,6 +19,7 @@ Features of_hits(const Features& all) {
     features.solids = all.solids;
     features.field_lists = all.field_lists;
     features.field_chains = all.field_chains;
+    features.chain_depth = all.chain_depth;
     features.attributes = all.attributes;
     features.instances = all.instances;
     features.transmission = all.transmission;

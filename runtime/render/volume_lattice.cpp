@@ -12,6 +12,7 @@
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_medium.hpp"
+#include "runtime/stages/display/display_samples.hpp"
 
 namespace voxelume {
 namespace {
@@ -132,7 +133,7 @@ void render_lattice(VolumeWork& work, Volume& volume) {
         look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
     }
     display.find_views(look, batch, pieces);
-    ShownVoxels shown = display.choose(pieces);
+    ShownVoxels shown = display.choose(pieces, work.scene.render.samples);
     report_progress(2);
     pieces.clear();
     const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
@@ -141,6 +142,12 @@ void render_lattice(VolumeWork& work, Volume& volume) {
     const DensityGrid* const density = illumination.density();
     const SpaceMedium medium{environment_of(work.scene.world), density ? *density : DensityGrid()};
     display.light(look, light_rays, medium, batch, shown);
+    std::optional<DisplaySampleStage> samples;
+    if (work.scene.render.samples > 1 && shown.voxels.count > 0) {
+        samples.emplace(work.device, work.features, work.camera, work.frame, work.world,
+                        work.scene.render.samples);
+        samples->light(light_rays, medium, display.views(), batch, shown);
+    }
     std::optional<DisplayCoverStage> cover;
     if (work.features.transmission && shown.voxels.count > 0) {
         cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
@@ -168,7 +175,7 @@ void render_lattice(VolumeWork& work, Volume& volume) {
     report_progress(3);
     work.report.display_lines = scan.lines();
     work.report.clear_display_lines = scan.clear_lines();
-    work.report.sight_rays += scan.lines() + display.rays();
+    work.report.sight_rays += scan.lines() + display.rays() + (samples ? samples->rays() : 0);
     count_rays(illumination, work.report);
 }
 

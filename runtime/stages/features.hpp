@@ -17,6 +17,7 @@ struct Features {
     int solid_kinds = 0xFF;     ///< 1 << VXL_SOLID_* of those that there may be, apart from spheres
     bool field_lists = false;   ///< some voxel lists the distance fields in it
     bool field_chains = false;  ///< ... and some of them are of a solid's parts
+    int chain_depth = 0;        ///< ... in so many brackets within each other
     bool attributes = false;    ///< voxels differ in object, material or kind
     bool colors = false;        ///< voxels have colours of their own
     bool worn_triangles = false;  ///< some exact triangle wears a texture
@@ -90,6 +91,7 @@ struct Features {
                 {"VXL_SOLID_KINDS", solid_kinds},
                 {"VXL_FIELD_LISTS", field_lists},
                 {"VXL_FIELD_CHAINS", field_chains},
+                {"VXL_CHAIN_DEPTH", chain_depth},
                 {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},

@@ -23,7 +23,8 @@ enum class WarningKind {
     ignored_materials,    ///< a mesh's material library or textures, or parts of them, aren't shown
     world_not_cached,     ///< the world is too large to be kept on disk
     cache_not_writable,   ///< nothing can be kept on disk
-    ignored_scattering    ///< local light doesn't follow what the medium scatters
+    ignored_scattering,   ///< local light doesn't follow what the medium scatters
+    rounded_edges         ///< a solid has more brackets than its smooth edges stay sharp in
 };
 
 /// The kind's name in JSON: "outside_world".

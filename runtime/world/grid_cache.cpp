@@ -155,8 +155,8 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
     };
     ++voxelized_;
     const SharedGrid whole = body(model.set);
+    if (stores_distances(model.surface)) return cut_field(device_, whole, rest);
     const BrickGrid space = left(model.set);
-    if (stores_distances(model.surface)) return common_field(device_, *whole, space);
     if (model.set == VoxelSet::solid)
         return common_cubes(device_, {*whole, *whole}, {space, space});
     return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});

@@ -62,6 +62,27 @@ TEST_F(SceneWarnings, NameWhatIsThinnerThanItsVoxels) {
     EXPECT_THAT(kinds(), ElementsAre(Kind::thinner_than_voxel));
 }
 
+/// Unions of intersections of unions, ... of two balls.
+Json alternating(int levels, double x) {
+    if (levels == 0) return {{"shape", "sphere"}, {"radius", 0.3}, {"position", {x, 0, 0}}};
+    const char* shape = levels % 2 == 0 ? "union" : "intersection";
+    const double step = 0.1 / levels;
+    return {{"shape", shape},
+            {"parts", {alternating(levels - 1, x), alternating(levels - 1, x + step)}}};
+}
+
+TEST_F(SceneWarnings, NameSolidsThatAreTooDeepForSharpEdges) {
+    json["models"]["ball"] = alternating(5, 0);
+    json["models"]["ball"]["surface"] = "smooth";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::rounded_edges));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("edges within 1 of this solid's combinations"));
+    json["models"]["ball"]["surface"] = "exact";
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["models"]["ball"] = alternating(4, 0);
+    json["models"]["ball"]["surface"] = "smooth";
+    EXPECT_THAT(kinds(), IsEmpty());
+}
+
 TEST_F(SceneWarnings, MeasureThicknessWhereTheObjectStands) {
     json["models"]["ball"] = {
         {"shape", "box"}, {"size", {0.5, 0.5, 0.06}}, {"surface", "smooth"}, {"voxel_size", 0.02}};

@@ -2,9 +2,13 @@
 // Which parts of solids keep distances of their own.
 #include "runtime/geometry/solid/solid_parts.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/ext/matrix_transform.hpp>
+#include <string>
 #include <vector>
 
 namespace voxelume {
@@ -33,14 +37,28 @@ Solid joined(SolidKind kind, std::vector<Solid> parts, double x = 0) {
     return solid;
 }
 
-std::vector<FieldLink> links_of(const std::vector<SolidPart>& parts) {
-    std::vector<FieldLink> links;
-    for (const SolidPart& part : parts) links.push_back(part.link);
-    return links;
+/// The formula of parts: their numbers, with - for complements.
+std::string formula_of(const std::vector<SolidPart>& parts) {
+    std::string text;
+    std::vector<uint32_t> open;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const auto& [link, brackets] = parts[i].place;
+        size_t shared = 0;
+        while (shared < std::min(open.size(), brackets.size()) &&
+               open[shared] == brackets[shared].number)
+            ++shared;
+        text.append(open.size() - shared, ')');
+        open.resize(shared);
+        const FieldLink outer = shared < brackets.size() ? brackets[shared].link : link;
+        if (i > 0) text += outer == FieldLink::least ? " | " : " & ";
+        for (size_t k = shared; k < brackets.size(); ++k) {
+            text += '(';
+            open.push_back(brackets[k].number);
+        }
+        text += fmt::format("{}{}", parts[i].is_complement ? "-" : "", i);
+    }
+    return text.append(open.size(), ')');
 }
-
-constexpr FieldLink kNone = FieldLink::none, kLeast = FieldLink::least,
-                    kLargest = FieldLink::largest;
 
 TEST(SolidParts, OfAShapeAreTheShape) {
     const std::vector<SolidPart> parts = parts_of(ball(3));
@@ -51,7 +69,7 @@ TEST(SolidParts, OfAShapeAreTheShape) {
 TEST(SolidParts, OfUnionsOfUnionsAreTheirShapesInPlace) {
     const std::vector<SolidPart> parts = parts_of(joined(
         SolidKind::union_of, {ball(0), joined(SolidKind::union_of, {ball(1), ball(2)}, 10)}, 100));
-    EXPECT_EQ(links_of(parts), (std::vector{kNone, kLeast, kLeast}));
+    EXPECT_EQ(formula_of(parts), "0 | 1 | 2");
     EXPECT_EQ(parts[0].solid.parent_from_solid[3].x, 100);
     EXPECT_EQ(parts[1].solid.parent_from_solid[3].x, 111);
     EXPECT_EQ(parts[2].solid.parent_from_solid[3].x, 112);
@@ -63,29 +81,52 @@ TEST(SolidParts, WithFacesInOnePlaneStayBehindACut) {
     const Solid cut = joined(SolidKind::difference_of, {wall, box({1, 0, 0}, {1, 1, 3})});
     const std::vector<SolidPart> parts =
         parts_of(joined(SolidKind::union_of, {cut, box({1, 0, 0}, {0.5, 0.5, 1})}));
-    EXPECT_EQ(links_of(parts), (std::vector{kNone, kLeast, kLargest, kLeast}));
+    EXPECT_EQ(formula_of(parts), "0 | 1 & -2 | 3");
 }
 
 TEST(SolidParts, OfADifferenceOfAUnionAreComplements) {
     const std::vector<SolidPart> parts = parts_of(joined(
         SolidKind::difference_of, {ball(0), joined(SolidKind::union_of, {ball(1), ball(2)})}));
-    EXPECT_EQ(links_of(parts), (std::vector{kNone, kLargest, kLargest}));
-    EXPECT_FALSE(parts[0].is_complement);
-    EXPECT_TRUE(parts[1].is_complement);
-    EXPECT_TRUE(parts[2].is_complement);
+    EXPECT_EQ(formula_of(parts), "0 & -1 & -2");
 }
 
-TEST(SolidParts, OfOneOfSeveralDifferencesInAUnionAreDivided) {
-    const auto bitten = [](double x) {
-        return joined(SolidKind::difference_of, {ball(x), ball(x + 1)});
-    };
+Solid bitten(double x) {
+    return joined(SolidKind::difference_of, {ball(x), ball(x + 1)});
+}
+
+TEST(SolidParts, OfSeveralDifferencesInAUnionStandInBrackets) {
     const std::vector<SolidPart> parts =
         parts_of(joined(SolidKind::union_of, {ball(9), bitten(0), bitten(5)}));
-    EXPECT_EQ(links_of(parts), (std::vector{kNone, kLargest, kLeast, kLeast}));
+    EXPECT_EQ(formula_of(parts), "0 & -1 | 2 | (3 & -4)");
     EXPECT_EQ(parts[0].solid, ball(0));
-    EXPECT_TRUE(parts[1].is_complement);
     EXPECT_EQ(parts[2].solid, ball(9));
-    EXPECT_EQ(parts[3].solid, bitten(5));
+    EXPECT_EQ(parts[3].solid, ball(5));
+    EXPECT_EQ(parts[4].solid, ball(6));
+}
+
+TEST(SolidParts, OfWhatIsTakenFromADifferenceStandInBrackets) {
+    EXPECT_EQ(formula_of(parts_of(
+                  joined(SolidKind::difference_of, {bitten(0), bitten(3), ball(9), bitten(6)}))),
+              "-0 | 1 & 2 & -3 & -4 & (-5 | 6)");
+}
+
+/// A union of differences, or a difference of unions, ... of balls: 2^levels.
+Solid alternating(int levels, double x = 0) {
+    if (levels == 0) return ball(x);
+    const double shift = std::ldexp(1, levels - 1);
+    return joined(levels % 2 == 0 ? SolidKind::union_of : SolidKind::intersection_of,
+                  {alternating(levels - 1, x), alternating(levels - 1, x + shift)});
+}
+
+TEST(SolidParts, StandInThreeBracketsAtMost) {
+    EXPECT_EQ(formula_of(parts_of(alternating(2))), "0 & 1 | (2 & 3)");
+    EXPECT_EQ(formula_of(parts_of(alternating(3))), "0 & 1 | (2 & 3) & (4 & 5 | (6 & 7))");
+    EXPECT_EQ(parts_of(alternating(4)).size(), 16u);
+    const std::vector<SolidPart> parts = parts_of(alternating(5));
+    EXPECT_EQ(parts.size(), 31u) << "one pair is left whole";
+    EXPECT_TRUE(parts.back().is_undivided);
+    EXPECT_EQ(count_undivided(alternating(5)), 1u);
+    EXPECT_EQ(count_undivided(alternating(4)), 0u);
 }
 
 TEST(SolidParts, WithFacesInOnePlaneAreOnePart) {
@@ -99,6 +140,12 @@ TEST(SolidParts, WithFacesInOnePlaneAreOnePart) {
         parts_of(joined(SolidKind::union_of, {left, box({3.5, 0.2, 0.1}, {2, 1.6, 1.8})})).size(),
         2u)
         << "they lie apart";
+    EXPECT_EQ(
+        formula_of(parts_of(joined(SolidKind::union_of,
+                                   {joined(SolidKind::intersection_of, {ball(0), ball(1)}),
+                                    joined(SolidKind::difference_of, {ball(0), left, right})}))),
+        "0 & 1 | (2 & -3)")
+        << "they are taken away together";
     EXPECT_EQ(parts_of(joined(SolidKind::union_of, {left, ball(1), right})).size(), 2u);
 }
 

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -48,11 +49,19 @@ class Cut : public FileTest {
         FileTest::SetUp();
         write_obj(folder / "mesh.obj", box({-0.7f, -0.5f, -0.45f}, {0.6f, 0.55f, 0.4f}));
     }
-    ReadBricks bricks_of(const std::string& keys) {
+    std::shared_ptr<const BrickGrid> grid_of(const std::string& keys) {
         const Scene scene = cut_scene(folder, keys);
         AssetStore meshes;
         GridCache grids(shared_device(), meshes);
-        return ReadBricks(*grids.own_grid_of(scene.models[0], false));
+        return grids.own_grid_of(scene.models[0], false);
+    }
+    ReadBricks bricks_of(const std::string& keys) { return ReadBricks(*grid_of(keys)); }
+    /// The mesh's own distances, and those to what a cut leaves.
+    std::array<ReadBricks, 2> fields_of(const std::string& keys) {
+        const std::shared_ptr<const BrickGrid> grid = grid_of(keys);
+        EXPECT_EQ(grid->parts.size(), 1u);
+        EXPECT_EQ(grid->parts.at(0).place.link, FieldLink::largest);
+        return {ReadBricks(*grid), ReadBricks(*grid->parts.at(0).grid)};
     }
 };
 
@@ -86,15 +95,16 @@ TEST_F(Cut, SolidCubesAreTheMeshsOutsideOfTheSolid) {
 
 TEST_F(Cut, ASmoothBallWithoutACapHasTheVolumeOfItsFormula) {
     write_obj(folder / "mesh.obj", ball({0.1, 0, 0}, 1, 192, 96));
-    const ReadBricks grid = bricks_of(
+    const auto [mesh, rest] = fields_of(
         R"("resolution": 96, "cut": [{"shape": "slab", "thickness": 4, "position": [0, 2.4, 0]}])");
-    const GridFrame& frame = grid.host.frame;
+    const GridFrame& frame = mesh.host.frame;
     // The volume below a surface that crosses a node's cell is taken from the node's distance.
     double cells = 0;
     for (glm::ivec3 v(0); v.z < frame.size.z; ++v.z)
         for (v.y = 0; v.y < frame.size.y; ++v.y)
             for (v.x = 0; v.x < frame.size.x; ++v.x)
-                cells += std::clamp(0.5 - grid.distance_at(v) / 8192.0, 0.0, 1.0);
+                cells += std::clamp(
+                    0.5 - std::max(mesh.distance_at(v), rest.distance_at(v)) / 8192.0, 0.0, 1.0);
     const double edge = frame.voxel_edge.x, height = 1.4;  // the height of what is left of the ball
     const double volume = std::numbers::pi * height * height * (3 - height) / 3;
     EXPECT_NEAR(cells * edge * edge * edge, volume, 0.002 * volume);
@@ -102,12 +112,10 @@ TEST_F(Cut, ASmoothBallWithoutACapHasTheVolumeOfItsFormula) {
 
 TEST_F(Cut, ASmoothFieldIsTheGreaterDistance) {
     const std::string keys = R"("resolution": 41)";
-    const ReadBricks
-        whole = bricks_of(keys),
-        left = bricks_of(
-            keys +
-            R"(, "cut": [{"shape": "box", "size": [0.4, 2, 0.3], "position": [0.1, 0, 0.05]}])");
-    const GridFrame& frame = left.host.frame;
+    const ReadBricks whole = bricks_of(keys);
+    const auto [mesh, rest] = fields_of(
+        keys + R"(, "cut": [{"shape": "box", "size": [0.4, 2, 0.3], "position": [0.1, 0, 0.05]}])");
+    const GridFrame& frame = mesh.host.frame;
     for (glm::ivec3 v(0); v.z < frame.size.z; ++v.z)
         for (v.y = 0; v.y < frame.size.y; ++v.y)
             for (v.x = 0; v.x < frame.size.x; ++v.x) {
@@ -118,8 +126,8 @@ TEST_F(Cut, ASmoothFieldIsTheGreaterDistance) {
                                    frame.voxel_edge.x;
                 const double expected = std::max(whole.distance_at(v) / 8192.0, -box);
                 if (std::abs(expected) > 2.7) continue;
-                ASSERT_NEAR(left.distance_at(v) / 8192.0, expected, 3e-4)
-                    << v.x << " " << v.y << " " << v.z;
+                const int left = std::max(mesh.distance_at(v), rest.distance_at(v));
+                ASSERT_NEAR(left / 8192.0, expected, 3e-4) << v.x << " " << v.y << " " << v.z;
             }
 }
 

@@ -104,22 +104,34 @@ inline const Kernels kShade = {"absorb_shadows", "absorb_sight",  "add_light",
                                "find_surface",   "list_emissive", "resolve_pixels",
                                "shade_surface",  "trace_shadows"};
 inline const Kernels kTrace = all_of({kShade, {"cast_sight", "trace_closest"}});
-// Joins the models of instances to the world's voxels.
-inline const Kernels kJoin = all_of({kTrace,
-                                     {"append_bricks", "append_copies", "append_numbers",
-                                      "append_instance_primitives", "append_instance_words"}});
+// Joins the models of instances to the world's voxels, some of which list fields.
+inline const Kernels kJoin =
+    all_of({kTrace,
+            {"append_bricks", "append_copies", "append_fields", "append_numbers",
+             "append_instance_primitives", "append_instance_words"}});
 // Where something lets light through, rays continue, and shadow rays lose light where they are
 // traced.
-inline const Kernels kPaths = {
-    "absorb_sight",          "add_light",      "append_bricks",
-    "append_copies",         "append_numbers", "append_instance_primitives",
-    "append_instance_words", "begin_paths",    "cast_sight",
-    "find_surface",          "list_emissive",  "pass_layer",
-    "resolve_pixels",        "shade_surface",  "trace_closest",
-    "trace_shadows"};
-// Unites the fields of smooth objects with the other voxels.
-inline const Kernels kUnite =
-    all_of({kJoin, {"append_masks", "unite_marks", "write_fields", "write_united"}});
+inline const Kernels kPaths = {"absorb_sight",
+                               "add_light",
+                               "append_bricks",
+                               "append_fields",
+                               "append_copies",
+                               "append_numbers",
+                               "append_instance_primitives",
+                               "append_instance_words",
+                               "begin_paths",
+                               "cast_sight",
+                               "find_surface",
+                               "list_emissive",
+                               "pass_layer",
+                               "resolve_pixels",
+                               "shade_surface",
+                               "trace_closest",
+                               "trace_shadows"};
+// Unites the fields of smooth objects with the other voxels; one is a mesh that is cut.
+inline const Kernels kUnite = all_of(
+    {kJoin,
+     {"append_masks", "mark_inside", "join_parts", "unite_marks", "write_fields", "write_united"}});
 // Builds bricks of cubes and exact voxels, and the lists of the exact objects in them.
 inline const Kernels kEmpty = all_of(
     {kUnite,

@@ -219,8 +219,8 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"EmissionAgain0", "materials.fog.emission", "[1, 2, 1]", "[0, 0, 0]", kShade,
                WorldChange::none, true, 0, 0, 0, kRedBall, kFogBall},
         Change{"Cut", "models.drilled.cut[0].radius", "0.1", "0.12",
-               all_of({kNewSmooth, {"classify_solid_bricks", "sample_solid", "join_distances"}}),
-               WorldChange::built, false, 1, 8}),
+               all_of({kNewSmooth, {"classify_solid_bricks", "sample_solid"}}), WorldChange::built,
+               false, 1, 16}),
     [](const auto& change) { return std::string(change.param.name); });
 
 }  // namespace

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface of a solid's parts that pass one voxel: several fields, of which each point has the
-// least or the largest (shared/voxel.h), so that edges between parts stay sharp.
+// least or the largest, by a formula with or without brackets (shared/voxel.h), so that edges
+// between parts stay sharp.
 #ifndef VXL_FIELD_CHAIN_H
 #define VXL_FIELD_CHAIN_H
 
 #include "lib/surface/smooth.h"
 
 // A ray goes through at most so many zeros of a chain's records in search of the chain's own.
-#define VXL_CHAIN_ZEROS 16
+#define VXL_CHAIN_ZEROS 64
 
 #define VXL_NO_RECORD 0xFFFFFFFFu
 
@@ -37,6 +38,56 @@ typedef struct {
     lane_uint record;
 } ChainValue;
 
+/// Records that are joined to one another, and how they will be to those before them.
+typedef struct {
+    ChainValue sum;
+    lane_uint link;
+} JoinedRecords;
+
+/// The brackets of a chain that are open, the outermost first; the chain itself is number 0.
+typedef struct {
+    JoinedRecords open[VXL_CHAIN_DEPTH + 1];
+    lane_int depth;  // the number of the innermost
+} OpenBrackets;
+
+static inline void join_records(ChainValue* all, const JoinedRecords* next, lane_int lanes) {
+    const lane_int takes =
+        lanes &
+        (LANE_MASK(next->link == 0u) |
+         (LANE_MASK(next->link == VXL_LINK_UNION) & LANE_MASK(next->sum.value < all->value)) |
+         (LANE_MASK(next->link == VXL_LINK_INTERSECTION) &
+          LANE_MASK(next->sum.value > all->value)));
+    all->value = LANES_SELECT(takes, next->sum.value, all->value);
+    all->record = LANES_SELECT(takes, next->sum.record, all->record);
+}
+
+/// Closes the brackets above `depth`.
+static inline void close_brackets(OpenBrackets* b, lane_int depth, lane_int lanes) {
+    for (int i = VXL_CHAIN_DEPTH; i > 0; --i)
+        join_records(&b->open[i - 1].sum, &b->open[i],
+                     lanes & LANE_MASK(b->depth >= i) & LANE_MASK(depth < i));
+    b->depth = LANES_SELECT(lanes, depth, b->depth);
+}
+
+/// Closes and opens the brackets in front of a record, of which the outermost that opens takes over
+/// its link.
+static inline void pass_brackets(const FieldChain* c, OpenBrackets* b, lane_uint record,
+                                 lane_uint* link, lane_int lanes) {
+    const lane_uint word = (record & LANES_AS_UINT(lanes)) * VXL_FIELD_WORDS;
+    const lane_int opens =
+        LANES_AS_INT(LANES_GATHER_UINT(c->fields, word + VXL_OPENS_WORD) >> VXL_LINK_SHIFT);
+    const lane_int closes =
+        LANES_AS_INT(LANES_GATHER_UINT(c->fields, word + VXL_CLOSES_WORD) >> VXL_LINK_SHIFT);
+    const lane_int depth = b->depth - closes;
+    close_brackets(b, depth, lanes);
+    b->depth += opens & lanes;
+    for (int i = 1; i <= VXL_CHAIN_DEPTH; ++i) {
+        const lane_int opened = lanes & LANE_MASK(b->depth >= i) & LANE_MASK(depth < i);
+        b->open[i].link = LANES_SELECT(opened, *link, b->open[i].link);
+        *link = LANES_SELECT(opened, (lane_uint)0u, *link);
+    }
+}
+
 /// A way along a ray through a chain's fields, from one record's zero to the next.
 typedef struct {
     lane_float u;       // where it is
@@ -52,25 +103,30 @@ static inline ChainWay chain_way(void) {
 /// The value just behind a point of a way, where all records have `shift` added to them.
 static INLINED ChainValue chain_behind(const FieldChain* c, const LocalRay* ray,
                                        const ChainWay* way, lane_float shift, lane_int tested) {
-    ChainValue sum = {(lane_float)0.0f, c->begin};
+    OpenBrackets b;
+    for (int i = 0; i <= VXL_CHAIN_DEPTH; ++i) {
+        const JoinedRecords none = {{(lane_float)0.0f, c->begin}, (lane_uint)0u};
+        b.open[i] = none;
+    }
+    b.depth = (lane_int)0;
     lane_uint number = c->begin;
     for (lane_int left = tested; lanes_any(left); left &= LANE_MASK(number < c->end)) {
         const lane_uint here = number & LANES_AS_UINT(left);
         const Field field = read_field(c->fields, here);
-        const lane_uint link =
+        lane_uint link =
             LANES_GATHER_UINT(c->fields, here * VXL_FIELD_WORDS + VXL_LINK_WORD) >> VXL_LINK_SHIFT;
         const lane_float along = field_along(&field, ray, (lane_float)1.0f, way->u) + shift;
         const lane_float value =
             LANES_SELECT(LANE_MASK(number == way->record), way->beyond * FLT_MIN, along);
-        const lane_int takes =
-            left & (LANE_MASK(number == c->begin) |
-                    (LANE_MASK(link == VXL_LINK_UNION) & LANE_MASK(value < sum.value)) |
-                    (LANE_MASK(link == VXL_LINK_INTERSECTION) & LANE_MASK(value > sum.value)));
-        sum.value = LANES_SELECT(takes, value, sum.value);
-        sum.record = LANES_SELECT(takes, number, sum.record);
+        if (VXL_CHAIN_DEPTH > 0) pass_brackets(c, &b, here, &link, left);
+        const JoinedRecords next = {{value, number}, link};
+        for (int i = 0; i <= VXL_CHAIN_DEPTH; ++i)
+            join_records(&b.open[i].sum, &next,
+                         VXL_CHAIN_DEPTH > 0 ? left & LANE_MASK(b.depth == i) : left);
         number += 1u;
     }
-    return sum;
+    if (VXL_CHAIN_DEPTH > 0) close_brackets(&b, (lane_int)0, tested);
+    return b.open[0].sum;
 }
 
 /// Goes on to the next zero of any record plus `shift`, up to `u_exit`: the mask of lanes that have

@@ -4,84 +4,90 @@
 #include <algorithm>
 #include <utility>
 
-#include "runtime/geometry/solid/flush_faces.hpp"
+#include "runtime/geometry/solid/solid_formula.hpp"
 
 namespace voxelume {
 namespace {
 
-using Parts = std::vector<SolidPart>;
-
-SolidPart whole(Solid solid, const glm::dmat4& frame_from_parent, bool is_complement) {
-    solid.parent_from_solid = frame_from_parent * solid.parent_from_solid;
-    return {std::move(solid), is_complement, FieldLink::none};
-}
-
-/// True if the parts may be joined to others by `link` in any order.
-bool joins_by(const Parts& parts, FieldLink link) {
-    return std::all_of(parts.begin() + 1, parts.end(),
-                       [&](const SolidPart& part) { return part.link == link; });
-}
-
-Parts divide(const Solid& solid, const glm::dmat4& frame_from_parent, bool is_complement) {
-    if (!is_combination(solid.kind)) return {whole(solid, frame_from_parent, is_complement)};
-    const glm::dmat4 map = frame_from_parent * solid.parent_from_solid;
-    // De Morgan: the complement of a union is the intersection of the complements.
-    const bool is_union = (solid.kind == SolidKind::union_of) != is_complement;
-    const FieldLink link = is_union ? FieldLink::least : FieldLink::largest;
-    Parts first, others;
-    for (size_t i = 0; i < solid.parts.size(); ++i) {
-        const bool is_taken_away = solid.kind == SolidKind::difference_of && i > 0;
-        const bool is_outside = is_complement != is_taken_away;
-        Parts divided = divide(solid.parts[i], map, is_outside);
-        if (!joins_by(divided, link) && first.empty()) {
-            first = std::move(divided);
-            continue;
-        }
-        if (!joins_by(divided, link)) divided = {whole(solid.parts[i], map, is_outside)};
-        for (SolidPart& part : divided) part.link = link;
-        others.insert(others.end(), divided.begin(), divided.end());
+/// Brackets that a term needs within each other when it is written without any around itself.
+size_t depth_of(const SolidTerm& term) {
+    size_t deepest = 0, second = 0;  // of inner terms, with brackets around them
+    for (const SolidTerm& inner : term.terms) {
+        if (inner.is_shape()) continue;
+        const size_t depth = depth_of(inner) + 1;
+        second = std::max(second, std::min(deepest, depth));
+        deepest = std::max(deepest, depth);
     }
-    first.insert(first.end(), others.begin(), others.end());
-    first.front().link = FieldLink::none;
-    return first;
+    return std::max(deepest, second + 1) - 1;  // the deepest is written first, without brackets
 }
 
-Solid union_of(Solid a, Solid b) {
-    Solid both;
-    both.kind = SolidKind::union_of;
-    both.parts = {std::move(a), std::move(b)};
-    return both;
-}
+class PartWriter {
+  public:
+    std::vector<SolidPart> parts;
 
-/// Makes one part of those of a union whose faces continue each other: such a face has no edge
-/// where one of them ends, but their own edges, which fields round, would show there.
-Parts with_flush_ones_joined(Parts parts) {
-    const bool is_union = joins_by(parts, FieldLink::least);
-    const auto is_open = [&](const SolidPart& part) {
-        const bool is_in_union =
-            part.link == FieldLink::least || (is_union && part.link == FieldLink::none);
-        return is_in_union && !part.is_complement;
-    };
-    for (size_t i = 0; i < parts.size(); ++i)
-        for (size_t j = i + 1; j < parts.size();) {
-            // A part mustn't move past one that takes something away from those before it.
-            if (parts[j].link != FieldLink::least) break;
-            if (!is_open(parts[i]) || !is_open(parts[j]) ||
-                !have_flush_faces(parts[i].solid, parts[j].solid)) {
-                ++j;
-                continue;
-            }
-            parts[i].solid = union_of(std::move(parts[i].solid), std::move(parts[j].solid));
-            parts.erase(parts.begin() + std::ptrdiff_t(j));
-            j = i + 1;  // what is joined may continue others
+    /// Writes a term whose first part is joined by `link`, inside of the brackets that are open.
+    void write(const SolidTerm& term, FieldLink link) {
+        if (term.is_shape())
+            write_whole(term, link);
+        else
+            write_from(term, first_of(term), link);
+    }
+
+    /// Writes a term that isn't a shape, its inner term `first` before the others.
+    void write_from(const SolidTerm& term, size_t first, FieldLink link) {
+        write(term.terms[first], link);
+        for (size_t i = 0; i < term.terms.size(); ++i)
+            if (i != first) write_joined(term.terms[i], term.link);
+    }
+
+  private:
+    /// The term that is written first and needs no brackets: the deepest.
+    static size_t first_of(const SolidTerm& term) {
+        const auto deepest = std::ranges::max_element(term.terms, {}, [](const SolidTerm& inner) {
+            return inner.is_shape() ? 0 : depth_of(inner) + 1;
+        });
+        return size_t(deepest - term.terms.begin());
+    }
+
+    void write_joined(const SolidTerm& term, FieldLink link) {
+        const bool has_room = brackets_.size() < kMaxBracketDepth && count_ < kMaxBrackets;
+        if (term.is_shape() || !has_room) {
+            write_whole(term, link);
+            return;
         }
-    return parts;
-}
+        brackets_.push_back({++count_, link});
+        write(term, FieldLink::none);
+        brackets_.pop_back();
+    }
+
+    void write_whole(const SolidTerm& term, FieldLink link) {
+        parts.push_back({term.whole, term.is_complement, {link, brackets_}, !term.is_shape()});
+    }
+
+    std::vector<FieldBracket> brackets_;
+    uint32_t count_ = 0;
+};
 
 }  // namespace
 
 std::vector<SolidPart> parts_of(const Solid& solid) {
-    return with_flush_ones_joined(divide(solid, glm::dmat4(1), false));
+    PartWriter writer;
+    writer.write(formula_of(solid), FieldLink::none);
+    return std::move(writer.parts);
+}
+
+std::vector<SolidPart> parts_behind_first(const Solid& difference) {
+    PartWriter writer;
+    const SolidTerm formula = formula_of(difference);
+    if (formula.is_shape())
+        writer.write(formula, FieldLink::none);
+    else
+        writer.write_from(formula, 0, FieldLink::none);
+    return std::move(writer.parts);
+}
+
+size_t count_undivided(const Solid& solid) {
+    return size_t(std::ranges::count_if(parts_of(solid), &SolidPart::is_undivided));
 }
 
 uint32_t count_nodes(const Solid& solid) {

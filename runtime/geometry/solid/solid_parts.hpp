@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/field_place.hpp"
 #include "runtime/scene/parts/solid.hpp"
 
 namespace voxelume {
@@ -13,15 +13,21 @@ namespace voxelume {
 struct SolidPart {
     Solid solid;
     bool is_complement = false;  ///< the part is all that lies outside of `solid`
-    FieldLink link = FieldLink::none;
+    FieldPlace place;            ///< in the formula of the parts
+    bool is_undivided = false;   ///< `solid` is a combination whose brackets were too many
 };
 
-/// The parts that make up a solid when each is joined to those before it: all shapes of a tree
-/// without brackets, such as unions of unions, or a shape without others. Where several parts of a
-/// union are differences or intersections themselves (or the other way round), one of them is
-/// divided, and the others stay whole. Parts of a union that have faces in one plane where they
-/// meet are one part.
+/// The parts that make up a solid when they are joined by their places: all shapes of its tree.
+/// Combinations stay whole that would need more brackets than kMaxBracketDepth and kMaxBrackets,
+/// which takes a tree of 32 shapes at least. Shapes of a union that have faces in one plane where
+/// they meet are one part.
 std::vector<SolidPart> parts_of(const Solid& solid);
+
+/// The parts of a difference whose first part is a shape: that shape comes first.
+std::vector<SolidPart> parts_behind_first(const Solid& difference);
+
+/// Combinations among a solid's parts that stay whole, so that edges within them are rounded.
+size_t count_undivided(const Solid& solid);
 
 /// The nodes of a solid's tree.
 uint32_t count_nodes(const Solid& solid);

@@ -2,6 +2,7 @@
 #include "runtime/memory/count/count_display.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "runtime/analysis/medium_set.hpp"
@@ -11,6 +12,7 @@
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_medium.hpp"
 #include "runtime/stages/display/display_rays.hpp"
+#include "runtime/stages/display/display_samples.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -114,7 +116,7 @@ class DisplayCounter {
         const double shown =
             is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
         const ProbePoints points = allocate_points(device_, numbered(found));
-        choose(numbered(shown));
+        choose(numbered(shown), batch);
         if (features.medium) measure_medium();
     }
 
@@ -126,11 +128,19 @@ class DisplayCounter {
     }
 
     /// Counts the voxels that are shown, and their points.
-    void choose(uint32_t shown) const {
+    void choose(uint32_t shown, uint32_t rays) const {
         const VoxelArrays voxels = allocate_voxels(device_, shown);
         const ProbePoints chosen = allocate_points(device_, shown);
-        const Buffer<uint32_t> distances(device_, "display distances", shown);
-        const Buffer<uint32_t> numbers(device_, "display numbers", shown);
+        {
+            const Buffer<uint32_t> distances(device_, "display distances", shown);
+            const Buffer<uint32_t> numbers(device_, "display numbers", shown);
+        }
+        SampleSums sums;
+        std::array<ProbePoints, 3> of_axes;
+        if (scene_.render.samples > 1) {
+            for (ProbePoints& points : of_axes) points = allocate_points(device_, shown);
+            sums = allocate_sample_sums(device_, shown, rays);
+        }
         if (!features_.transmission) return;
         const Buffer<uint32_t> covers = allocate_covers(device_, shown);
     }

@@ -143,21 +143,36 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
     return grid;
 }
 
+namespace {
+
+/// Follows cut_field: the body's grid stays, with those of the cuts.
+BrickGrid count_cut_field(const Device& device, const BrickGrid& whole, const GridCounts& counts) {
+    GridCounts of_cuts = counts;
+    of_cuts.bricks = counts.cut_bricks;
+    of_cuts.parts = counts.parts - 1;
+    BrickGrid cuts = count_solid_grid(device, of_cuts);
+    BrickGrid grid = whole;
+    grid.parts = std::move(cuts.parts);
+    cuts.parts.clear();
+    grid.parts.push_back({std::make_shared<const BrickGrid>(std::move(cuts)), {}});
+    return grid;
+}
+
+}  // namespace
+
 BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts) {
+    if (counts.surface == Surface::smooth) return count_cut_field(device, whole, counts);
     GridCounts space = counts;
     space.words = false;
     space.paint = {};
-    const bool is_shell = counts.surface != Surface::smooth && counts.set != VoxelSet::solid;
+    const bool is_shell = counts.set != VoxelSet::solid;
     const BrickGrid rest = count_solid_grid(device, space);
     const BrickGrid body = is_shell ? count_mesh_grid(device, space) : BrickGrid();
     const BrickGrid inside = is_shell ? count_solid_grid(device, space) : BrickGrid();
     BrickGrid grid = empty_grid(counts);
     grid.slots = allocate_slots(device, "slots", counts.frame);
     grid.coordinates = Buffer<uint32_t>(device, "coordinates", counts.bricks);
-    if (counts.surface == Surface::smooth)
-        grid.distance = allocate_distances(device, "distance", counts.bricks);
-    else
-        grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
+    grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
     const Buffer<uint32_t> sources(device, "source slots", 4 * counts.bricks);
     if (!whole.attributes.empty())
         grid.attributes = allocate_words(device, "voxel attributes", counts.bricks);

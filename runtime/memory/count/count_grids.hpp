@@ -23,7 +23,8 @@ struct GridCounts {
     size_t voxels = 0;                   ///< that the surface passes through
     size_t vertices = 0, triangles = 0;  ///< of a mesh
     size_t shapes = 0;                   ///< of an analytic solid
-    size_t parts = 1;                    ///< ... whose distances are kept apart
+    size_t parts = 1;                    ///< ... or of a cut mesh, whose distances are kept apart
+    size_t cut_bricks = 0;               ///< of a cut mesh's other parts
 };
 
 /// The number of triangles that a voxel of an exact mesh lists.
@@ -34,7 +35,8 @@ inline constexpr double kTrianglesPerVoxel = 2.5;
 BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts);
 BrickGrid count_solid_grid(const Device& device, const GridCounts& counts);
 
-/// The part of a mesh's `whole` grid, of `counts`, that cuts leave. The cuts' own grids are freed.
+/// The part of a mesh's `whole` grid, of `counts`, that cuts leave. The cuts' own grids are freed,
+/// but for smooth meshes.
 BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts);
 
 }  // namespace voxelume

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/memory/count/cut_count.hpp"
 #include "runtime/memory/count/plan_grid.hpp"
 #include "runtime/memory/count/voxel_bricks.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -40,17 +40,6 @@ bool is_solid_set(const Model& model) {
 /// the object has.
 double filled_voxels(const SurfaceExtent& extent, double inside) {
     return std::min(inside, 0.5 * extent.bricks * double(kVoxelsPerBrick));
-}
-
-/// The ratio of the box around a cube in the object's space to the cube, on average over its axes.
-double spread_of(const Object& object) {
-    const glm::dmat3 turn(object.world_from_object);
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const glm::dvec3 direction = glm::normalize(turn[axis]);
-        sum += std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-    }
-    return sum / 3;
 }
 
 /// The smaller of two counts: areas tell too much of small surfaces, and too little of others.
@@ -87,6 +76,10 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     counts.cube_normals = shows_voxels(model.surface) && model.normals == CubeNormals::surface;
     if (model.solid) counts.shapes = count_nodes(*model.solid);
     if (!mesh) return counts;
+    if (const Solid cuts = cuts_of(model); !cuts.parts.empty()) {
+        counts.parts = 1 + parts_of(cuts).size();
+        counts.shapes = count_nodes(cuts);
+    }
     counts.words = mesh->group_names.size() > 1;
     counts.paint = mesh->paint;
     counts.texture_key = reinterpret_cast<uintptr_t>(mesh);
@@ -154,7 +147,11 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
         const SurfaceExtent by_area = surface_extent(area, kOwnSpace, frame, stored_band(model));
         return counts_of(model, mesh, frame, smaller(counted, by_area));
     }
-    if (is_expected) return mesh_grid(model, *mesh, frame, mesh->area);
+    if (is_expected) {
+        GridCounts counts = mesh_grid(model, *mesh, frame, mesh->area);
+        counts.cut_bricks = cut_bricks(model, kOwnSpace, frame);
+        return counts;
+    }
     return mesh_grid(model, *mesh, frame, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
 }
 
@@ -168,7 +165,10 @@ GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& fram
         const SurfaceExtent minimum = extents_.minimum(object, band);
         extent = model.solid ? smaller(extent, minimum) : minimum;
     }
-    return counts_of(model, meshes_.summary_of(model), frame, extent);
+    GridCounts counts = counts_of(model, meshes_.summary_of(model), frame, extent);
+    if (estimate == Estimate::expected)
+        counts.cut_bricks = cut_bricks(model, object.world_from_object, frame);
+    return counts;
 }
 
 BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
@@ -189,6 +189,10 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
     }
     SurfaceExtent extent =
         extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+    const SurfaceExtent cut = cut_extent(model, object.world_from_object, world_frame(scene_.world),
+                                         box_of(object), world_rule(model.surface, false, false));
+    extent.voxels += cut.voxels;
+    extent.bricks += cut.bricks;
     const double inside = keeps_inside || is_solid_set(model) ? extents_.inside_voxels(object) : 0;
     if (is_solid_set(model)) extent.voxels += filled_voxels(extent, inside);
     if (keeps_inside) {
@@ -287,12 +291,6 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
     in_world_.resize(scene_.objects.size());
     if (!expected_) expected_ = expected_world();
     return estimate == Estimate::expected ? *expected_ : min_world();
-}
-
-WorldCounts indexed_counts(const GridCounts& grid) {
-    const double solid_or_mesh = grid.triangles > 0 ? kTrianglesPerVoxel : 1;
-    const double each = grid.surface == Surface::exact ? solid_or_mesh : 0;
-    return {grid.bricks, grid.voxels, size_t(each * double(grid.voxels))};
 }
 
 }  // namespace voxelume

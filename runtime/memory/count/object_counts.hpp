@@ -74,7 +74,4 @@ class ObjectCounts {
 GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
                      const SurfaceArea& area);
 
-/// The voxels that rays must see of a grid, and the primitives that these list.
-WorldCounts indexed_counts(const GridCounts& grid);
-
 }  // namespace voxelume

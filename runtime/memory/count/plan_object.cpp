@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
@@ -91,6 +92,16 @@ double ObjectExtents::part_in_world(const Object& object) {
 const std::vector<VoxelBox>& ObjectExtents::boxes() {
     if (boxes_.empty()) boxes_ = object_boxes(scene_, meshes_);
     return boxes_;
+}
+
+double spread_of(const Object& object) {
+    const glm::dmat3 turn(object.world_from_object);
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 direction = glm::normalize(turn[axis]);
+        sum += std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+    }
+    return sum / 3;
 }
 
 }  // namespace voxelume

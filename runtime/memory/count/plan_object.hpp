@@ -47,4 +47,7 @@ class ObjectExtents {
     std::vector<VoxelBox> boxes_;            ///< none before they are asked for
 };
 
+/// The ratio of the box around a cube in the object's space to the cube, on average over its axes.
+double spread_of(const Object& object);
+
 }  // namespace voxelume

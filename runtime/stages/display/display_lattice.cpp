@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_arguments.hpp"
@@ -148,7 +149,37 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
     }
 }
 
-ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) {
+/// The point of each voxel that lies nearest to its middle, of those on lines along `axis`, or of
+/// all for -1.
+ProbePoints DisplayLatticeStage::nearest(const std::vector<ProbePoints>& pieces,
+                                         const ShownVoxels& shown, int axis) {
+    ProbePoints chosen = allocate_points(device_, uint32_t(shown.voxels.count));
+    chosen.axis = axis;
+    chosen.views.fill(kNoView);
+    Buffer<uint32_t> distances(device_, "display distances", chosen.count);
+    Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);
+    distances.fill(UINT32_MAX);
+    numbers.fill(UINT32_MAX);
+    const auto for_pieces = [&](const auto& use) {
+        uint32_t first_number = 0;
+        for (const ProbePoints& points : pieces) {
+            if (axis < 0 || points.axis == axis) use(points, first_number);
+            first_number += points.count;
+        }
+    };
+    for (const uint32_t turn : {0u, 1u})
+        for_pieces([&](const ProbePoints& points, uint32_t first_number) {
+            choose_.launch(WorkItem::light, points.count, lattice_, points, first_number, mask_,
+                           shown.starts, turn, distances, numbers);
+        });
+    for_pieces([&](const ProbePoints& points, uint32_t first_number) {
+        take_.launch(WorkItem::light, chosen.count, points, first_number, numbers, chosen.count,
+                     chosen.total, chosen.coordinates, chosen.views);
+    });
+    return chosen;
+}
+
+ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces, int samples) {
     mask_.fill(0);
     for (const ProbePoints& points : pieces)
         mark_.launch(WorkItem::light, points.count, lattice_, points, mask_);
@@ -162,29 +193,10 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0u);
     starts.write(counts);
     list_.launch(WorkItem::light, groups_, mask_, starts, groups_, shown.voxels.indices);
-
-    shown.points = allocate_points(device_, uint32_t(voxels));
-    ProbePoints& chosen = shown.points;
-    chosen.views.fill(kNoView);
-    Buffer<uint32_t> distances(device_, "display distances", chosen.count);
-    Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);
-    distances.fill(UINT32_MAX);
-    numbers.fill(UINT32_MAX);
-    for (const uint32_t turn : {0u, 1u}) {
-        uint32_t first_number = 0;
-        for (const ProbePoints& points : pieces) {
-            choose_.launch(WorkItem::light, points.count, lattice_, points, first_number, mask_,
-                           starts, turn, distances, numbers);
-            first_number += points.count;
-        }
-    }
-    uint32_t first_number = 0;
-    for (const ProbePoints& points : pieces) {
-        take_.launch(WorkItem::light, chosen.count, points, first_number, numbers, chosen.count,
-                     chosen.total, chosen.coordinates, chosen.views);
-        first_number += points.count;
-    }
     shown.starts = std::move(starts);
+    shown.points = nearest(pieces, shown, -1);
+    for (int axis = 0; axis < 3 && samples > 1; ++axis)
+        shown.of_axes[size_t(axis)] = nearest(pieces, shown, axis);
     return shown;
 }
 

@@ -2,6 +2,7 @@
 // probe points -> P in the layout `lattice`: the voxels that are shown, and their light.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -13,9 +14,10 @@ namespace voxelume {
 
 /// The voxels that a lattice shows, each with the probe point that gives it its light.
 struct ShownVoxels {
-    VoxelArrays voxels;       ///< only `indices` are filled
-    ProbePoints points;       ///< one for each voxel
-    Buffer<uint32_t> starts;  ///< the number of voxels before each group of the mask
+    VoxelArrays voxels;                  ///< only `indices` are filled
+    ProbePoints points;                  ///< one for each voxel
+    std::array<ProbePoints, 3> of_axes;  ///< those on lines along each axis, or none of a voxel
+    Buffer<uint32_t> starts;             ///< the number of voxels before each group of the mask
 };
 
 /// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
@@ -56,12 +58,14 @@ class DisplayLatticeStage {
     void leave_out_objects(const RayBatch& batch);
     void note_objects(const RayBatch& entries, uint32_t count, bool is_first);
 
-    /// The voxels of all points that have a view.
-    ShownVoxels choose(const std::vector<ProbePoints>& pieces);
+    /// The voxels of all points that have a view. Finds `of_axes` for `samples` above 1.
+    ShownVoxels choose(const std::vector<ProbePoints>& pieces, int samples);
 
     /// Lights the voxels, batch by batch.
     void light(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
                RayBatch& batch, ShownVoxels& shown);
+
+    const Buffer<float4>& views() const { return views_; }
 
     /// One bit for every voxel of the lattice, 1 for those that are shown.
     const Buffer<uint32_t>& mask() const { return mask_; }
@@ -69,6 +73,7 @@ class DisplayLatticeStage {
     uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 
   private:
+    ProbePoints nearest(const std::vector<ProbePoints>& pieces, const ShownVoxels& shown, int axis);
     void aim(const ProbePoints& points, uint32_t search, uint32_t first, uint32_t count,
              RayBatch& batch);
     /// Points, and the voxels that get their light. If `targets` is empty, point n lights voxel n.

@@ -268,8 +268,10 @@ void DisplayScanStage::scan_families(const Pyramid& world, const std::vector<Fam
 
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
-    scan_families(world, families_, batch,
-                  [&pieces](int, LinePoints found) { pieces.push_back(std::move(found.points)); });
+    scan_families(world, families_, batch, [&pieces](int axis, LinePoints found) {
+        found.points.axis = axis;
+        pieces.push_back(std::move(found.points));
+    });
     return pieces;
 }
 

@@ -17,6 +17,7 @@ namespace voxelume {
 
 /// Probe points in lattice voxels, in an order that depends on the world and the lattice alone.
 struct ProbePoints {
+    int axis = 0;  ///< along which their lines lead
     uint32_t count = 0;
     uint32_t total = 0;         ///< room in each array, a multiple of 16
     Buffer<float> coordinates;  ///< x, y, z, `total` apart

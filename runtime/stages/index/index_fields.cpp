@@ -16,7 +16,8 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kCounts = 3;  // of each brick: voxels, primitives, listed fields
+constexpr size_t kCounts = 3;      // of each brick: voxels, primitives, listed fields
+constexpr size_t kEntryWords = 3;  // a brick of a field, its object's rank, its brackets
 
 /// VXL_ENTRY_PARAMETERS of index_fields.cl, and what else is known of the world's bricks.
 struct UnitedBricks {
@@ -42,14 +43,15 @@ void list_entries(const PlacedWorld& world, UnitedBricks& united) {
     for (const uint32_t brick : united.bricks_of)
         if (brick != kBrickOutside) ++united.first[brick + 1];
     for (size_t i = 1; i < united.first.size(); ++i) united.first[i] += united.first[i - 1];
-    united.entries.resize(size_t(united.first.back()) * 2);
+    united.entries.resize(size_t(united.first.back()) * kEntryWords);
     std::vector<uint32_t> next(united.first.begin(), united.first.end() - 1);
     for (size_t field = 0; field < world.fields.size(); ++field)
         for (uint32_t i = united.first_of[field]; i < united.first_of[field + 1]; ++i) {
             if (united.bricks_of[i] == kBrickOutside) continue;
-            uint32_t* entry = &united.entries[size_t(next[united.bricks_of[i]]++) * 2];
+            uint32_t* entry = &united.entries[size_t(next[united.bricks_of[i]]++) * kEntryWords];
             entry[0] = i;
             entry[1] = world.ranks[world.fields[field].object];
+            entry[2] = world.fields[field].place.path();
         }
 }
 
@@ -125,7 +127,7 @@ Defines features_of(const PlacedWorld& world, const PlacedField* field) {
             {"VXL_PRIMITIVES", !base.primitive_first.empty()},
             {"VXL_COLORS", !base.colors.empty() || std::ranges::any_of(world.fields, has_colors)},
             {"VXL_VOXEL_NORMALS", !base.normals.empty()},
-            {"VXL_LINK", field ? int(field->link) : 0},
+            {"VXL_LINKED", field && !field->is_first},
             {"VXL_ATTRIBUTES", field && !field->grid.attributes.empty()},
             {"VXL_OWN_COLORS", field && !field->grid.colors.empty()}};
 }
@@ -198,6 +200,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
                                        {numbers.bricks.size() / kWordsPerRecord / kRecordsPerSector,
                                         numbers.leaf_count, numbers.totals[0], numbers.totals[1]});
     pyramid.has_chains = has_parts(world) && pyramid.listed_fields > 0;
+    pyramid.chain_depth = pyramid.has_chains ? chain_depth(world) : 0;
     pyramid.sectors.write(numbers.sectors);
     pyramid.bricks.write(numbers.bricks);
     const Buffer<uint32_t> starts(device_, "index starts", numbers.starts);
@@ -212,9 +215,9 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
         Program(device_, "index_fields.cl", features_of(world, &field))
             .kernel("write_fields")
             .launch(WorkItem::heavy, field.grid.brick_count, field.grid.brick_count,
-                    bricks.first_of[i], field.grid, arrays.bricks_of, arrays.first, arrays.entries,
-                    arrays.masks, arrays.united, arrays.listing, starts, pyramid.attributes,
-                    pyramid.colors, pyramid.fields);
+                    bricks.first_of[i], field.place.links(), field.grid, arrays.bricks_of,
+                    arrays.first, arrays.entries, arrays.masks, arrays.united, arrays.listing,
+                    starts, pyramid.attributes, pyramid.colors, pyramid.fields);
     }
     const auto end = uint32_t(numbers.totals[1]);
     if (!pyramid.primitive_first.empty())

@@ -9,10 +9,20 @@
 namespace voxelume {
 namespace {
 
+constexpr size_t kChainWords = 3;
+
 /// The parts in bricks, as join_parts of index_fields.cl reads them.
 struct Chains {
     std::vector<uint32_t> first{0}, entries;
 };
+
+/// True if a field stands first in its bracket: whatever it is, the next ones are joined to it.
+bool opens_bracket(std::span<const PlacedField> fields, size_t i) {
+    if (i == 0) return true;
+    const std::vector<FieldBracket>&before = fields[i - 1].place.brackets,
+          &own = fields[i].place.brackets;
+    return own.size() > before.size() || !std::equal(own.begin(), own.end(), before.begin());
+}
 
 /// Lists the parts of one object, in the bricks that any of them has. All have one table of bricks.
 void list_chains(std::span<const PlacedField> fields, std::span<const uint32_t> first_of,
@@ -25,22 +35,29 @@ void list_chains(std::span<const PlacedField> fields, std::span<const uint32_t> 
         if (std::ranges::none_of(slots, is_stored)) continue;
         for (size_t i = 0; i < fields.size(); ++i) {
             const uint32_t slot = slots[i][brick];
-            const FieldLink link = fields[i].link;
-            const bool is_idle = (link == FieldLink::least && slot == kBrickOutside) ||
-                                 (link == FieldLink::largest && slot == kBrickInside);
-            if (is_idle) continue;
-            chains.entries.push_back(slot < kBrickInside ? first_of[i] + slot : slot);
-            chains.entries.push_back(uint32_t(link));
+            const FieldPlace& place = fields[i].place;
+            const bool is_idle = (place.link == FieldLink::least && slot == kBrickOutside) ||
+                                 (place.link == FieldLink::largest && slot == kBrickInside);
+            if (is_idle && !opens_bracket(fields, i)) continue;
+            chains.entries.insert(
+                chains.entries.end(),
+                {slot < kBrickInside ? first_of[i] + slot : slot, place.path(), place.links()});
         }
-        chains.first.push_back(uint32_t(chains.entries.size() / 2));
+        chains.first.push_back(uint32_t(chains.entries.size() / kChainWords));
     }
 }
 
 }  // namespace
 
 bool has_parts(const PlacedWorld& world) {
-    return std::ranges::any_of(
-        world.fields, [](const PlacedField& field) { return field.link != FieldLink::none; });
+    return !std::ranges::all_of(world.fields, &PlacedField::is_first);
+}
+
+uint32_t chain_depth(const PlacedWorld& world) {
+    size_t depth = 0;
+    for (const PlacedField& field : world.fields)
+        depth = std::max(depth, field.place.brackets.size());
+    return uint32_t(depth);
 }
 
 void join_parts(const Device& device, const Program& program, const PlacedWorld& world,
@@ -49,7 +66,7 @@ void join_parts(const Device& device, const Program& program, const PlacedWorld&
     const Buffer<uint64_t> inside = allocate_masks(device, "inside masks", first_of.back());
     Chains chains;
     for (size_t begin = 0, end = 0; begin < fields.size(); begin = end) {
-        for (++end; end < fields.size() && fields[end].link != FieldLink::none;) ++end;
+        for (++end; end < fields.size() && !fields[end].is_first;) ++end;
         if (end - begin == 1) continue;
         for (size_t i = begin; i < end; ++i)
             program.kernel("mark_inside")

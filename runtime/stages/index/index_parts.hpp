@@ -12,6 +12,9 @@ namespace voxelume {
 /// True if some object has several fields.
 bool has_parts(const PlacedWorld& world);
 
+/// Brackets of the objects' formulas that are within each other.
+uint32_t chain_depth(const PlacedWorld& world);
+
 /// Takes from `masks`, which hold the voxels that the surfaces of all fields may cross, those in
 /// which other parts decide what is inside. The bricks of field i begin at number first_of[i];
 /// `program` is index_fields.cl.

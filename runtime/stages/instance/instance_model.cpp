@@ -68,10 +68,12 @@ PlacedWorld world_of_parts(const BrickGrid& grid) {
     PlacedWorld world;
     world.voxels.frame = grid.frame;
     world.ranks = {0};
-    world.fields.push_back({.grid = grid, .version = 0});
+    world.fields.push_back({.grid = grid, .place = grid.place, .version = 0});
     for (const GridPart& part : grid.parts)
-        world.fields.push_back(
-            {.grid = *part.grid, .link = part.link, .version = world.fields.size()});
+        world.fields.push_back({.grid = *part.grid,
+                                .place = part.place,
+                                .is_first = false,
+                                .version = world.fields.size()});
     return world;
 }
 

@@ -73,6 +73,7 @@ class Total {
         joined.voxel_count = voxel_count_;
         joined.listed_fields = uint32_t(total_.voxels) - voxel_count_;
         joined.has_chains = has_chains_;
+        joined.chain_depth = chain_depth_;
         joined.sectors = Buffer<uint32_t>(device, "sectors", total_.sectors);
         joined.bricks = Buffer<uint32_t>(device, "brick records", total_.records * kWordsPerRecord);
         joined.leaves = Buffer<uint32_t>(device, "leaves", total_.leaves * 2);
@@ -114,6 +115,7 @@ class Total {
         parts_.normals |= !p.triangle_normals.empty();
         parts_.textures.add(p.texture_key, p.textures.size());
         has_chains_ |= p.has_chains;
+        chain_depth_ = std::max(chain_depth_, p.chain_depth);
         transparent_ |= p.transparent;
         texture_alpha_ |= p.texture_alpha;
         texture_maps_ |= p.texture_maps;
@@ -121,7 +123,7 @@ class Total {
 
     GridFrame frame_;
     Extent total_;
-    uint32_t voxel_count_ = 0;
+    uint32_t voxel_count_ = 0, chain_depth_ = 0;
     Parts parts_;
     bool has_chains_ = false, transparent_ = false, texture_alpha_ = false, texture_maps_ = false;
 };

@@ -67,16 +67,17 @@ std::optional<PlacedField> WorldPlacer::place_field(const PlacedObject& object,
 std::vector<PlacedField> WorldPlacer::place_fields(const PlacedObject& object,
                                                    const GridFrame& world) {
     std::vector<PlacedField> fields;
-    const auto add = [&](const BrickGrid& grid, FieldLink link) {
+    const auto add = [&](const BrickGrid& grid, const FieldPlace& place) {
         PlacedObject part = object;
         part.grid = &grid;
         std::optional<PlacedField> field = place_field(part, world);
         if (!field) return;
-        field->link = link;
+        field->place = place;
+        field->is_first = fields.empty();
         fields.push_back(std::move(*field));
     };
-    add(*object.grid, FieldLink::none);
-    for (const GridPart& part : object.grid->parts) add(*part.grid, part.link);
+    add(*object.grid, object.grid->place);
+    for (const GridPart& part : object.grid->parts) add(*part.grid, part.place);
     return fields;
 }
 

@@ -25,6 +25,7 @@ Features features_of(const Pyramid& pyramid) {
     features.solids = !pyramid.solids.empty();
     features.field_lists = pyramid.listed_fields > 0;
     features.field_chains = pyramid.has_chains;
+    features.chain_depth = int(pyramid.chain_depth);
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
     features.instances = !pyramid.instances.empty();
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;

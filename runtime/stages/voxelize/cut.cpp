@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
+#include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/brick_arrays.hpp"
+#include "runtime/stages/voxelize/voxelize_solid.hpp"
 
 namespace voxelume {
 namespace {
@@ -41,19 +44,6 @@ class Joiner {
         grid_.frame = body.frame;
         grid_.attribute = body.attribute;
         grid_.transparent = body.transparent;
-    }
-
-    BrickGrid fields(const BrickGrid& rest) {
-        const std::vector<uint32_t> a = body_.slots.read(), b = rest.slots.read();
-        std::vector<cl_uint2> sources;
-        store_bricks(a, [&](size_t brick) { return both(share_of(a[brick]), share_of(b[brick])); });
-        sources.reserve(bricks_.size());
-        for (const uint32_t brick : bricks_) sources.push_back({{a[brick], b[brick]}});
-        grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
-        code_.kernel("join_distances")
-            .launch(WorkItem::heavy, grid_.brick_count, grid_.brick_count, uploaded(sources),
-                    body_.distance, rest.distance, grid_.distance);
-        return finish();
     }
 
     BrickGrid covers(const BrickGrid& inside, const CoveredBody& rest) {
@@ -154,8 +144,22 @@ Solid rest_of(const GridFrame& frame, const glm::dmat4& frame_from_model,
     return rest;
 }
 
-BrickGrid common_field(const Device& device, const BrickGrid& body, const BrickGrid& rest) {
-    return Joiner(device, body).fields(rest);
+BrickGrid cut_field(const Device& device, std::shared_ptr<const BrickGrid> body,
+                    const Solid& rest) {
+    const GridFrame frame = body->frame;
+    std::vector<GridPart> parts;
+    for (const SolidPart& part : parts_behind_first(rest)) {
+        if (parts.empty()) {  // the space around the frame
+            parts.push_back({std::move(body), part.place});
+            continue;
+        }
+        BrickGrid grid =
+            voxelize_part(device, part.solid, part.is_complement, glm::dmat4(1), frame);
+        parts.push_back({std::make_shared<const BrickGrid>(std::move(grid)), part.place});
+    }
+    BrickGrid left = with_parts(std::move(parts));
+    if (left.brick_count > 0) return left;
+    return voxelize_part(device, rest, false, glm::dmat4(1), frame);  // nothing
 }
 
 BrickGrid common_cubes(const Device& device, const CoveredBody& body, const CoveredBody& rest) {

@@ -2,6 +2,7 @@
 // object grid -> object grid: what remains of a body after solids are cut away from it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
@@ -22,14 +23,17 @@ struct CoveredBody {
                               ///< for
 };
 
-/// The intersection of a body and the rest of space. The grids have one frame. Voxels that only the
-/// rest concerns have the body's own packed attributes and are white.
+/// What remains of a `smooth` body without solids, as a grid with parts: the body's own distances
+/// and those to what the solids leave, so that the edges of the cut are sharp. `rest` is as rest_of
+/// has it. Surfaces of the cut have material 0, object 0, and are white.
+BrickGrid cut_field(const Device& device, std::shared_ptr<const BrickGrid> body, const Solid& rest);
+
+/// The intersection of a body and the rest of space, as `cubes`. The grids have one frame. Voxels
+/// that only the rest concerns have the body's own packed attributes and are white.
 ///
-/// The intersection of distance fields is the greater distance, that of SOLID sets the voxels in
-/// both. For other sets it is what each covers on or in the other, which closes the surface where
-/// it was cut. Along the edges of the cut the cover may have voxels of both that the common surface
-/// just misses.
-BrickGrid common_field(const Device& device, const BrickGrid& body, const BrickGrid& rest);
+/// The intersection of SOLID sets has the voxels in both. For other sets it is what each covers on
+/// or in the other, which closes the surface where it was cut. Along the edges of the cut the cover
+/// may have voxels of both that the common surface just misses.
 BrickGrid common_cubes(const Device& device, const CoveredBody& body, const CoveredBody& rest);
 
 }  // namespace voxelume

@@ -13,7 +13,6 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/geometry/solid/solid_membership.hpp"
-#include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/geometry/solid/solid_program.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/opencl/program.hpp"
@@ -211,34 +210,11 @@ BrickGrid voxelize_solid(const Device& device, const Solid& solid,
     return SolidVoxelizer(device, std::move(program), frame).run(options);
 }
 
-BrickGrid voxelize_parts(const Device& device, const Solid& solid,
-                         const glm::dmat4& frame_from_solid, const GridFrame& frame) {
-    const VoxelizeOptions options{.surface = Surface::smooth};
-    const std::vector<SolidPart> parts = parts_of(solid);
-    if (parts.size() == 1) return voxelize_solid(device, solid, frame_from_solid, frame, options);
-    std::vector<GridPart> joined;
-    // Where no part has a surface: whether they fill the frame, or are empty there.
-    bool is_full = false;
-    for (const SolidPart& part : parts) {
-        SolidProgram program =
-            make_solid_program(part.solid, frame_from_solid, frame, part.is_complement);
-        program.shapes.front().attribute = VXL_KIND_SMOOTH << VXL_KIND_SHIFT;
-        BrickGrid grid = SolidVoxelizer(device, std::move(program), frame).run(options);
-        const bool is_union = part.link == FieldLink::least;
-        const bool is_first = part.link == FieldLink::none;
-        if (grid.brick_count == 0) {
-            const bool fills = grid.slots.read_one(0) == kBrickInside;
-            if (!is_first && fills != is_union) continue;  // nothing changes
-            joined.clear();
-            is_full = fills;
-        } else if (is_first || !joined.empty() || is_full != is_union) {
-            joined.push_back({std::make_shared<const BrickGrid>(std::move(grid)), part.link});
-        }
-    }
-    if (joined.empty()) return voxelize_solid(device, solid, frame_from_solid, frame, options);
-    BrickGrid first = *joined.front().grid;
-    first.parts.assign(joined.begin() + 1, joined.end());
-    return first;
+BrickGrid voxelize_part(const Device& device, const Solid& solid, bool is_complement,
+                        const glm::dmat4& frame_from_solid, const GridFrame& frame) {
+    SolidProgram program = make_solid_program(solid, frame_from_solid, frame, is_complement);
+    program.shapes.front().attribute = VXL_KIND_SMOOTH << VXL_KIND_SHIFT;
+    return SolidVoxelizer(device, std::move(program), frame).run({.surface = Surface::smooth});
 }
 
 }  // namespace voxelume

@@ -4,9 +4,11 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <vector>
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene/parts/solid.hpp"
+
 #include "runtime/stages/voxelize/voxelize_options.hpp"
 
 namespace voxelume {
@@ -30,6 +32,14 @@ namespace voxelume {
 BrickGrid voxelize_solid(const Device& device, const Solid& solid,
                          const glm::dmat4& frame_from_solid, const GridFrame& frame,
                          const VoxelizeOptions& options);
+
+/// Does what voxelize_solid does for a `smooth` solid, or for all that lies outside of it.
+BrickGrid voxelize_part(const Device& device, const Solid& solid, bool is_complement,
+                        const glm::dmat4& frame_from_solid, const GridFrame& frame);
+
+/// The grids of a formula's parts, in its order, as one grid with parts: those that decide
+/// somewhere in the frame, which is that of all. Without bricks if none does.
+BrickGrid with_parts(std::vector<GridPart> parts);
 
 /// Does what voxelize_solid does for a `smooth` solid, and gives each of its parts, as parts_of has
 /// them, a grid of its own where its surface passes through the frame.

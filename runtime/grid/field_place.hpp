@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the distances of a part stand in the formula of its solid, such as a - b | (c - d).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <kernels/shared/field_place.h>
+
+namespace voxelume {
+
+/// How distances are joined to those before them: by the lesser or the larger of the two;
+/// kernels/shared/field_place.h has the numbers.
+enum class FieldLink : uint8_t { none, least, largest };
+
+/// Brackets may be so deep within each other.
+inline constexpr size_t kMaxBracketDepth = VXL_MAX_BRACKETS;
+/// ... and a formula may have so many.
+inline constexpr size_t kMaxBrackets = VXL_BRACKET_MASK;
+
+/// A bracket of a formula.
+struct FieldBracket {
+    uint32_t number = 0;               ///< from 1 on; differs from those of the formula's others
+    FieldLink link = FieldLink::none;  ///< to what stands before it
+
+    friend bool operator==(const FieldBracket&, const FieldBracket&) = default;
+};
+
+/// The place of a part in its formula, whose parts are joined from left to right but for brackets.
+/// Any parts may be left out of a formula: a link counts only where something stands before it.
+struct FieldPlace {
+    FieldLink link = FieldLink::none;    ///< to what stands before the part in its bracket
+    std::vector<FieldBracket> brackets;  ///< that the part stands in, the outermost first
+
+    friend bool operator==(const FieldPlace&, const FieldPlace&) = default;
+
+    /// The brackets, as VXL_SHARED_BRACKETS reads them.
+    uint32_t path() const {
+        uint32_t packed = 0;
+        for (size_t i = 0; i < brackets.size(); ++i)
+            packed |= brackets[i].number << (VXL_BRACKET_BITS * i);
+        return packed;
+    }
+    /// The links of the brackets and then the part's own, VXL_LINK_BITS each.
+    uint32_t links() const {
+        uint32_t packed = uint32_t(link) << (VXL_LINK_BITS * brackets.size());
+        for (size_t i = 0; i < brackets.size(); ++i)
+            packed |= uint32_t(brackets[i].link) << (VXL_LINK_BITS * i);
+        return packed;
+    }
+};
+
+}  // namespace voxelume

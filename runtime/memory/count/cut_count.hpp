@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// cuts of smooth meshes -> what their surfaces take of a lattice.
+#pragma once
+
+#include "runtime/memory/count/brick_count.hpp"
+#include "runtime/scene/parts/object.hpp"
+
+namespace voxelume {
+
+/// The union of all that is cut from a smooth mesh; it has no parts if nothing is.
+Solid cuts_of(const Model& model);
+
+/// What the surfaces of a mesh's cuts take in a box of a lattice; nothing if it isn't smooth.
+SurfaceExtent cut_extent(const Model& model, const glm::dmat4& frame_from_model,
+                         const GridFrame& frame, const VoxelBox& box, const BrickRule& rule);
+
+/// The bricks that they take of a model's grid.
+size_t cut_bricks(const Model& model, const glm::dmat4& frame_from_model, const GridFrame& frame);
+
+}  // namespace voxelume
