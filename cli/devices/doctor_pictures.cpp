@@ -44,11 +44,11 @@ void add(const Volume& volume, Hasher& hasher) {
     hasher.add(volume.object_ids());
 }
 
-/// Each channel, but for what moves.
+/// Each channel that kernels fill, but for what moves.
 Channels all_channels() {
     Channels channels = kNoChannels;
     for (const ChannelRow& row : channel_table()) channels.*row.member = true;
-    channels.motion = false;
+    channels.motion = channels.samples = channels.noise = false;
     return channels;
 }
 

@@ -185,7 +185,7 @@ std::vector<KnownPicture> known_pictures() {
         {"rays in fog", lattice("default", "rays", "observer", kFog), true, "64f4fababf3ffcce"},
         {"display of voxels", lattice("default", "lattice", "outside", ""), true,
          "0c28be7a202cf243"},
-        {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "5d57b4caf08e6231"},
+        {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "4d1f1d5c5036adb0"},
         {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2de843ba4414102e"},
     };
 }

@@ -80,6 +80,34 @@ TEST(DisplaySamples, MixColorsAndShadowsAsFlatPicturesDo) {
         }
 }
 
+// In ambient light surfaces look as without the medium before them, whose own light is taken out.
+TEST(DisplaySamples, CountTheMediumBeforeSurfacesAsAir) {
+    for (const char* density : {R"({"kind": "ball", "center": [0, 0, 0], "radius": 1})",
+                                R"({"kind": "height", "base": -9, "scale_height": 9})"}) {
+        Scene clear = parsed(wall_scene("exact", "world", "1"));
+        clear.lights.clear();
+        clear.render.samples = 4;
+        std::string text = wall_scene("exact", "world", "1");
+        text.insert(text.find("\"ambient\""),
+                    fmt::format(R"("medium": {{"absorption": [0.5, 0.7, 0.3],
+                                               "color": [0.2, 0.1, 0.4], "density": {}}}, )",
+                                density));
+        Scene foggy = parsed(text);
+        foggy.lights.clear();
+        foggy.render.samples = 4;
+        const Volume in_air = volume_of(clear), in_fog = volume_of(foggy);
+        size_t compared = 0;
+        for (size_t i = 0, k = 0; i < in_fog.indices.size() && k < in_air.indices.size(); ++i) {
+            while (k < in_air.indices.size() && in_air.indices[k] < in_fog.indices[i]) ++k;
+            if (k == in_air.indices.size() || in_air.indices[k] != in_fog.indices[i]) continue;
+            if (in_fog.objects[i] == 0) continue;
+            ++compared;
+            EXPECT_LT(glm::distance(in_air.colors[k], in_fog.colors[i]), 2e-6f) << i;
+        }
+        EXPECT_GT(compared, 700u) << density;
+    }
+}
+
 /// A box whose edges lie within voxels, at these parts of them.
 constexpr double kFace = 0.3, kSide = 0.8;
 
