@@ -162,7 +162,8 @@ void add_progress_options(CLI::App& app, RenderCommand& command) {
                  "go on where a run ended: the same as --overwrite changed");
     app.add_option("--continue", command.earlier,
                    "add samples to this .exr image of an earlier run with --float and fewer "
-                   "--samples; the result is that of one run");
+                   "--samples; the result is that of one run")
+        ->check([](const std::string& file) { return file.empty() ? "names no file" : ""; });
     const char* const progress = std::getenv("VOXELUME_PROGRESS");
     if (progress != nullptr && *progress != '\0') command.progress = progress;
     app.add_option("--progress", command.progress,
@@ -225,6 +226,8 @@ void check_options(const RenderCommand& options) {
     if (!options.earlier.empty() && !(options.shard.empty() && options.quilt.views.empty()))
         fail_usage("render: --continue adds samples to whole images of one view: leave out {}",
                    options.shard.empty() ? "--quilt" : "--shard");
+    if (!options.earlier.empty() && options.plan_only)
+        fail_usage("render: --dry-run tells of whole images: leave out --continue");
     check_stream(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))

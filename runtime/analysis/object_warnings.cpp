@@ -237,16 +237,17 @@ void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetS
              warnings);
 }
 
-void add_rounding_warning(const Object& object, const Model& model,
-                          std::vector<Warning>& warnings) {
-    if (!model.solid || !stores_distances(model.surface)) return;
-    const size_t rounded = count_undivided(*model.solid);
+void add_rounding_warning(const Model& model, std::vector<Warning>& warnings) {
+    if (!stores_distances(model.surface)) return;
+    const size_t rounded = model.solid          ? count_undivided(*model.solid)
+                           : model.cuts.empty() ? 0
+                                                : count_undivided(model.cuts);
     if (rounded == 0) return;
     add_once({WarningKind::rounded_edges, model.where,
-              fmt::format("edges within {} of this solid's combinations, which stand too deep in "
-                          "others, are rounded on \"smooth\": leave \"surface\" out or give "
-                          "\"exact\", or make {} of several objects",
-                          rounded, title_of(object))},
+              fmt::format("edges within {} of its combinations of solids are rounded on "
+                          "\"smooth\", for they are nested too deeply: give \"surface\": "
+                          "\"exact\", or combine fewer solids",
+                          rounded)},
              warnings);
 }
 
@@ -289,7 +290,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     if (add_outside_warning(scene, object, model, warnings)) return;
     add_thin_warning(scene, object, model, warnings);
     add_thin_part_warning(scene, model, meshes, warnings);
-    add_rounding_warning(object, model.model, warnings);
+    add_rounding_warning(model.model, warnings);
     add_ratio_warning(scene, object, model, warnings);
 }
 

@@ -105,6 +105,11 @@ void check_samples(const std::filesystem::path& file, const RenderSettings& earl
                     file.string(), by_noise(earlier), by_noise(wanted));
     if (earlier.noise.is_given()) {
         if (wanted.noise.error <= earlier.noise.error && wanted.samples >= earlier.samples) return;
+        if (earlier.noise.error == 0)
+            throw Error(ErrorKind::usage,
+                        "{}: was rendered by time alone, with at most {} samples; ask for time "
+                        "alone, and no fewer samples",
+                        file.string(), earlier.samples);
         throw Error(
             ErrorKind::usage,
             "{}: was rendered to a noise of {} by at most {} samples; ask for no more noise "

@@ -76,6 +76,13 @@ void note_counts(const Illumination& illumination, const std::optional<BeamStage
     report.world_bytes = bytes_of(world);
 }
 
+/// Each sample shows what of a texture lies in its part of the pixel, which all samples share.
+[[noreturn]] void refuse_textures() {
+    throw Error(ErrorKind::usage,
+                "samples can't be added by their number where surfaces wear textures, which are "
+                "blurred by it: use --noise in both runs, or render the image anew");
+}
+
 }  // namespace
 
 Renderer::View Renderer::view_of(const Scene& scene, const BuiltWorld& world,
@@ -184,6 +191,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     const Pyramid& world = built.pyramid;
     Features features = features_of(scene, world);
     leave_out_solid_kinds(device_, world, features);
+    if (scene.render.earlier && features.textures()) refuse_textures();
     if (is_white_) {
         features.colors = false;
         features.leave_out_textures();

@@ -175,7 +175,9 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
     Image image = image_of_tiles(scene, world, report, tiles);
     const int earlier = scene.render.earlier ? scene.render.first_sample : 0;
     const int samples = earlier + scene.render.samples;
-    TileSamples(tiles.share.tiles(), samples, samples).show(scene.render.channels, image);
+    const ImageChannels& channels = scene.render.channels;
+    if (channels.samples || channels.noise)
+        TileSamples(tiles.share.tiles(), samples, samples).show(channels, image);
     return image;
 }
 

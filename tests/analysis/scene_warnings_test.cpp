@@ -75,12 +75,22 @@ TEST_F(SceneWarnings, NameSolidsThatAreTooDeepForSharpEdges) {
     json["models"]["ball"] = alternating(5, 0);
     json["models"]["ball"]["surface"] = "smooth";
     EXPECT_THAT(kinds(), ElementsAre(Kind::rounded_edges));
-    EXPECT_THAT(warnings()[0].text, HasSubstr("edges within 1 of this solid's combinations"));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("edges within 1 of its combinations of solids"));
     json["models"]["ball"]["surface"] = "exact";
     EXPECT_THAT(kinds(), IsEmpty());
     json["models"]["ball"] = alternating(4, 0);
     json["models"]["ball"]["surface"] = "smooth";
     EXPECT_THAT(kinds(), IsEmpty());
+    // What cuts a mesh stands a level deeper.
+    std::ofstream(folder / "block.obj")
+        << "v 0 0 0\nv .9 0 0\nv 0 .9 0\nv 0 0 .9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    for (const int levels : {3, 4}) {
+        json["models"]["ball"] = {{"mesh", "block.obj"},
+                                  {"surface", "smooth"},
+                                  {"voxel_size", 0.1},
+                                  {"cut", {alternating(levels, 0)}}};
+        EXPECT_EQ(std::ranges::count(kinds(), Kind::rounded_edges), levels - 3) << levels;
+    }
 }
 
 TEST_F(SceneWarnings, MeasureThicknessWhereTheObjectStands) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/png.hpp"
 #include "tests/cli/scene_program.hpp"
 
 namespace voxelume {
@@ -130,6 +131,9 @@ TEST_F(CliContinueTest, RefusesWhatHasNotTheBitsOfOneRun) {
     EXPECT_THAT(expect_failure(2, line + "--noise 0.1 --channels RGBA,samples,noise "
                                          "--continue four.exr"),
                 HasSubstr("has samples by their number"));
+    EXPECT_THAT(expect_failure(2, line + "--samples 8 --dry-run --continue four.exr"),
+                HasSubstr("leave out --continue"));
+    EXPECT_THAT(expect_failure(2, line + "--samples 8 --continue ''"), HasSubstr("names no file"));
     EXPECT_THAT(expect_failure(2, line + "--samples 8 --shard 1/2 --continue four.exr"),
                 HasSubstr("leave out --shard"));
     EXPECT_THAT(expect_failure(2, line + "--samples 8 --volume v.vdb --continue four.exr"),
@@ -139,6 +143,28 @@ TEST_F(CliContinueTest, RefusesWhatHasNotTheBitsOfOneRun) {
         HasSubstr("channels CryptoObject"));
     EXPECT_THAT(expect_failure(2, line + "--samples 8 --channels P --continue four.exr"),
                 HasSubstr("channels P only where"));
+}
+
+TEST_F(CliContinueTest, GoesOnWithTexturesByNoiseAlone) {
+    put_bytes(folder / "cloth.obj",
+              "mtllib cloth.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+              "usemtl cloth\nf 1/1 3/2 2/3\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\nf 3/1 1/2 4/3\n");
+    put_bytes(folder / "cloth.mtl", "newmtl cloth\nKd 1 1 1\nmap_Kd paint.png\n");
+    write_png(folder / "paint.png",
+              {2, 1, {{"R", {0.9f, 0.1f}}, {"G", {0.2f, 0.8f}}, {"B", {0.4f, 0.5f}}}, {}, {}});
+    write_scene([](Json& scene) {
+        scene["models"]["thing"] = {{"mesh", "cloth.obj"}, {"surface", "exact"}};
+    });
+    render("--samples 2 -o two.exr");
+    EXPECT_THAT(expect_failure(2,
+                               "render scene.json --float -o out.exr --samples 8 "
+                               "--continue two.exr"),
+                HasSubstr("wear textures"));
+    const std::string line = "--channels RGBA,samples,noise -o ";
+    render(line + "much.exr --samples 64 --noise 0.5");
+    render(line + "little.exr --samples 128 --noise 0.02");
+    render(line + "more.exr --samples 128 --noise 0.02 --continue much.exr");
+    expect_same_files("little.exr", "more.exr");
 }
 
 TEST_F(CliContinueTest, RefusesFilesOfSomethingElse) {

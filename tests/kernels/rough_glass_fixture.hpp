@@ -26,7 +26,7 @@ static PhysicalView glass_at(global const float* materials, lane_float cosine, u
     const Vector n = {(lane_float)0.36f, (lane_float)0.48f, (lane_float)-0.8f};
     const Frame f = frame_around(n);
     const Vector out = {exact_sqrt(1.0f - cosine * cosine), (lane_float)0.0f, cosine};
-    const Colors none = {0, 0, (lane_uint)0};
+    const Colors none = {0, 0, 0, (lane_uint)0};
     return view_physical(materials, (lane_int)-1, (lane_uint)0, (lane_uint)0, none, n,
                          out_of_frame(&f, out), (lane_int)(inside ? -1 : 0));
 }

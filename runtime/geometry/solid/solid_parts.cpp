@@ -90,6 +90,14 @@ size_t count_undivided(const Solid& solid) {
     return size_t(std::ranges::count_if(parts_of(solid), &SolidPart::is_undivided));
 }
 
+size_t count_undivided(const std::vector<Solid>& cuts) {
+    Solid rest;
+    rest.kind = SolidKind::difference_of;
+    rest.parts.emplace_back().kind = SolidKind::box;
+    rest.parts.insert(rest.parts.end(), cuts.begin(), cuts.end());
+    return size_t(std::ranges::count_if(parts_behind_first(rest), &SolidPart::is_undivided));
+}
+
 uint32_t count_nodes(const Solid& solid) {
     uint32_t count = 1;
     for (const Solid& part : solid.parts) count += count_nodes(part);

@@ -117,7 +117,6 @@ class DisplayCounter {
             is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
         const ProbePoints points = allocate_points(device_, numbered(found));
         choose(numbered(shown), batch);
-        if (features.medium) measure_medium();
     }
 
     /// Counts the voxels of the medium that are looked for together.
@@ -141,8 +140,9 @@ class DisplayCounter {
             for (ProbePoints& points : of_axes) points = allocate_points(device_, shown);
             sums = allocate_sample_sums(device_, shown, rays);
         }
-        if (!features_.transmission) return;
-        const Buffer<uint32_t> covers = allocate_covers(device_, shown);
+        const Buffer<uint32_t> covers =
+            features_.transmission ? allocate_covers(device_, shown) : Buffer<uint32_t>();
+        if (features_.medium) measure_medium();
     }
 
     RayCounts counts_of(uint32_t rays) const {

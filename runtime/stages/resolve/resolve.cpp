@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/resolve/resolve.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,18 @@ std::vector<const char*> id_plane_names(const ImageChannels& channels) {
 
 size_t pixel_count(const Camera& camera) {
     return size_t(camera.width) * size_t(camera.height);
+}
+
+/// Values below normal ones have lost bits of their sum.
+void check_exact(const Image& earlier, const char* name) {
+    const auto plane = earlier.planes.find(name);
+    if (plane == earlier.planes.end()) return;
+    const auto is_subnormal = [](float v) { return std::fpclassify(v) == FP_SUBNORMAL; };
+    if (std::ranges::any_of(plane->second, is_subnormal))
+        throw Error(ErrorKind::input,
+                    "the image to which samples are added has values in channel {} that are too "
+                    "small to be exact: render it anew",
+                    name);
 }
 
 }  // namespace
@@ -83,6 +97,7 @@ void ResolveStage::begin_with(const Image& earlier) {
             buffer.write({plane->second.data(), pixels}, i * pixels);
         }
     };
+    for (const char* name : {"R", "G", "B", "A"}) check_exact(earlier, name);
     write(earlier.planes, names_, image_.planes);
     write(earlier.id_planes, id_names_, image_.ids);
 }
