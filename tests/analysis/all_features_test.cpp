@@ -50,8 +50,12 @@ std::string scene_text(const std::string& light) {
            "thing": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
            "slick": {"mesh": "m.gltf", "voxel_size": 0.1, "surface": "smooth"},
            "nut": {"shape": "union", "surface": "smooth", "parts": [
-               {"shape": "sphere", "radius": 0.4},
-               {"shape": "sphere", "radius": 0.3, "position": [0.3, 0.2, 0.1]}]},
+               {"shape": "difference", "parts": [
+                   {"shape": "sphere", "radius": 0.4},
+                   {"shape": "sphere", "radius": 0.2, "position": [-0.3, 0.1, 0]}]},
+               {"shape": "difference", "position": [0.3, 0.2, 0.1], "parts": [
+                   {"shape": "sphere", "radius": 0.3},
+                   {"shape": "sphere", "radius": 0.2, "position": [0.2, 0.1, -0.1]}]}]},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(

@@ -47,7 +47,7 @@ CoverDifference compare_from_corner(const CoverCase& c, const char* surface) {
     constexpr int kPixels = 96;
     const char* observer = R"("position": [-1.5, -1.5, -1.5], "turn": [0, 0, 0])";
     const std::string keys = R"("shape": "pyramid", "angles": [110, 110], "far": 2.6)";
-    const Volume volume = volume_of(
+    const Volume volume = cover_volume(
         cover_scene(c, {surface}, observer,
                     keys + R"(, "voxels": [297, 297, 104], "layout": "lattice")", {8, 8}));
     const std::vector<float> dense = dense_opacities(volume);

@@ -71,7 +71,7 @@ TEST(Pairs, CoverOutlinesAsPreciselyAsPicturesOfAsManySamples) {
 
 TEST(Pairs, ShowNoVoxelWithoutAnObject) {
     for (const CoverKind& kind : kKinds) {
-        const Volume volume = volume_of(cover_scene(
+        const Volume volume = cover_volume(cover_scene(
             kPairs[0], kind, kLookingAlong[2],
             box_keys(2, R"(, "voxels": [38, 36, 37], "layout": "lattice", "visibility": "all")"),
             {8, 8}));

@@ -57,6 +57,12 @@ inline Scene cover_scene(const CoverCase& c, const CoverKind& kind, const std::s
     return parsed(filled(filled(text, "SURFACE", kind.surface), "PLACEMENT", kind.placement));
 }
 
+/// The lattice of a scene, whose opacities need no samples of light.
+inline Volume cover_volume(Scene scene) {
+    scene.render.samples = 1;
+    return volume_of(scene);
+}
+
 /// How far what voxels cover together is from what the flat picture's pixels cover.
 struct CoverDifference {
     double sum = 0, largest_inside = 0;  ///< inside: where no outline is
@@ -124,7 +130,7 @@ inline std::vector<double> covers_along(const CoverCase& c, const CoverKind& kin
         R"(, "voxels": [{}, {}, {}], "layout": "lattice", "visibility": "all", "seen_along": "{}")",
         kSize.x, kSize.y, kSize.z, names[size_t(axis)]);
     const Volume volume =
-        volume_of(cover_scene(c, kind, kLookingAlong[2], box_keys(2, lattice), {8, 8}));
+        cover_volume(cover_scene(c, kind, kLookingAlong[2], box_keys(2, lattice), {8, 8}));
     const std::vector<float> dense = dense_opacities(volume);
     const int right = axis == 0 ? 2 : 0, down = axis == 1 ? 2 : 1;
     const glm::ivec2 size(kSize[right], kSize[down]);
