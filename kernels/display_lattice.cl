@@ -48,9 +48,10 @@ kernel void aim_rays(Camera camera, PyramidShape shape, DisplayLattice lattice,
 kernel void note_objects(VXL_BATCH_PARAMETERS, uint is_first, uint count,
                          global uint* restrict in_object) {
     const uint n = work_item();
-    if (n >= count || rays[VXL_RAY_END * stride + n] < 0.0f) return;
-    if (hits[VXL_HIT_VOXEL * stride + n] != VXL_NO_VOXEL) return;
-    in_object[is_first ? n : paths[VXL_PATH_TARGET * stride + n]] = inside[n] != 0u;
+    const RayBatch batch = VXL_BATCH;
+    if (n >= count || batch.rays[VXL_RAY_END * stride + n] < 0.0f) return;
+    if (batch.hits[VXL_HIT_VOXEL * stride + n] != VXL_NO_VOXEL) return;
+    in_object[is_first ? n : batch.paths[VXL_PATH_TARGET * stride + n]] = inside[n] != 0u;
 }
 
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing

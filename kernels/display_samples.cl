@@ -94,7 +94,7 @@ static inline lane_int place_on_plane(const SamplePlane* s, lane_uint number, in
         column |= (number >> 2 * bit & 1u) << bit;
         row |= (number >> (2 * bit + 1) & 1u) << bit;
     }
-    const float part = 1.0f / (float)(1 << log2);
+    const float part = exact_quotient(1.0f, (float)(1 << log2));
     const lane_float u = (LANES_FLOAT(LANES_AS_INT(column)) + 0.5f) * part,
                      v = (LANES_FLOAT(LANES_AS_INT(row)) + 0.5f) * part;
     const Vector n = s->normal, at = s->point;
@@ -127,8 +127,8 @@ static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint s
     const lane_float most = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z));
     *area = exact_divide(LANES_FLOAT(LANES_AS_INT(count)) * exact_sqrt(dot_product(n, n)),
                          LANES_SELECT(LANE_MASK(most > 0.0f), most, (lane_float)1.0f));
-    const lane_float in_order =
-        ((float)sample + shift) * LANES_FLOAT(LANES_AS_INT(count)) * (1.0f / (float)samples);
+    const lane_float in_order = ((float)sample + shift) * LANES_FLOAT(LANES_AS_INT(count)) *
+                                exact_quotient(1.0f, (float)samples);
     const lane_uint wanted =
         LANES_AS_UINT(clamp(LANES_INT(in_order), (lane_int)0, LANES_AS_INT(count) - 1));
     lane_uint seen = (lane_uint)0u, chosen = (lane_uint)0u;

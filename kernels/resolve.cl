@@ -99,7 +99,8 @@ static inline Samples earlier_samples(const Camera* camera, const Pixels* at, si
                                       global const float* image) {
     const lane_float zero = (lane_float)0.0f;
     Samples s = {{zero, zero, zero}, zero, (lane_uint)VXL_NO_VOXEL};
-    if (!VXL_EARLIER || !VXL_SHOWS_COLOR) return s;
+    if (!VXL_EARLIER) return s;
+    if (!VXL_SHOWS_COLOR) return s;
     const float count = (float)camera->first_sample;
     for (uint channel = 0; channel < 3; ++channel)
         s.color[channel] = load_pixels(at, image + channel * pixels) * count;

@@ -14,7 +14,7 @@ bool is_smooth(const PlacedObject& object) {
     return stores_distances(surface_of(*object.grid));
 }
 
-bool has_parts(const PlacedObject& object) {
+bool has_several_fields(const PlacedObject& object) {
     return !object.grid->parts.empty();
 }
 
@@ -99,7 +99,7 @@ const PlacedWorld& WorldPlacer::place(std::span<const PlacedObject> objects,
     world_.ranks = ranks_of(objects);
     // One that is left alone stays apart, since others may come back.
     const bool apart = (objects.size() > 1 || (had_fields && frame_ == world) ||
-                        std::ranges::any_of(objects, has_parts)) &&
+                        std::ranges::any_of(objects, has_several_fields)) &&
                        std::ranges::any_of(objects, is_smooth);
     if (!apart || frame_ != world) fields_.clear();
     frame_ = world;
