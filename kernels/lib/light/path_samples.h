@@ -27,7 +27,7 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     return s;
 }
 
-/// Those of the paths of entries `first` ..
+/// The samples of the paths in a packet of entries, which begins with `first`.
 static inline PathSamples samples_of_paths(const PathSampling* of, const RayBatch* batch,
                                            uint first) {
     return path_samples(of, LANES_LOAD(batch->paths, VXL_PATH_TARGET * batch->stride + first),

@@ -28,7 +28,7 @@ std::vector<SolidPart> parts_behind_first(const Solid& difference);
 
 /// Combinations among a solid's parts that stay whole, so that edges within them are rounded.
 size_t count_undivided(const Solid& solid);
-/// Likewise those among solids that are taken away from a mesh, whose place is the first.
+/// Counts the same of solids that are taken away from a mesh, which has the first place.
 size_t count_undivided(const std::vector<Solid>& cuts);
 
 /// The nodes of a solid's tree.

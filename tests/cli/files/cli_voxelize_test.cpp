@@ -48,7 +48,20 @@ ColorCells cells_of(const std::string& npy) {
 
 }  // namespace
 
-class CliVoxelizeTest : public SceneProgramTest {};
+class CliVoxelizeTest : public SceneProgramTest {
+  protected:
+    /// A block that turns from red to blue in three frames.
+    void write_changing_scene() {
+        write_scene([](Json& scene) {
+            scene["animation"] = {{"frames", 3},
+                                  {"tracks",
+                                   {{{"target", "materials.brick.color"},
+                                     {"keys",
+                                      {{{"frame", 1}, {"value", {1, 0, 0}}},
+                                       {{"frame", 3}, {"value", {0, 0, 1}}}}}}}}};
+        });
+    }
+};
 
 TEST_F(CliVoxelizeTest, ASceneBecomesTheCubesOfItsWorldInTheirColors) {
     // Boxes that fill whole voxels: 12 x 8 x 4 of them, and 2 x 2 x 2 on top, half opaque.
@@ -152,14 +165,7 @@ TEST_F(CliVoxelizeTest, AScanHasTheVoxelsThatItsPictureHas) {
 }
 
 TEST_F(CliVoxelizeTest, AFrameOfASceneThatMovesIsChosen) {
-    write_scene([](Json& scene) {
-        scene["animation"] = {
-            {"frames", 3},
-            {"tracks",
-             {{{"target", "materials.brick.color"},
-               {"keys",
-                {{{"frame", 1}, {"value", {1, 0, 0}}}, {{"frame", 3}, {"value", {0, 0, 1}}}}}}}}};
-    });
+    write_changing_scene();
     EXPECT_EQ(run("voxelize scene.json --frame 4 -o s.npy").exit_code, 2);
     ASSERT_EQ(run("voxelize scene.json --frame 3 -o s.npy").exit_code, 0);
     EXPECT_EQ(cells_of(bytes_of(folder / "s.npy")).at(0, 0, 0), (std::array{0, 0, 255, 255}));
@@ -215,14 +221,7 @@ TEST_F(CliVoxelizeTest, FramesThatAreMissingOrShareAFileAreRefusedBeforeAnyIsWri
 }
 
 TEST_F(CliVoxelizeTest, AllFramesOfASceneAreWritten) {
-    write_scene([](Json& scene) {
-        scene["animation"] = {
-            {"frames", 3},
-            {"tracks",
-             {{{"target", "materials.brick.color"},
-               {"keys",
-                {{{"frame", 1}, {"value", {1, 0, 0}}}, {{"frame", 3}, {"value", {0, 0, 1}}}}}}}}};
-    });
+    write_changing_scene();
     ASSERT_EQ(run("voxelize scene.json -o s.##.npy").exit_code, 0);
     EXPECT_EQ(cells_of(bytes_of(folder / "s.01.npy")).at(0, 0, 0), (std::array{255, 0, 0, 255}));
     EXPECT_EQ(cells_of(bytes_of(folder / "s.03.npy")).at(0, 0, 0), (std::array{0, 0, 255, 255}));
