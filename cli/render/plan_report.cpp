@@ -98,6 +98,22 @@ Report fitted_report(const Scene& scene) {
     return Report::parse("{" + text + "}");
 }
 
+/// The maximum bytes of the device with the stage `shown` in place of those that are wanted.
+double bytes_with(const Plan& plan, std::string_view shown) {
+    double bytes = 0;
+    for (const StagePlan& stage : plan.stages)
+        if (stage.name == shown || (stage.name != "image" && stage.name != "volume"))
+            bytes = std::max(bytes, stage.bytes);
+    return bytes;
+}
+
+/// Says what a volumetric image takes where it is more than what is asked for.
+void print_volume(const Plan& plan) {
+    const double bytes = bytes_with(plan, "volume");
+    if (bytes > plan.max_bytes)
+        fmt::print("a volumetric image of its display needs at most {}\n", bytes_text(bytes));
+}
+
 void print_verdict(const Plan& plan, bool is_of_frames) {
     const std::string of_frames = is_of_frames ? fmt::format(" by frame {}", plan.frame) : "";
     const std::string needed = plan.verdict == Verdict::fits
@@ -146,6 +162,7 @@ void print_plan(const Scene& scene, const Device& device, const PlanOptions& opt
     const size_t frames =
         options.frames.empty() ? size_t(scene.moves() ? scene.frames() : 1) : options.frames.size();
     print_verdict(plan, frames > 1);
+    print_volume(plan);
 }
 
 }  // namespace voxelume::cli

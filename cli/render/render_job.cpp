@@ -137,7 +137,11 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     const std::vector<Device>& devices = lazy_devices.open();
     if (command.plan_only) {
         print_plan(scene, devices[0],
-                   {numbers_of(job.frames), needed_channels(job), cache_options(command.scene)},
+                   {.frames = numbers_of(job.frames),
+                    .channels = needed_channels(job),
+                    .image = !command.outputs.empty(),
+                    .volume = !command.volumes.empty(),
+                    .cache = cache_options(command.scene)},
                    {.quiet = command.quiet, .strict = command.scene.strict});
         return;
     }

@@ -103,6 +103,8 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
     return api::guarded([&] {
         voxelume::Scene planned = api::inside(scene);
         planned.render.channels = api::inside(options.channels);
+        planned.render.shows_image = options.image || !options.volume;
+        planned.render.shows_volume = options.volume;
         const std::vector<int> frames = frames_of(planned, options.frames);
         const voxelume::DeviceInfo& info = api::inside(device).info();
         check_tables(planned, info);

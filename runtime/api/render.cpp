@@ -111,6 +111,8 @@ class Run {
           wanted_(wanted_by(job, options)),
           earlier_(scene, job, wanted_.channels) {
         scene_.render.channels = api::inside(wanted_.channels);
+        scene_.render.shows_image = wanted_.images || !wanted_.volumes;
+        scene_.render.shows_volume = wanted_.volumes;
     }
 
     v1::Statistics render() {

@@ -46,6 +46,16 @@ struct Volume {
     std::vector<uint32_t> objects;  ///< number of the object plus 1, 0 for none
     std::vector<VoxelKind> kinds;
     std::map<std::string, std::string> attributes;  ///< text for headers: scene, version, ...
+
+    /// Lists entry `i` of another volume, with the same frame, after all others.
+    void append(const Volume& from, size_t i) {
+        indices.push_back(from.indices[i]);
+        colors.push_back(from.colors[i]);
+        opacities.push_back(from.opacities[i]);
+        depths.push_back(from.depths[i]);
+        objects.push_back(from.objects[i]);
+        kinds.push_back(from.kinds[i]);
+    }
 };
 
 }  // namespace voxelume

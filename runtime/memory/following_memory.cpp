@@ -2,9 +2,11 @@
 #include "runtime/memory/following_memory.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/memory/count/count_display.hpp"
 #include "runtime/memory/count/count_image.hpp"
 #include "runtime/memory/count/count_sources.hpp"
 #include "runtime/memory/counted_grids.hpp"
@@ -69,13 +71,35 @@ class FollowingWalk {
         joined.sources = std::move(sources);
         joined.object_boxes = objects_.boxes();
         joined.clear = medium_.is_zero;
-        const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
-        const Buffer<uint8_t> hits(device_, "hits", hit_bytes(joined));
+        const uint64_t before = bytes_in_use(), volume = volume_height(joined);
+        ImageMemory image;
+        Buffer<uint8_t> hits;
+        if (scene_.render.shows_image) {
+            image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
+            hits = {device_, "hits", hit_bytes(joined)};
+        }
+        // The image's arrays are freed before the volumetric image is made.
+        Buffer<uint8_t> rest;
+        if (const uint64_t there = bytes_in_use() - before; volume > there)
+            rest = {device_, "volumetric image", size_t(volume - there)};
         build_next(placed, world, indexed, instances.listed);
         return double(device_.counters().peak_bytes);
     }
 
   private:
+    uint64_t bytes_in_use() const { return device_.counters().bytes_in_use; }
+
+    /// The maximum bytes that the volumetric image adds to the world's, if one is wanted.
+    uint64_t volume_height(const Pyramid& world) const {
+        if (!scene_.render.shows_volume) return 0;
+        DeviceCounters& counters = device_.counters();
+        const uint64_t before = std::exchange(counters.peak_bytes, counters.bytes_in_use);
+        count_volume(device_, scene_, world, medium_, Estimate::expected);
+        const uint64_t height = std::exchange(counters.peak_bytes, before);
+        counters.peak_bytes = std::max(height, before);
+        return height - counters.bytes_in_use;
+    }
+
     /// Counts what the next frame's world needs in addition to all that is there. It may be built
     /// while this frame's image is made, so both are counted together.
     void build_next(std::span<const PlacedObject> placed, CountedWorld& world,

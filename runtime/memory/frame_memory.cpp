@@ -74,7 +74,7 @@ class FrameWalk {
     void show(const Pyramid& world) {
         const size_t depth = estimate_ == Estimate::minimum ? 1 : SIZE_MAX;
         height();
-        count_volume(device_, scene_, world, medium_, estimate_);
+        memory_.volume_voxels = count_volume(device_, scene_, world, medium_, estimate_);
         memory_.volume = height();
         const Features features = features_of(scene_, world);
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);

@@ -18,6 +18,7 @@ struct FrameMemory {
     WorldCounts world;
     double voxelize = 0, place = 0, index = 0, image = 0;
     double volume = 0;             ///< for the display's volumetric image instead of the image
+    double volume_voxels = 0;      ///< listed in the volumetric image
     double pyramid = 0;            ///< part of `image` and `volume`
     double dilated_occupancy = 0;  ///< part of `image`
     double light_host_bytes = 0;   ///< of main memory, for emitters and the sky

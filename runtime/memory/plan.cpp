@@ -17,6 +17,9 @@ namespace {
 // model's lattice while its grid is made, and for a triangle.
 constexpr double kWorldTable = 5, kModelTable = 12, kTriangleBytes = 36;
 
+/// Bytes of main memory for a voxel that a volumetric image lists.
+constexpr double kVolumeVoxelBytes = 33;
+
 /// Small buffers, and voxels that estimates miss where all else is counted exactly: at most 1.4 %
 /// in the scenes of scenes/ (glass_bunny).
 constexpr double kUncounted = 1.02;
@@ -43,12 +46,20 @@ void check_groups(const Scene& scene, AssetStore& meshes) {
             materials_of_groups(object, meshes.groups_of(scene.models[size_t(object.model)]));
 }
 
-double host_bytes(const Scene& scene, const ScenePlan& plan) {
-    double bytes = kWorldTable * brick_table(plan.world) + 2 * image_bytes(scene.render) +
-                   plan.medium.host_bytes;
+/// An image, and a volumetric image, lie there twice while they are written.
+double host_bytes(const Scene& scene, const ScenePlan& plan, const FrameMemory& memory) {
+    double bytes =
+        kWorldTable * brick_table(plan.world) + plan.medium.host_bytes + memory.light_host_bytes;
+    if (scene.render.shows_image) bytes += 2 * image_bytes(scene.render);
+    if (scene.render.shows_volume) bytes += 2 * kVolumeVoxelBytes * memory.volume_voxels;
     for (const GridPlan& grid : plan.grids)
         bytes += double(grid.triangles) * kTriangleBytes + kModelTable * brick_table(grid.frame);
     return bytes;
+}
+
+/// The maximum of an image and a volumetric image, of those that are wanted.
+double shown_of(const RenderSettings& render, double image, double volume) {
+    return std::max(render.shows_image ? image : 0, render.shows_volume ? volume : 0);
 }
 
 }  // namespace
@@ -72,7 +83,7 @@ double ScenePlan::run_bytes(size_t frames, double memory) const {
 }
 
 double ScenePlan::peak_bytes() const {
-    return std::max({voxelize_bytes, place_bytes, index_bytes, image_bytes});
+    return std::max({voxelize_bytes, place_bytes, index_bytes, shown_bytes});
 }
 
 GridPlan plan_model(const Model& model, const Mesh& mesh) {
@@ -110,15 +121,17 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& d
     plan.index_bytes = kUncounted * expected.index;
     plan.image_bytes = kUncounted * expected.image;
     plan.volume_bytes = kUncounted * expected.volume;
+    plan.shown_bytes = shown_of(scene.render, plan.image_bytes, plan.volume_bytes);
     plan.world_bytes = expected.pyramid;
     plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;
     plan.min_image_bytes = minimum.image;
-    plan.min_bytes = std::min(std::max(minimum.built(), minimum.image), plan.peak_bytes());
-    plan.min_with_next = minimum.place + minimum.index + minimum.image;
+    const double min_shown = shown_of(scene.render, minimum.image, minimum.volume);
+    plan.min_bytes = std::min(std::max(minimum.built(), min_shown), plan.peak_bytes());
+    plan.min_with_next = minimum.place + minimum.index + min_shown;
     plan.following_bytes = kUncounted * walk_following(scene, meshes, objects, plan.medium, device);
     plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
-    plan.host_bytes = host_bytes(scene, plan) + expected.light_host_bytes;
+    plan.host_bytes = host_bytes(scene, plan, expected);
     return plan;
 }
 

@@ -30,6 +30,7 @@ struct ScenePlan {
     double index_bytes = 0;
     double image_bytes = 0;
     double volume_bytes = 0;  ///< for the display's volumetric image, instead of image_bytes
+    double shown_bytes = 0;   ///< of those two, for what the scene's settings want
 
     double world_bytes = 0;  ///< the pyramid's, part of image_bytes and volume_bytes
     double dilated_occupancy_bytes =
@@ -38,9 +39,9 @@ struct ScenePlan {
     DensityPlan medium;  ///< part of image_bytes
     double host_bytes = 0;  ///< tables, meshes, emissive objects and the image in main memory
 
-    /// The minimum that all stages need, and the world's buffers except those of its tables and
-    /// medium: the bytes of objects that can't lie in each other's bricks. Only a frame that needs
-    /// more than the device has by this count is refused before it is tried.
+    /// The minimum that all stages need which run, and the world's buffers except those of its
+    /// tables and medium: the bytes of objects that can't lie in each other's bricks. Only a frame
+    /// that needs more than the device has by this count is refused before it is tried.
     double min_bytes = 0;
     double min_image_bytes = 0;  ///< such a minimum of image_bytes
     double min_with_next = 0;    ///< such a minimum of bytes_with_next
@@ -55,7 +56,7 @@ struct ScenePlan {
     /// between frames is freed where it has no room.
     double run_bytes(size_t frames, double memory) const;
     /// The bytes if grids, bricks and the pyramid stay while the next world is built.
-    double bytes_with_next() const { return place_bytes + index_bytes + image_bytes; }
+    double bytes_with_next() const { return place_bytes + index_bytes + shown_bytes; }
 };
 
 /// Plans the voxelization of one mesh. Throws as model_frame does.

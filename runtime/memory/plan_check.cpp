@@ -77,6 +77,7 @@ std::string smaller_image(const RenderSettings& render, const RayBytes& rays) {
 }
 
 void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
+    if (!scene.render.shows_image) return;
     const double memory = double(device.memory),
                  there = std::min(memory, double(main_memory()) / 2);
     const double image = image_bytes(scene.render) + plan.rays.minimum();

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "runtime/analysis/coverage.hpp"
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/main_memory.hpp"
@@ -17,42 +19,14 @@
 namespace voxelume {
 namespace {
 
-/// A scene with the same surfaces but without light: it only tells how much they cover.
-Scene without_light(Scene scene) {
-    scene.lights.clear();
-    scene.world.medium = {};
-    scene.world.sky.reset();
-    scene.render.depth = 0;
-    for (Material& material : scene.materials) material.emission = glm::vec3(0);
-    return scene;
-}
-
-/// The features with which rays fill the coverage, too, even without opacities in the scene.
-/// Refracting surfaces cover everything behind them.
-Features with_transmission(Features features, const Scene& scene, const Pyramid& world) {
-    features.paths = features.transmission = true;
-    add_medium_set(scene, world, features);
-    return begun_anywhere(features, scene);
-}
-
 /// Leaves out voxels of which no ray meets a surface.
 void leave_out_unlit(Volume& volume) {
-    size_t kept = 0;
-    for (size_t i = 0; i < volume.indices.size(); ++i) {
-        if (volume.objects[i] == 0) continue;
-        volume.indices[kept] = volume.indices[i];
-        volume.colors[kept] = volume.colors[i];
-        volume.opacities[kept] = volume.opacities[i];
-        volume.depths[kept] = volume.depths[i];
-        volume.objects[kept] = volume.objects[i];
-        volume.kinds[kept++] = volume.kinds[i];
-    }
-    volume.indices.resize(kept);
-    volume.colors.resize(kept);
-    volume.opacities.resize(kept);
-    volume.depths.resize(kept);
-    volume.objects.resize(kept);
-    volume.kinds.resize(kept);
+    Volume lit;
+    lit.frame = volume.frame;
+    lit.attributes = std::move(volume.attributes);
+    for (size_t i = 0; i < volume.indices.size(); ++i)
+        if (volume.objects[i] != 0) lit.append(volume, i);
+    volume = std::move(lit);
 }
 
 /// The middles of voxels, in voxels.
@@ -74,24 +48,141 @@ void check_medium_voxels(uint64_t count, const VolumeFrame& frame) {
                 frame.size.x, frame.size.y, frame.size.z, count - 1, needed / 1e9, there / 1e9);
 }
 
-/// Adds the voxels of space in which the medium can be seen. `look` finds what hides their
-/// middles.
-void add_medium(const VolumeWork& work, const DensityGrid& density, DisplayLatticeStage& display,
-                const LookAhead& look, RayBatch& batch, Volume& volume) {
-    DisplayMediumStage stage(work.device, work.features, work.frame, work.world);
-    const bool is_hidden =
-        work.world.voxel_count > 0 && work.frame.display.visibility != Visibility::all;
-    MediumVoxels seen;
-    stage.measure(density, [&](const MediumVoxels& voxels) {
-        std::vector<bool> visible(voxels.indices.size(), true);
-        if (is_hidden)
-            visible = display.are_visible(look, batch, middles_of(work.frame, voxels.indices));
-        for (size_t i = 0; i < visible.size(); ++i)
-            if (visible[i]) append(voxels, i, seen);
-        check_medium_voxels(seen.indices.size(), work.frame);
-    });
-    add_medium_voxels(seen, work.scene.world.medium, volume);
-}
+/// The steps of one image. Their order is that of LatticeRender::run.
+class LatticeRender {
+  public:
+    explicit LatticeRender(VolumeWork& work)
+        : work_(work),
+          batch_(
+              allocate_batch(work.device, work.features, batch_rays(work.device, work.features))),
+          geometry_(geometry_of(work)),
+          scan_(work.device, geometry_, work.frame, work.world.frame,
+                geometry_.transmission ? line_surfaces(work.device, work.scene) : LineSurfaces()),
+          display_(work.device, work.features, work.camera, work.frame, work.world) {}
+
+    void run(Volume& volume) {
+        std::vector<ProbePoints> pieces = scan_.scan(work_.world, batch_);
+        tell_progress(1);
+        prepare_light();
+        display_.find_views(look_, batch_, pieces);
+        ShownVoxels shown = display_.choose(pieces, work_.scene.render.samples);
+        tell_progress(2);
+        pieces.clear();
+        light(shown);
+        const std::optional<DisplayCoverStage> covers = cover(shown);
+        read_voxels(shown.voxels, volume);
+        if (covers)
+            covers->adjust({scan_.cover_lines(0), scan_.cover_lines(1), scan_.cover_lines(2)},
+                           volume);
+        leave_out_unlit(volume);
+        if (shows_medium()) add_medium(volume);
+        tell_progress(3);
+        count();
+    }
+
+  private:
+    /// Finding surfaces needs only their geometry, and what hides them.
+    static Features geometry_of(const VolumeWork& work) {
+        Features geometry = features_of(work.world);
+        geometry.transmission = work.features.transmission;
+        return geometry;
+    }
+
+    void tell_progress(uint32_t done) const {
+        if (!work_.progress) return;
+        work_.device.finish();
+        work_.progress(done, 3);
+    }
+
+    /// Prepares what lights points, and `look_`, which finds what hides them.
+    void prepare_light() {
+        build_programs(work_.device, work_.features, work_.scene, work_.world, false, false);
+        lit_.emplace(work_.device, work_.features, work_.scene, work_.world, batch_.stride);
+        look_ = [this](RayBatch& rays, uint32_t count) { lit_->find_hits(rays, count); };
+        if (!work_.features.transmission) return;
+        const Scene unlit = unlit_scene(work_.scene);
+        unlit_.emplace(work_.device, coverage_features(unlit, work_.world), unlit, work_.world,
+                       batch_.stride);
+        look_ = [this](RayBatch& rays, uint32_t count) { unlit_->light(rays, count); };
+    }
+
+    void light(ShownVoxels& shown) {
+        const LightRays light_rays = [this](RayBatch& rays, uint32_t count, const LayerSink& sink) {
+            lit_->light(rays, count, sink);
+        };
+        const DensityGrid* const density = lit_->density();
+        const SpaceMedium medium{environment_of(work_.scene.world),
+                                 density ? *density : DensityGrid()};
+        display_.light(look_, light_rays, medium, batch_, shown);
+        const int samples = work_.scene.render.samples;
+        if (samples == 1 || shown.voxels.count == 0) return;
+        DisplaySampleStage stage(work_.device, work_.features, work_.camera, work_.frame,
+                                 work_.world, samples);
+        stage.light(light_rays, medium, display_.views(), batch_, shown);
+        sample_rays_ = stage.rays();
+    }
+
+    /// How much of each voxel transparent surfaces cover, in scenes that have some.
+    std::optional<DisplayCoverStage> cover(const ShownVoxels& shown) {
+        std::optional<DisplayCoverStage> stage;
+        if (!work_.features.transmission || shown.voxels.count == 0) return stage;
+        stage.emplace(work_.device, geometry_, work_.frame, work_.world.frame, shown);
+        scan_.scan_covers(work_.frame, work_.world, batch_, [&](int axis, const LinePoints& lines) {
+            stage->add(axis, lines, scan_.surfaces(), display_.mask());
+        });
+        return stage;
+    }
+
+    bool shows_medium() const {
+        return work_.features.medium &&
+               display_steps(work_.frame, work_.scene.world.medium).absorption > 0;
+    }
+
+    /// Adds the voxels of space in which the medium can be seen.
+    void add_medium(Volume& volume) {
+        if (unlit_) {
+            display_.leave_out_objects(batch_);
+            look_ = [this](RayBatch& rays, uint32_t count) {
+                unlit_->light(
+                    rays, count,
+                    [this](const RayBatch& entries, uint32_t number, bool is_first,
+                           const NodeLight&) { display_.note_objects(entries, number, is_first); });
+            };
+        }
+        const DensityGrid* const density = lit_->density();
+        DisplayMediumStage stage(work_.device, work_.features, work_.frame, work_.world);
+        const bool is_hidden =
+            work_.world.voxel_count > 0 && work_.frame.display.visibility != Visibility::all;
+        MediumVoxels seen;
+        stage.measure(density ? *density : DensityGrid(), [&](const MediumVoxels& voxels) {
+            std::vector<bool> visible(voxels.indices.size(), true);
+            if (is_hidden)
+                visible =
+                    display_.are_visible(look_, batch_, middles_of(work_.frame, voxels.indices));
+            for (size_t i = 0; i < visible.size(); ++i)
+                if (visible[i]) append(voxels, i, seen);
+            check_medium_voxels(seen.indices.size(), work_.frame);
+        });
+        add_medium_voxels(seen, work_.scene.world.medium, volume);
+    }
+
+    void count() const {
+        work_.report.display_lines = scan_.lines();
+        work_.report.clear_display_lines = scan_.clear_lines();
+        work_.report.sight_rays += scan_.lines() + display_.rays() + sample_rays_;
+        count_rays(*lit_, work_.report);
+    }
+
+    VolumeWork& work_;
+    RayBatch batch_;
+    Features geometry_;
+    DisplayScanStage scan_;
+    DisplayLatticeStage display_;
+    std::optional<Illumination> lit_;
+    std::optional<Illumination> unlit_;  ///< where surfaces let light through
+    LookAhead look_;
+    uint64_t sample_rays_ = 0;
+};
 
 }  // namespace
 
@@ -105,78 +196,7 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
 
 void render_lattice(VolumeWork& work, Volume& volume) {
     work.features = begun_anywhere(work.features, work.scene);
-    RayBatch batch =
-        allocate_batch(work.device, work.features, batch_rays(work.device, work.features));
-    // Finding surfaces needs only their geometry, and what hides them.
-    Features geometry = features_of(work.world);
-    geometry.transmission = work.features.transmission;
-    DisplayScanStage scan(
-        work.device, geometry, work.frame, work.world.frame,
-        geometry.transmission ? line_surfaces(work.device, work.scene) : LineSurfaces());
-    DisplayLatticeStage display(work.device, work.features, work.camera, work.frame, work.world);
-    const auto report_progress = [&work](uint32_t done) {
-        if (!work.progress) return;
-        work.device.finish();
-        work.progress(done, 3);
-    };
-    std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
-    report_progress(1);
-    build_programs(work.device, work.features, work.scene, work.world, false, false);
-    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
-    std::optional<Illumination> clear;
-    if (work.features.transmission) {
-        const Scene dark = without_light(work.scene);
-        clear.emplace(work.device,
-                      with_transmission(features_of(dark, work.world), dark, work.world), dark,
-                      work.world, batch.stride);
-        look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
-    }
-    display.find_views(look, batch, pieces);
-    ShownVoxels shown = display.choose(pieces, work.scene.render.samples);
-    report_progress(2);
-    pieces.clear();
-    const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
-        illumination.light(rays, count, sink);
-    };
-    const DensityGrid* const density = illumination.density();
-    const SpaceMedium medium{environment_of(work.scene.world), density ? *density : DensityGrid()};
-    display.light(look, light_rays, medium, batch, shown);
-    std::optional<DisplaySampleStage> samples;
-    if (work.scene.render.samples > 1 && shown.voxels.count > 0) {
-        samples.emplace(work.device, work.features, work.camera, work.frame, work.world,
-                        work.scene.render.samples);
-        samples->light(light_rays, medium, display.views(), batch, shown);
-    }
-    std::optional<DisplayCoverStage> cover;
-    if (work.features.transmission && shown.voxels.count > 0) {
-        cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
-        scan.scan_covers(work.frame, work.world, batch, [&](int axis, const LinePoints& lines) {
-            cover->add(axis, lines, scan.surfaces(), display.mask());
-        });
-    }
-    read_voxels(shown.voxels, volume);
-    if (cover)
-        cover->adjust({scan.cover_lines(0), scan.cover_lines(1), scan.cover_lines(2)}, volume);
-    leave_out_unlit(volume);
-    if (work.features.medium && display_steps(work.frame, work.scene.world.medium).absorption > 0) {
-        if (clear) {
-            display.leave_out_objects(batch);
-            look = [&](RayBatch& rays, uint32_t count) {
-                clear->light(
-                    rays, count,
-                    [&](const RayBatch& entries, uint32_t number, bool is_first, const NodeLight&) {
-                        display.note_objects(entries, number, is_first);
-                    });
-            };
-        }
-        add_medium(work, medium.density, display, look, batch, volume);
-    }
-    report_progress(3);
-    work.report.display_lines = scan.lines();
-    work.report.clear_display_lines = scan.clear_lines();
-    work.report.sight_rays += scan.lines() + display.rays() + (samples ? samples->rays() : 0);
-    count_rays(illumination, work.report);
+    LatticeRender(work).run(volume);
 }
 
 }  // namespace voxelume

@@ -103,9 +103,11 @@ struct RenderSettings {
     LightMode light = LightMode::local;
     int bounces = 8;  ///< global light: times that a path is scattered, 0..64
     LampSearch lamps = LampSearch::both;
-    bool transparent = false;  ///< observers see nothing where no object is; other rays do
-    NoiseTarget noise;         ///< not in scene files
-    ImageChannels channels;    ///< not in scene files: what the outputs have
+    bool transparent = false;   ///< observers see nothing where no object is; other rays do
+    NoiseTarget noise;          ///< not in scene files
+    ImageChannels channels;     ///< not in scene files: what the outputs have
+    bool shows_image = true;    ///< not in scene files: flat images are wanted
+    bool shows_volume = false;  ///< not in scene files: the display's volumetric images are wanted
     /// The image of the samples before `first_sample`, a power of two, to which others are added;
     /// with `noise`, of those that its channels tell of. Null: there is none. Not in scene files.
     std::shared_ptr<const Image> earlier;

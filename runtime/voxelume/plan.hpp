@@ -59,13 +59,13 @@ struct Plan {
     std::optional<Error> refusal{};   ///< why it doesn't fit: what is too large, and what to do
     int frame = 1;                    ///< that takes the most memory
     double min_bytes = 0;             ///< of the device, at least
-    double max_bytes = 0;             ///< of the device, at most, without the stage "volume"
+    double max_bytes = 0;             ///< of the device, at most, for what the options want
     double device_bytes = 0;          ///< that can be used
     double largest_buffer_bytes = 0;  ///< of any stage
     double host_bytes = 0;            ///< of main memory
     std::vector<GridPlan> grids{};    ///< the world's is the last
-    /// What each stage takes. The stage "volume" is that of the display's volumetric image, which
-    /// only runs if one is asked for.
+    /// What each stage takes. The stages "image" and "volume", of flat and of volumetric images,
+    /// only run if such images are asked for.
     std::vector<StagePlan> stages{};
     std::vector<Warning> warnings{};  ///< what is probably wrong, as far as it shows unrendered
     /// The surfaces of models that leave theirs to their files.
@@ -76,6 +76,8 @@ struct Plan {
 struct PlanOptions {
     std::vector<int> frames{};  ///< empty: all of the animation
     Channels channels{};        ///< of the images
+    bool image = true;          ///< whether flat images are wanted
+    bool volume = false;        ///< whether volumetric images are wanted
     CacheOptions cache{};       ///< knows models that needn't be read
     /// Called with the number of frames that are planned, and of all.
     std::function<void(size_t done, size_t frames)> progress{};

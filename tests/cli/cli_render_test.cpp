@@ -237,6 +237,21 @@ TEST_F(CliRenderTest, CheckAndADryRunSayThePlanAndWriteNothing) {
     EXPECT_GT(plan["stages"][4]["MB"], 0);
 }
 
+TEST_F(CliRenderTest, TheVerdictIsOfWhatIsRendered) {
+    write_scene([](Json& scene) { scene["observer"]["display"]["voxels"] = {64, 48, 36}; });
+    const Json plan = Json::parse(run("check --json scene.json").out);
+    const auto is_said = [&](size_t stage) {
+        const auto kilobytes = plan["stages"][stage]["MB"].get<double>() * 1e3;
+        return HasSubstr(fmt::format("at most {}.", int(kilobytes)));
+    };
+    const std::string volume = run("render scene.json --dry-run --volume v.nrrd").out;
+    EXPECT_THAT(volume, is_said(4));
+    EXPECT_THAT(volume, Not(HasSubstr("volumetric")));
+    EXPECT_THAT(run("check scene.json").out, is_said(3));
+    EXPECT_THAT(run("check scene.json").out,
+                HasSubstr("a volumetric image of its display needs at most"));
+}
+
 TEST_F(CliRenderTest, AMeshBecomesAModelAndAVolumeAtOnce) {
     put_bytes(folder / "t.obj", kTetrahedron);
     const ProgramResult result = run("voxelize -o t.vxm t.obj --resolution 40 -o t.vdb");

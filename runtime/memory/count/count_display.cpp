@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "runtime/analysis/coverage.hpp"
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/stages/display/display_cover.hpp"
@@ -72,16 +74,12 @@ class DisplayCounter {
           features_(features_of(scene, world)),
           is_least_(estimate == Estimate::minimum) {}
 
-    void run() {
-        if (frame_.layout == VolumeLayout::rays)
-            rays();
-        else
-            lattice();
-    }
+    /// Returns the number of voxels that are shown.
+    double run() { return frame_.layout == VolumeLayout::rays ? rays() : lattice(); }
 
   private:
     /// Follows VolumeRenderer in the layout `rays`.
-    void rays() {
+    double rays() {
         const uint32_t tiles = tile_count(frame_.size.x, frame_.size.y), all = tiles * 16;
         const uint32_t in_batch = batch_tiles(device_, features_, 1, tiles) * 16;
         const DisplayLight light =
@@ -91,20 +89,23 @@ class DisplayCounter {
             of ? count_dilated_occupancy(device_, world_, *of) : DilatedOccupancy();
         const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
         const RayDepths kept = allocate_ray_depths(device_, features_, all);
-        if (features_.transmission || features_.medium_grid) return;
         const double steps = features_.medium && !is_least_ ? double(frame_.size.z) / 2 : 1;
+        const double shown = is_least_ ? 1 : steps * all;
+        if (features_.transmission || features_.medium_grid) return shown;
         const Buffer<uint32_t> starts(device_, "display counts",
                                       size_t(frame_.size.y) * size_t(frame_.size.z));
-        allocate_voxels(device_, is_least_ ? 1 : numbered(steps * all));
+        allocate_voxels(device_, numbered(shown));
+        return shown;
     }
 
     /// Follows VolumeRenderer in the layout `lattice`. All arrays stay, except the points that
     /// aren't shown.
-    void lattice() {
+    double lattice() {
         const Features features = begun_anywhere(features_, scene_);
         const uint32_t batch = batch_rays(device_, features);
         const DisplayLight light =
             count_light(device_, scene_, features, counts_of(batch), medium_);
+        const std::optional<PathDepth> unlit = count_unlit(batch);
         const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
         const Buffer<float> crossings =
             allocate_crossings(device_, scanned_lines(batch), kFirstSlots);
@@ -117,6 +118,14 @@ class DisplayCounter {
             is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
         const ProbePoints points = allocate_points(device_, numbered(found));
         choose(numbered(shown), batch);
+        return shown;
+    }
+
+    /// Counts the paths that only learn what surfaces cover.
+    std::optional<PathDepth> count_unlit(uint32_t rays) const {
+        if (!features_.transmission) return {};
+        const Features features = coverage_features(unlit_scene(scene_), world_);
+        return allocate_depth(device_, features, true, rays);
     }
 
     /// Counts the voxels of the medium that are looked for together.
@@ -171,14 +180,14 @@ class DisplayCounter {
 
 }  // namespace
 
-void count_volume(const Device& device, const Scene& scene, const Pyramid& world,
-                  const DensityPlan& medium, Estimate estimate) {
+double count_volume(const Device& device, const Scene& scene, const Pyramid& world,
+                    const DensityPlan& medium, Estimate estimate) {
     Scene all_channels = scene;
     all_channels.render.channels = {};
     all_channels.render.light = LightMode::local;
     all_channels.observer.aperture = 0;
     all_channels.render.filter = {};
-    DisplayCounter(device, all_channels, world, medium, estimate).run();
+    return DisplayCounter(device, all_channels, world, medium, estimate).run();
 }
 
 }  // namespace voxelume

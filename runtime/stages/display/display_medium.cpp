@@ -49,16 +49,6 @@ MediumSample mixed(const MediumSample& a, const MediumSample& b) {
             a.opacity + b.opacity - a.opacity * b.opacity};
 }
 
-/// Appends voxel `i` of one volume to another.
-void append(const Volume& from, size_t i, Volume& to) {
-    to.indices.push_back(from.indices[i]);
-    to.colors.push_back(from.colors[i]);
-    to.opacities.push_back(from.opacities[i]);
-    to.depths.push_back(from.depths[i]);
-    to.objects.push_back(from.objects[i]);
-    to.kinds.push_back(from.kinds[i]);
-}
-
 void show(const MediumSample& sample, Volume& volume, size_t i) {
     volume.colors[i] = sample.light / sample.opacity;
     volume.opacities[i] = float(sample.opacity);
@@ -146,7 +136,7 @@ void add_medium_voxels(const MediumVoxels& voxels, const Medium& medium, Volume&
     for (size_t i = 0; i < voxels.indices.size(); ++i) {
         const uint64_t index = voxels.indices[i];
         while (next < volume.indices.size() && volume.indices[next] < index)
-            append(volume, next++, sum);
+            sum.append(volume, next++);
         const glm::ivec3 cell = cell_of(frame, index);
         const auto density = double(voxels.densities[i]);
         const glm::dvec3 color = voxels.colors.empty() ? glm::dvec3(medium.color)
@@ -156,7 +146,7 @@ void add_medium_voxels(const MediumVoxels& voxels, const Medium& medium, Volume&
         if (!(float(own.opacity) > 0)) continue;
         if (next < volume.indices.size() && volume.indices[next] == index) {
             const auto opacity = double(volume.opacities[next]);
-            append(volume, next++, sum);
+            sum.append(volume, next++);
             if (opacity < 1)
                 show(mixed({glm::dvec3(sum.colors.back()) * opacity, opacity}, own), sum,
                      sum.indices.size() - 1);
@@ -171,7 +161,7 @@ void add_medium_voxels(const MediumVoxels& voxels, const Medium& medium, Volume&
         sum.kinds.push_back(VoxelKind::space);
         show(own, sum, sum.indices.size() - 1);
     }
-    while (next < volume.indices.size()) append(volume, next++, sum);
+    while (next < volume.indices.size()) sum.append(volume, next++);
     sum.frame = frame;
     volume = std::move(sum);
 }
