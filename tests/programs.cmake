@@ -59,6 +59,10 @@ function(finish_test name)
     if(GOLD)
         set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION COMPILER_PATH=set:${CMAKE_BINARY_DIR}/linker)
     endif()
+    # Compilers of kernels take and free much memory: in huge pages, which aren't given back at once, that takes 5 to 10 %
+    # less of a test's time.
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION GLIBC_TUNABLES=set:glibc.malloc.hugetlb=1
+                                                                       MALLOC_TOP_PAD_=set:67108864)
     set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
