@@ -11,6 +11,44 @@
 #include "shared/scene.h"
 #include "shared/trace.h"
 
+/// Lanes whose rays are to be followed. Places beyond the queue's end hold what was there before.
+lane_int followed_lanes(const RayBatch* batch, uint first, uint count) {
+    return LANE_MASK(LANES_LOAD(batch->rays, VXL_RAY_END * batch->stride + first) >= 0.0f) &
+           LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+}
+
+/// The density of the medium of S times metres along each segment, and metres alone in objects.
+lane_float sight_depth(PyramidShape shape, const DensityView* density, const Segment* segment,
+                       lane_int active, lane_int in_object) {
+    lane_float depth = (lane_float)0.0f;
+    if (VXL_MEDIUM & !VXL_MEDIUM_COLORS)
+        depth = density_along(shape, density, segment, active & ~in_object);
+    if (VXL_TRANSMISSION && lanes_any(in_object))
+        depth = LANES_SELECT(in_object, length_in_world(shape, segment), depth);
+    return LANES_SELECT(active, depth * metres_per_t(shape.edge, segment->direction),
+                        (lane_float)0.0f);
+}
+
+/// What a material absorbs of a channel per metre.
+lane_float material_absorption(global const float* materials, lane_uint material,
+                               lane_int in_object, int channel) {
+    const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
+    return LANES_GATHER_FLOAT(
+        materials, (record + (uint)(VXL_MATERIAL_ABSORPTION + channel)) & LANES_AS_UINT(in_object));
+}
+
+/// The part of a channel's light that a medium of colours lets through. What is sent to emitters,
+/// `looks`, loses what the medium scatters, too.
+lane_float veil_passed(const Veil* veil, MediumScattering scattered, lane_int looks, int channel) {
+    lane_float passed = veil->passed[channel];
+    if (VXL_SCATTERING && VXL_LOOKS) {
+        const lane_float turned =
+            exact_exp(-scattered.per_metre[channel] * (veil->depth - veil->lost));
+        passed *= LANES_SELECT(looks, turned, (lane_float)1.0f);
+    }
+    return passed;
+}
+
 /// Applies the medium between the start of each ray, or of its segment, and its end to the ray's
 /// radiance. Writes the part of the light that comes through to `transmittance`.
 kernel void absorb_sight(PyramidShape shape, Environment environment,
@@ -21,21 +59,12 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
     if (first >= count) return;
     const DensityView density = VXL_DENSITY;
     const RayBatch batch = VXL_BATCH;
-    // Places beyond the queue's end hold what was there before.
-    const lane_int active = LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f) &
-                            LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+    const lane_int active = followed_lanes(&batch, first, count);
     const Segment segment = sight_segment(&batch, first);
     lane_uint material = (lane_uint)0u;
     if (VXL_TRANSMISSION) material = LANES_LOAD(inside, first);
     const lane_int in_object = LANE_MASK(material != 0u) & active;
-    const lane_float metres = metres_per_t(shape.edge, segment.direction);
-    lane_float depth = (lane_float)0.0f;
-    if (VXL_MEDIUM & !VXL_MEDIUM_COLORS)
-        depth = density_along(shape, &density, &segment, active & ~in_object);
-    if (VXL_TRANSMISSION && lanes_any(in_object))
-
-        depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
-    depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
+    const lane_float depth = sight_depth(shape, &density, &segment, active, in_object);
     lane_float shows = (lane_float)1.0f;  // the medium's own light
     lane_int looks = (lane_int)0;
     if (VXL_LOOKS) {
@@ -60,22 +89,14 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
         lane_float shown = (lane_float)color[channel];
         if (VXL_LOOKS) shown *= shows;
         if (VXL_TRANSMISSION && lanes_any(in_object)) {
-            const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
-            const lane_uint from =
-                (record + (uint)(VXL_MATERIAL_ABSORPTION + channel)) & LANES_AS_UINT(in_object);
-            per_metre = LANES_SELECT(in_object, LANES_GATHER_FLOAT(materials, from), per_metre);
+            per_metre = LANES_SELECT(
+                in_object, material_absorption(materials, material, in_object, channel), per_metre);
             shown = LANES_SELECT(in_object, (lane_float)0.0f, shown);
         }
         const lane_float tau = per_metre * depth;
         lane_float weight = exact_exp(-tau), added = shown * exact_rise(tau);
         if (VXL_MEDIUM_COLORS) {
-            lane_float left = veil.passed[channel];
-            if (VXL_SCATTERING && VXL_LOOKS) {
-                const lane_float turned =
-                    exact_exp(-scattered.per_metre[channel] * (veil.depth - veil.lost));
-                left *= LANES_SELECT(looks, turned, (lane_float)1.0f);
-            }
-            weight = LANES_SELECT(in_object, weight, left);
+            weight = LANES_SELECT(in_object, weight, veil_passed(&veil, scattered, looks, channel));
             added = LANES_SELECT(in_object, added, veil.emitted[channel] * shows);
         }
         const lane_float behind = LANES_LOAD(radiance, place);

@@ -184,11 +184,8 @@ void Renderer::send_light_beams(WorldDilation& through, uint32_t max, Illuminati
     illumination.send_beams(through.dilated_occupancy, max, through.light_beams);
 }
 
-Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, RenderReport& report,
-                               const Tiles& tiles) {
-    const auto start = std::chrono::steady_clock::now();
-    image_.reset();
-    const Pyramid& world = built.pyramid;
+/// What kernels are compiled for when they show a world.
+Features Renderer::features_shown(const Scene& scene, const Pyramid& world) const {
     Features features = features_of(scene, world);
     leave_out_solid_kinds(device_, world, features);
     if (scene.render.earlier && features.textures()) refuse_textures();
@@ -196,25 +193,47 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         features.colors = false;
         features.leave_out_textures();
     }
-    const Camera observer = camera_of(scene, world.frame);
+    return features;
+}
 
-    const uint32_t all_tiles = tiles.share.tiles();
-    const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    uint32_t in_batch = batch_tiles(device_, features, observer.samples, tiles.share.maximum());
-    View view = view_of(scene, built, features);
-    const bool is_lent = lender_ && lender_->lends_hits(view, in_batch);
-    if (is_lent) in_batch = lender_->tiles_in_batch_;
-    RayBatch batch = allocate_batch(device_, features, in_batch * rays_per_tile);
-
-    report.hits_are_kept = is_lent || (view_ == view && !hits_.empty());
-    if (report.hits_are_kept) batch.rays = {}, batch.hits = {};  // those that are known follow
+/// Looks for hits of the view that are known, and forgets those of others.
+Renderer::ViewHits Renderer::begin_view(const Scene& scene, const BuiltWorld& world,
+                                        const Features& features, int samples,
+                                        const TileShare& share) {
+    ViewHits hits{view_of(scene, world, features)};
+    hits.in_batch = batch_tiles(device_, features, samples, share.maximum());
+    hits.are_lent = lender_ && lender_->lends_hits(hits.view, hits.in_batch);
+    if (hits.are_lent) hits.in_batch = lender_->tiles_in_batch_;
+    hits.are_known = hits.are_lent || (view_ == hits.view && !hits_.empty());
     view_.reset();  // an error may leave the hits incomplete
-    if (!report.hits_are_kept) hits_.clear();
-    const std::vector<SightHits>& known = is_lent ? lender_->hits_ : hits_;
-    tiles_in_batch_ = in_batch;
-    const uint64_t rays = uint64_t(all_tiles) * rays_per_tile;
-    const bool keeps_hits = has_room(scene, features, rays);
+    if (!hits.are_known) hits_.clear();
+    tiles_in_batch_ = hits.in_batch;
+    hits.are_kept = has_room(scene, features, 16ull * share.tiles() * uint32_t(samples));
+    return hits;
+}
 
+/// Gives the batch the hits of the tiles from `first` on.
+void Renderer::take_known(const ViewHits& hits, uint32_t first, RayBatch& batch) const {
+    const std::vector<SightHits>& known = hits.are_lent ? lender_->hits_ : hits_;
+    const SightHits& those = *std::ranges::find(known, first, &SightHits::first);
+    batch.rays = those.rays;
+    batch.hits = those.hits;
+}
+
+Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, RenderReport& report,
+                               const Tiles& tiles) {
+    const auto start = std::chrono::steady_clock::now();
+    image_.reset();
+    const Pyramid& world = built.pyramid;
+    const Features features = features_shown(scene, world);
+    const Camera observer = camera_of(scene, world.frame);
+    ViewHits hits = begin_view(scene, built, features, observer.samples, tiles.share);
+    report.hits_are_kept = hits.are_known;
+    const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
+    RayBatch batch = allocate_batch(device_, features, hits.in_batch * rays_per_tile);
+    if (hits.are_known) batch.rays = {}, batch.hits = {};  // those that are known follow
+
+    const uint64_t rays = uint64_t(tiles.share.tiles()) * rays_per_tile;
     const double pixel = voxels_a_pixel(scene, observer, world.frame);
     const std::optional<DilationLevel> dilated_occupancy =
         dilation_that_pays(features, world, rays, pixel);
@@ -223,11 +242,11 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     Camera shown = observer;
     if (!tiles.pixels.empty()) {
         sight.choose(device_, tiles.pixels);
-        shown.width = 4 * int(all_tiles);
+        shown.width = 4 * int(tiles.share.tiles());
         shown.height = 4;
     }
     std::optional<BeamStage> beams;
-    if (!report.hits_are_kept && dilated_occupancy)
+    if (!hits.are_known && dilated_occupancy)
         beams.emplace(device_, features, world,
                       dilated_occupancy_of(built, *dilated_occupancy).dilated_occupancy);
     Illumination illumination(device_, features, scene, world, batch.stride);
@@ -238,27 +257,25 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     ResolveStage resolve(device_, features, shown, scene.render.channels,
                          scene.render.earlier.get());
     MatteStage mattes(device_, features, shown, scene);
-    while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
-        const uint32_t first = range->first, now = range->count;
+    while (const std::optional<TileRange> range = tiles.share.take(hits.in_batch)) {
+        const uint32_t first = range->first, count = range->count * rays_per_tile;
         illumination.set_sampling(path_sampling(scene, observer, first));
-        if (report.hits_are_kept) {
-            const SightHits& sight_hits = *std::ranges::find(known, first, &SightHits::first);
-            batch.rays = sight_hits.rays;
-            batch.hits = sight_hits.hits;
-            illumination.light_hits(batch, now * rays_per_tile);
+        if (hits.are_known) {
+            take_known(hits, first, batch);
+            illumination.light_hits(batch, count);
         } else {
             if (!hits_.empty()) renew_sight(device_, batch);
-            sight.cast(shape_of(world), first, now, batch);
-            if (beams) beams->start(batch, now * rays_per_tile);
-            illumination.light(batch, now * rays_per_tile);
-            if (keeps_hits) hits_.push_back({first, batch.rays, batch.hits});
+            sight.cast(shape_of(world), first, range->count, batch);
+            if (beams) beams->start(batch, count);
+            illumination.light(batch, count);
+            if (hits.are_kept) hits_.push_back({first, batch.rays, batch.hits});
         }
-        resolve.pixels(world, batch, first, now);
-        mattes.pixels(batch, first, now);
-        if (!is_lent) report.sight_rays += now * rays_per_tile;
+        resolve.pixels(world, batch, first, range->count);
+        mattes.pixels(batch, first, range->count);
+        if (!hits.are_lent) report.sight_rays += count;
         note_done(*range, tiles);
     }
-    view_ = std::move(view);
+    view_ = std::move(hits.view);
     Image image = resolve.image();
     mattes.add_to(image);
     image.first = scene.render.crop.first;

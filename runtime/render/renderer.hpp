@@ -97,6 +97,15 @@ class Renderer {
         Buffer<uint32_t> hits;
     };
 
+    /// Where the hits of an image's sight rays come from, and whether they stay.
+    struct ViewHits {
+        View view;
+        uint32_t in_batch = 0;   ///< tiles, at most
+        bool are_lent = false;   ///< by the lender
+        bool are_known = false;  ///< lent, or those of the image before
+        bool are_kept = false;   ///< for the image behind
+    };
+
     /// Where an image got more samples: what its passes do likewise.
     struct Sampled {
         std::vector<int> tiles;  ///< the samples of each; empty: as many as they need
@@ -114,6 +123,10 @@ class Renderer {
     bool lends_hits(const View& view, uint32_t max_tiles) const;
     static double first_weight(const Scene& scene, double weight);
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
+    Features features_shown(const Scene& scene, const Pyramid& world) const;
+    ViewHits begin_view(const Scene& scene, const BuiltWorld& world, const Features& features,
+                        int samples, const TileShare& share);
+    void take_known(const ViewHits& hits, uint32_t first, RayBatch& batch) const;
     WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
     void note_done(const TileRange& range, const Tiles& tiles) const;
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
