@@ -155,9 +155,12 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
     return mesh_grid(model, *mesh, frame, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
 }
 
-GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& frame,
-                                     Estimate estimate) {
-    const Model& model = scene_.models[size_t(object.model)];
+GridCounts ObjectCounts::object_grid(const Object& object, const Model& model,
+                                     const GridFrame& frame, Estimate estimate) {
+    if (model.is_thin_part)
+        return counts_of(
+            model, meshes_.summary_of(model), frame,
+            estimate == Estimate::expected ? extents_.thin_part(object, 0) : SurfaceExtent{});
     const double band = stored_band(model);
     SurfaceExtent extent =
         model.solid ? object_extent(object, frame) : extents_.planned(object, band);
@@ -268,6 +271,11 @@ WorldCounts ObjectCounts::expected_world() {
         else
             of_others += kMargin * new_bricks;
         primitives += extent.voxels * listed(model);
+        if (model.thin_edge == 0) continue;
+        const SurfaceExtent thin = with_margin(extents_.thin_part(object, kPlacedBand));
+        sum.voxels += thin.voxels;  // its voxels that are smooth as well list two records
+        of_others += thin.bricks;
+        primitives += thin.voxels * kTrianglesPerVoxel;
     }
     return sum_of(sum, primitives, {of_fields, of_others}, frame);
 }

@@ -51,6 +51,13 @@ SurfaceExtent ObjectExtents::minimum(const Object& object, double band) {
     return extent(object, band, true);
 }
 
+SurfaceExtent ObjectExtents::thin_part(const Object& object, double band) {
+    const std::optional<Model> part = thin_part_of(scene_.models[size_t(object.model)]);
+    if (!part) return {};
+    const SurfaceArea& area = meshes_.summary_of(*part)->area;
+    return surface_extent(area, object.world_from_object, frame_, band);
+}
+
 double ObjectExtents::inside_voxels(const Object& object) {
     const Model& model = scene_.models[size_t(object.model)];
     const glm::dmat4& map = object.world_from_object;

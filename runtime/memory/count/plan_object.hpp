@@ -25,6 +25,9 @@ class ObjectExtents {
     /// The minimum that it takes; nothing for a mesh that is cut.
     SurfaceExtent minimum(const Object& object, double band);
 
+    /// What the exact parts of a smooth mesh take; nothing where it has none.
+    SurfaceExtent thin_part(const Object& object, double band);
+
     /// The world's voxels in an object whose inside rays see: at most those of its box.
     double inside_voxels(const Object& object);
 

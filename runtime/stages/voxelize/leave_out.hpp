@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// distance field -> the field without the parts of its mesh that are shown otherwise.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <span>
+
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+
+/// Within so many voxels of the points along each axis, a field has no surface.
+inline constexpr int kLeftOut = 2;
+
+/// Makes the distances around points outside, as if nothing were there. Where the field is cut, its
+/// body ends in a wall, which must lie in a body that is shown otherwise. `points` are in the
+/// mesh's space.
+void leave_out(std::span<const glm::vec3> points, const glm::dmat4& frame_from_mesh,
+               BrickGrid& field);
+
+}  // namespace voxelume
