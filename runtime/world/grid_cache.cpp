@@ -132,7 +132,8 @@ BrickGrid GridCache::make(const Model& model, const Source& source) {
     BrickGrid grid = voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model,
                                          source.frame, options);
     if (model.thin_edge > 0 && !model.is_thin_part)
-        leave_out(meshes_.thin_part_of(model).points, source.frame_from_model, grid);
+        leave_out(meshes_.thin_part_of(model).points, model.thin_edge, source.frame_from_model,
+                  grid);
     return grid;
 }
 

@@ -6,12 +6,16 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/stages/voxelize/mesh_lattice.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr int16_t kOutside = 32767;
+
+/// How many times as large the field's voxels may be.
+constexpr double kLargest = 4.0 / 3;
 
 /// The distances of a grid, in main memory.
 class Nodes {
@@ -50,9 +54,12 @@ class Nodes {
 
 }  // namespace
 
-void leave_out(std::span<const glm::vec3> points, const glm::dmat4& frame_from_mesh,
-               BrickGrid& field) {
-    if (field.brick_count == 0 || points.empty()) return;
+void leave_out(std::span<const glm::vec3> points, double voxel_edge,
+               const glm::dmat4& frame_from_mesh, BrickGrid& field) {
+    const glm::dvec3& edge = field.frame.voxel_edge;
+    const double own =
+        std::max({edge.x, edge.y, edge.z}) / stretch_of(glm::dmat3(frame_from_mesh)).min;
+    if (field.brick_count == 0 || points.empty() || own > kLargest * voxel_edge) return;
     std::vector<std::array<int, 3>> nearest;
     for (const glm::vec3& p : points) {
         const glm::ivec3 node(glm::round(to_voxels(p, frame_from_mesh, field.frame)));
