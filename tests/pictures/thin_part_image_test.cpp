@@ -81,7 +81,7 @@ void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim)
 }
 
 TEST_F(ThinPartImage, HasNoHolesWhereTheSurfacesMeet) {
-    for (const double voxel : {1 / 30.0, 1 / 48.0, 1 / 110.0})
+    for (const double voxel : {1 / 38.0, 1 / 48.0, 1 / 110.0})
         for (const char* placement : {"world", "instance"}) {
             SCOPED_TRACE(fmt::format("{} in voxels of {} m", placement, voxel));
             const Scene mixed = scene_of(voxel, placement);
@@ -132,7 +132,7 @@ TEST_F(ThinPartImage, IsTheSameFromTheCache) {
         return oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
     };
     for (int run = 0; run < 2; ++run)
-        for (const double voxel : {1 / 30.0, 1 / 48.0})
+        for (const double voxel : {1 / 38.0, 1 / 48.0})
             EXPECT_EQ(hash(voxel, cache), hash(voxel, {})) << voxel << " in run " << run;
 }
 
@@ -147,7 +147,7 @@ TEST_F(ThinPartImage, TakesTheMemoryThatIsPromised) {
         RenderReport report;
         render(device, scene, report);
         const auto fact = double(device.counters().peak_bytes);
-        EXPECT_LE(planned.plan.min_bytes, fact);
+        EXPECT_LE(planned.plan.min_bytes, fact) << placement;
         EXPECT_GE(promise, fact) << placement;
         EXPECT_LE(promise, 1.4 * fact) << placement;
     }

@@ -152,7 +152,8 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
         counts.cut_bricks = cut_bricks(model, kOwnSpace, frame);
         return counts;
     }
-    return mesh_grid(model, *mesh, frame, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
+    return mesh_grid(model, *mesh, frame,
+                     model.cuts.empty() ? min_area_of(model, meshes_) : SurfaceArea{});
 }
 
 GridCounts ObjectCounts::object_grid(const Object& object, const Model& model,

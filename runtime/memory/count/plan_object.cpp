@@ -31,6 +31,12 @@ const SurfaceArea& ObjectExtents::area_of(int model_number) {
     return entry->second;
 }
 
+SurfaceArea min_area_of(const Model& model, AssetStore& meshes) {
+    const SurfaceArea& area = meshes.summary_of(model)->min_area;
+    const std::optional<Model> part = thin_part_of(model);
+    return part ? without(area, meshes.summary_of(*part)->area) : area;
+}
+
 SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_least) {
     const Model& model = scene_.models[size_t(object.model)];
     const glm::dmat4& map = object.world_from_object;
@@ -39,8 +45,7 @@ SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_l
                                           : solid_area(*model.solid, map, box_);
         return surface_extent(area, glm::dmat4(1), frame_, band);
     }
-    const SurfaceArea& area =
-        at_least ? meshes_.summary_of(model)->min_area : area_of(object.model);
+    const SurfaceArea area = at_least ? min_area_of(model, meshes_) : area_of(object.model);
     const SurfaceExtent extent = surface_extent(area, map, frame_, band);
     const double inside = part_in_world(object);
     return {extent.voxels * inside, extent.bricks * inside};

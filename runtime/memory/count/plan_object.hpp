@@ -50,6 +50,10 @@ class ObjectExtents {
     std::vector<VoxelBox> boxes_;            ///< none before they are asked for
 };
 
+/// The area that the surface of a mesh has at least in its own space, without its thin parts, where
+/// the field is left out.
+SurfaceArea min_area_of(const Model& model, AssetStore& meshes);
+
 /// The ratio of the box around a cube in the object's space to the cube, on average over its axes.
 double spread_of(const Object& object);
 
