@@ -158,27 +158,23 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
 
 GridCounts ObjectCounts::object_grid(const Object& object, const Model& model,
                                      const GridFrame& frame, Estimate estimate) {
+    const bool is_expected = estimate == Estimate::expected;
     if (model.is_thin_part)
-        return counts_of(
-            model, meshes_.summary_of(model), frame,
-            estimate == Estimate::expected ? extents_.thin_part(object, 0) : SurfaceExtent{});
+        return counts_of(model, meshes_.summary_of(model), frame,
+                         is_expected ? extents_.thin_part(object, 0) : SurfaceExtent{});
     const double band = stored_band(model);
     SurfaceExtent extent =
         model.solid ? object_extent(object, frame) : extents_.planned(object, band);
-    if (estimate == Estimate::minimum) {
+    if (!is_expected) {
         const SurfaceExtent minimum = extents_.minimum(object, band);
         extent = model.solid ? smaller(extent, minimum) : minimum;
     }
     GridCounts counts = counts_of(model, meshes_.summary_of(model), frame, extent);
-    if (estimate == Estimate::expected)
-        counts.cut_bricks = cut_bricks(model, object.world_from_object, frame);
+    if (is_expected) counts.cut_bricks = cut_bricks(model, object.world_from_object, frame);
     return counts;
 }
 
 BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
-    const auto alone = [](const SurfaceExtent& extent) {
-        return BrickCount{extent, extent.bricks};
-    };
     const Model& model = scene_.models[size_t(object.model)];
     if (!model.voxels.empty() && model.surface != Surface::exact)
         return count_voxels(meshes_.voxels(model), object.world_from_object, spread_of(object),
@@ -203,7 +199,7 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
         extent.voxels += inside;
         extent.bricks += inside / double(kVoxelsPerBrick);
     }
-    return alone(extent);
+    return {extent, extent.bricks};
 }
 
 SurfaceExtent ObjectCounts::min_of_voxels(const Object& object, const VoxelModel& voxels) {
@@ -272,7 +268,6 @@ WorldCounts ObjectCounts::expected_world() {
         else
             of_others += kMargin * new_bricks;
         primitives += extent.voxels * listed(model);
-        if (model.thin_edge == 0) continue;
         const SurfaceExtent thin = with_margin(extents_.thin_part(object, kPlacedBand));
         sum.voxels += thin.voxels;  // its voxels that are smooth as well list two records
         of_others += thin.bricks;
