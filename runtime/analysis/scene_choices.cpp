@@ -62,6 +62,7 @@ SurfaceChoice chosen_for_mesh(const Scene& scene, size_t number, AssetStore& mes
     Model file = scene.models[number];
     file.morph.reset();
     const MeshSummary& mesh = *meshes.summary_of(file);
+    file.surface = Surface::smooth;
     file.thin_edge = largest_voxel(scene, number, meshes);
     const SurfaceChoice choice = surface_for(mesh, meshes.shape_of(file), file.thin_edge);
     if (!choice.may_be_thin || !may_be_mixed(scene, number, mesh))

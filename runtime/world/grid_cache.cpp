@@ -131,7 +131,7 @@ BrickGrid GridCache::make(const Model& model, const Source& source) {
                               options);
     BrickGrid grid = voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model,
                                          source.frame, options);
-    if (model.thin_edge > 0 && !model.is_thin_part)
+    if (thin_part_of(model))
         leave_out(meshes_.thin_part_of(model).points, model.thin_edge, source.frame_from_model,
                   grid);
     return grid;
@@ -169,9 +169,9 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
 
 /// Whether a grid is one of a model, and no other of it was asked for: that is old.
 bool GridCache::is_old(const Model& model, const Source& source) const {
-    const Model own = source.model.is_thin_part && model.thin_edge > 0
-                          ? source_of(*thin_part_of(model))
-                          : source_of(model);
+    const std::optional<Model> part = source.model.is_thin_part ? thin_part_of(model) : model;
+    if (!part) return false;
+    const Model own = source_of(*part);
     if (source.model != own && source.model != source_of(whole_of(model, source.model.set)))
         return false;
     return std::ranges::none_of(

@@ -127,6 +127,12 @@ TEST_F(SceneChoices, MakeOnlyThinPartsExact) {
     EXPECT_EQ(model.surface, Surface::smooth);
     EXPECT_DOUBLE_EQ(model.thin_edge, 0.02);
     EXPECT_THAT(model.surface_reason, testing::HasSubstr("and is exact"));
+    ASSERT_TRUE(thin_part_of(model));
+    EXPECT_EQ(thin_part_of(model)->surface, Surface::exact);
+    EXPECT_FALSE(thin_part_of(*thin_part_of(model)));
+    Model cubes = model;
+    cubes.surface = Surface::cubes;
+    EXPECT_FALSE(thin_part_of(cubes)) << "as a scene that is voxelized";
     EXPECT_EQ(chosen(R"("mesh": "ring.obj")").thin_edge, 0);
     EXPECT_EQ(chosen(fin + R"(, "surface": "smooth")").thin_edge, 0);
     const char* const kMoves =

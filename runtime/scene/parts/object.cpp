@@ -6,7 +6,7 @@
 namespace voxelume {
 
 std::optional<Model> thin_part_of(const Model& model) {
-    if (model.thin_edge == 0 || model.is_thin_part) return {};
+    if (model.thin_edge == 0 || model.is_thin_part || !stores_distances(model.surface)) return {};
     Model part = model;
     part.surface = Surface::exact;
     part.is_thin_part = true;
