@@ -151,6 +151,11 @@ const MeshSummary& AssetStore::morphed_summary(const Model& model) {
                  [&] { return voxelume::summary_of(morphed_mesh(model)); });
 }
 
+const MeshSummary& AssetStore::thin_summary(const Model& model) {
+    return known(thin_part(model).summary, source_of(model), &ModelCache::summary,
+                 [&] { return voxelume::summary_of(thin_part_of(model).mesh); });
+}
+
 const Mesh* AssetStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.is_thin_part) return &thin_part_of(model).mesh;

@@ -18,9 +18,4 @@ const ThinPart& AssetStore::thin_part_of(const Model& model) {
     return *part;
 }
 
-const MeshSummary& AssetStore::thin_summary(const Model& model) {
-    return known(thin_part(model).summary, source_of(model), &ModelCache::summary,
-                 [&] { return voxelume::summary_of(thin_part_of(model).mesh); });
-}
-
 }  // namespace voxelume

@@ -146,10 +146,11 @@ class AxisLines {
 
     glm::dvec3 at(const Crossing& crossing) const {
         const auto columns = size_t(columns_);
+        const size_t column = crossing.line % columns, row = crossing.line / columns;
         glm::dvec3 p;
         p[axis_] = crossing.at;
-        p[u_] = low_.x + (double(crossing.line % columns) + kOffset) * step_.x;
-        p[v_] = low_.y + (double(crossing.line / columns) + kOffset) * step_.y;
+        p[u_] = low_.x + (double(column) + kOffset) * step_.x;
+        p[v_] = low_.y + (double(row) + kOffset) * step_.y;
         return p;
     }
 

@@ -66,7 +66,7 @@ void leave_out(std::span<const glm::vec3> points, double voxel_edge,
         nearest.push_back({node.x, node.y, node.z});
     }
     std::ranges::sort(nearest);
-    nearest.erase(std::ranges::unique(nearest).begin(), nearest.end());
+    nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
     Nodes nodes(field);
     for (const auto& [x, y, z] : nearest) nodes.leave_out({x, y, z});
     field.distance.write(nodes.distances());
