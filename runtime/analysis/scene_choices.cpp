@@ -50,8 +50,9 @@ bool may_change(const Scene& scene, size_t number) {
 /// surfaces that don't shine hide that.
 bool may_be_mixed(const Scene& scene, size_t number, const MeshSummary& mesh) {
     const Model& model = scene.models[number];
-    if (model.morph || mesh.paint.has_alpha || mesh.paint.mapped > 0 || may_change(scene, number))
-        return false;
+    // Where a field is left out, its outermost voxels have neither colours nor groups in the world.
+    const bool is_plain_mesh = !mesh.paint.is_there() && mesh.group_names.size() < 2;
+    if (model.morph || !is_plain_mesh || may_change(scene, number)) return false;
     return std::ranges::none_of(scene.objects, [&](const Object& object) {
         return size_t(object.model) == number && !is_plain(scene, object);
     });

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -157,6 +159,11 @@ TEST_F(SceneChoices, MakeMeshesWithThinPartsExactWhereSurfacesCantOverlap) {
         EXPECT_EQ(scene.models[0].surface, Surface::exact);
         EXPECT_EQ(scene.models[0].thin_edge, 0);
     }
+    std::ifstream plain(folder / "fin.obj");
+    std::string colored, line;
+    while (std::getline(plain, line)) colored += line + (line[0] == 'v' ? " 1 0.5 0\n" : "\n");
+    put_bytes(folder / "colored.obj", colored);
+    EXPECT_EQ(chosen(R"("mesh": "colored.obj", "fit": 0.8)").surface, Surface::exact);
     EXPECT_EQ(
         chosen(fin + R"(, "morph": {"center": [0, 0, 0], "radius": 0.3, "amount": 0})").thin_edge,
         0);
