@@ -109,17 +109,20 @@ void ObjectLattices::check_field(const Object& object) {
                 voxels_per_world_voxel(frame, world_frame(scene_.world), object.world_from_object));
 }
 
+ObjectLattice world_lattice(const Scene& scene, const Object& object) {
+    return {Lattice::world, world_frame(scene.world), object.world_from_object, glm::dmat4(1)};
+}
+
 ObjectLattice ObjectLattices::of(const Object& object, const VoxelBox& box) {
     check_field(object);
     const Lattice lattice = lattice_of(object);
     if (lattice != Lattice::world)
         return {lattice, own_frame(object), glm::dmat4(1), object.world_from_object};
-    const GridFrame world = world_frame(scene_.world);
-    const bool is_whole = lists_primitives(scene_.models[size_t(object.model)].surface);
-    if (!is_whole)
-        check_invertible(object.world_from_object, uint32_t(&object - scene_.objects.data()));
-    return {lattice, is_whole ? world : part_around(box, world), object.world_from_object,
-            glm::dmat4(1)};
+    ObjectLattice whole = world_lattice(scene_, object);
+    if (lists_primitives(scene_.models[size_t(object.model)].surface)) return whole;
+    check_invertible(object.world_from_object, uint32_t(&object - scene_.objects.data()));
+    whole.frame = part_around(box, whole.frame);
+    return whole;
 }
 
 }  // namespace voxelume

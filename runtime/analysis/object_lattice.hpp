@@ -31,6 +31,9 @@ struct ObjectLattice {
     glm::dmat4 world_from_frame{1};   ///< for placing them
 };
 
+/// The world's own lattice, as `exact` objects are placed with it.
+ObjectLattice world_lattice(const Scene& scene, const Object& object);
+
 /// A scene's choices of lattices. They don't depend on what is visible, so frames agree.
 class ObjectLattices {
   public:

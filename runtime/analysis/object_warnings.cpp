@@ -218,7 +218,7 @@ void add_thin_warning(const Scene& scene, const Object& object, const PlacedMode
 void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetStore& meshes,
                            std::vector<Warning>& warnings) {
     const Model& model = placed.model;
-    if (model.mesh.empty() || !stores_distances(model.surface)) return;
+    if (model.mesh.empty() || !stores_distances(model.surface) || model.thin_edge > 0) return;
     const auto is_known = [&](const Warning& w) {
         return w.kind == WarningKind::thinner_than_voxel && w.where == model.where;
     };

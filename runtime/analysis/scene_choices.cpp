@@ -8,6 +8,7 @@
 #include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 
 namespace voxelume {
 namespace {
@@ -31,15 +32,51 @@ double largest_voxel(const Scene& scene, size_t number, AssetStore& meshes) {
     return largest > 0 ? largest : own;
 }
 
+/// True if light neither goes through an object nor comes from it.
+bool is_plain(const Scene& scene, const Object& object) {
+    return !transmits(scene, object) && !has_emission(scene, object);
+}
+
+/// True if the model, or more of its objects than where they stand, may change from frame to frame.
+bool may_change(const Scene& scene, size_t number) {
+    return moves(scene) && std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
+               return (part.part == ScenePart::model && part.place == number) ||
+                      (part.part == ScenePart::object && !part.only_placed) ||
+                      part.part == ScenePart::material;
+           });
+}
+
+/// True if a mesh may be smooth in one part and exact in another, which overlap: only opaque
+/// surfaces that don't shine hide that.
+bool may_be_mixed(const Scene& scene, size_t number, const MeshSummary& mesh) {
+    const Model& model = scene.models[number];
+    // Where a field is left out, its outermost voxels have neither colours nor groups in the world.
+    const bool is_plain_mesh = !mesh.paint.is_there() && mesh.group_names.size() < 2;
+    if (model.morph || !is_plain_mesh || may_change(scene, number)) return false;
+    return std::ranges::none_of(scene.objects, [&](const Object& object) {
+        return size_t(object.model) == number && !is_plain(scene, object);
+    });
+}
+
+/// Chooses the surface of a mesh, and whether parts of it are exact.
+SurfaceChoice chosen_for_mesh(const Scene& scene, size_t number, AssetStore& meshes) {
+    Model file = scene.models[number];
+    file.morph.reset();
+    const MeshSummary& mesh = *meshes.summary_of(file);
+    file.surface = Surface::smooth;
+    file.thin_edge = largest_voxel(scene, number, meshes);
+    const SurfaceChoice choice = surface_for(mesh, meshes.shape_of(file), file.thin_edge);
+    if (!choice.may_be_thin || !may_be_mixed(scene, number, mesh))
+        return {choice.surface, choice.reason};
+    return surface_with(choice, mesh, *meshes.summary_of(*thin_part_of(file)));
+}
+
 SurfaceChoice chosen_surface(const Scene& scene, size_t number, AssetStore& meshes) {
     const Model& model = scene.models[number];
     if (!model.voxels.empty()) return meshes.surface_of_voxels(model);
     if (!model.cuts.empty()) return {Surface::smooth, "it is cut"};
     if (model.shading != Shading()) return {Surface::exact, "the scene says its shading"};
-    Model file = model;
-    file.morph.reset();
-    return surface_for(*meshes.summary_of(file), meshes.shape_of(file),
-                       largest_voxel(scene, number, meshes));
+    return chosen_for_mesh(scene, number, meshes);
 }
 
 void choose_surfaces(Scene& scene, AssetStore& meshes) {
@@ -54,6 +91,7 @@ void choose_surfaces(Scene& scene, AssetStore& meshes) {
         const SurfaceChoice choice = chosen_surface(scene, number, meshes);
         model.surface = choice.surface;
         model.surface_reason = choice.reason;
+        if (choice.may_be_thin) model.thin_edge = largest_voxel(scene, number, meshes);
     }
 }
 
@@ -80,12 +118,8 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
 /// of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;
 
-/// True if light neither goes through an object nor comes from it.
-bool is_plain(const Scene& scene, const Object& object) {
-    return !transmits(scene, object) && !has_emission(scene, object);
-}
-
-/// The number of plain objects that show each model as `exact` meshes; 0 where cubes are in the
+/// The number of plain objects that show each model as meshes that are `exact`, or parts of which
+/// are; 0 where cubes are in the
 /// world, which hide what shares their voxels.
 std::vector<uint32_t> count_copies(const Scene& scene) {
     std::vector<uint32_t> copies(scene.models.size());
@@ -93,8 +127,9 @@ std::vector<uint32_t> count_copies(const Scene& scene) {
         const Model& model = scene.models[size_t(object.model)];
         if (!object.visible) continue;
         if (shows_voxels(model.surface)) return std::vector<uint32_t>(scene.models.size());
-        copies[size_t(object.model)] +=
-            !model.mesh.empty() && lists_primitives(model.surface) && is_plain(scene, object);
+        copies[size_t(object.model)] += !model.mesh.empty() &&
+                                        (lists_primitives(model.surface) || model.thin_edge > 0) &&
+                                        is_plain(scene, object);
     }
     return copies;
 }

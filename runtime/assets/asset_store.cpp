@@ -10,6 +10,14 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
+namespace {
+
+MeshThickness scaled(const MeshThickness& t, double scale) {
+    return {scale * t.body, scale * t.part, scale * t.hint};
+}
+
+}  // namespace
+
 AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
     used_.insert(name.first);
     const auto found = files_.find(name);
@@ -127,14 +135,13 @@ const MeshShape& AssetStore::shape_of_file(const MeshName& name, bool is_whole) 
 MeshShape AssetStore::shape_of(const Model& model) {
     const MeshShape& shape = shape_of_file({model.mesh, model.part}, true);
     const double scale = model.object_from_file.scale;
-    return {scale * shape.sharp_length,
-            {scale * shape.thickness.body, scale * shape.thickness.part}};
+    return {scale * shape.sharp_length, scaled(shape.thickness, scale)};
 }
 
 MeshThickness AssetStore::thickness_of(const Model& model) {
     const MeshThickness& thickness = shape_of_file({model.mesh, model.part}, false).thickness;
     const double scale = model.object_from_file.scale;
-    return {scale * thickness.body, scale * thickness.part};
+    return scaled(thickness, scale);
 }
 
 const MeshSummary& AssetStore::morphed_summary(const Model& model) {
@@ -144,8 +151,14 @@ const MeshSummary& AssetStore::morphed_summary(const Model& model) {
                  [&] { return voxelume::summary_of(morphed_mesh(model)); });
 }
 
+const MeshSummary& AssetStore::thin_summary(const Model& model) {
+    return known(thin_part(model).summary, source_of(model), &ModelCache::summary,
+                 [&] { return voxelume::summary_of(thin_part_of(model).mesh); });
+}
+
 const Mesh* AssetStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
+    if (model.is_thin_part) return &thin_part_of(model).mesh;
     if (model.voxels.empty())
         return model.morph ? &morphed_mesh(model)
                            : &mesh(model.mesh, model.object_from_file, model.part);
@@ -154,6 +167,7 @@ const Mesh* AssetStore::mesh_of(const Model& model) {
 
 const MeshSummary* AssetStore::summary_of(const Model& model) {
     if (model.solid) return nullptr;
+    if (model.is_thin_part) return &thin_summary(model);
     if (model.voxels.empty())
         return model.morph ? &morphed_summary(model)
                            : &summary_of_file({model.mesh, model.part}, model.object_from_file);
@@ -188,6 +202,7 @@ std::string AssetStore::source_of(const Model& model) {
         return map.is_identity() ? file(name).source : mapped_source(file(name).source, map);
     };
     std::string from = source({model.mesh, model.part});
+    if (model.thin_edge > 0) from = thin_source(from, model.thin_edge, model.is_thin_part);
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
     return morph_source(from, morph.mesh.empty() ? std::string() : source({morph.mesh, 0}), morph);

@@ -17,6 +17,7 @@
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/mesh_targets.hpp"
+#include "runtime/geometry/thin_part.hpp"
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/gltf/gltf_file.hpp"
 #include "runtime/io/gltf/gltf_skin.hpp"
@@ -40,9 +41,11 @@ class AssetStore {
     const VoxelModel& voxels(const Model& model);
     /// What a MagicaVoxel file holds besides its voxels. Throws Error::input as read_vox_file does.
     const VoxFile& vox_file(const std::filesystem::path& file);
-    /// The mesh that is voxelized for a model: its own, or the triangles of a file of exact voxels.
-    /// Null for other models.
+    /// The mesh that is voxelized for a model: its own or thin parts of that, or the triangles of a
+    /// file of exact voxels. Null for other models.
     const Mesh* mesh_of(const Model& model);
+    /// The thin parts of a model's mesh for voxels of its `thin_edge`.
+    const ThinPart& thin_part_of(const Model& model);
     /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
     /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
@@ -83,6 +86,10 @@ class AssetStore {
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
     };
+    struct ThinPartOfMesh {
+        std::optional<ThinPart> part;
+        std::optional<MeshSummary> summary;
+    };
     /// The numbers of a FileMap, which maps can be keyed by.
     using MapKey = std::array<double, 4>;
     struct MeshFile {
@@ -94,6 +101,7 @@ class AssetStore {
         std::map<std::pair<int, std::string>, std::shared_ptr<const GltfSkin>>
             skins;  ///< by number and clip
         std::map<MapKey, MappedMesh> mapped;
+        std::map<std::pair<MapKey, double>, ThinPartOfMesh> thin;  ///< by edges of voxels, too
 
         void forget_meshes();
     };
@@ -136,6 +144,8 @@ class AssetStore {
     const std::vector<MorphTarget>& targets_of(const Model& model);
     /// The skin of a morph that has one.
     const GltfSkin& skin_of(const Model& model);
+    ThinPartOfMesh& thin_part(const Model& model);
+    const MeshSummary& thin_summary(const Model& model);
     Mesh mesh_moved_by_file(const Model& model);
     Bounds box_moved_by_file(const Model& model, const Bounds& box);
 

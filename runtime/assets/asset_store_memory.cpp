@@ -9,6 +9,7 @@ void AssetStore::MeshFile::forget_meshes() {
     targets.reset();
     skins.clear();
     for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
+    for (auto& [key, thin_part] : thin) thin_part.part.reset();
 }
 
 /// The bytes of memory that the loaded contents of a file take.
@@ -23,6 +24,9 @@ uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
         for (const auto& [key, skin] : file.skins) bytes += skin->bytes();
         for (const auto& [map, mapped] : file.mapped)
             if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
+        for (const auto& [key, thin] : file.thin)
+            if (thin.part)
+                bytes += mesh_bytes(thin.part->mesh) + thin.part->points.size() * sizeof(glm::vec3);
     }
     for (const auto& [key, file] : voxels_)
         if (std::get<0>(key) == name) bytes += voxel_bytes(file.voxels);

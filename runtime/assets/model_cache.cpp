@@ -96,6 +96,12 @@ std::string mapped_source(const std::string& source, const FileMap& map) {
     return key_of({"mapped", source, words.bytes()});
 }
 
+std::string thin_source(const std::string& source, double voxel_edge, bool is_thin_part) {
+    CacheKey words;
+    words.add(voxel_edge).add(is_thin_part);
+    return key_of({"thin", source, words.bytes()});
+}
+
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
     CacheKey words;
     words.add_all(morph.center).add(morph.radius).add(morph.amount);

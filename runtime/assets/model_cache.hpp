@@ -26,6 +26,9 @@ std::string part_source(const std::string& source, int part);
 /// Names the mesh of a source after a map.
 std::string mapped_source(const std::string& source, const FileMap& map);
 
+/// Names the mesh of a source without what is too thin for voxels of some edge, or these parts.
+std::string thin_source(const std::string& source, double voxel_edge, bool is_thin_part);
+
 /// Names a mesh that is morphed from one source to another; `to` is empty for a sphere.
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph);
 

@@ -106,13 +106,15 @@ std::optional<MeshSummary> summary_of_bytes(const std::string& bytes) {
 }
 
 std::string bytes_of(const MeshShape& shape) {
-    return cbor_of({shape.sharp_length, shape.thickness.body, shape.thickness.part});
+    return cbor_of(
+        {shape.sharp_length, shape.thickness.body, shape.thickness.part, shape.thickness.hint});
 }
 
 std::optional<MeshShape> shape_of_bytes(const std::string& bytes) {
     return value_of<MeshShape>(bytes, [](const nlohmann::json& json) {
-        return MeshShape{json.at(0).get<double>(),
-                         {json.at(1).get<double>(), json.at(2).get<double>()}};
+        return MeshShape{
+            json.at(0).get<double>(),
+            {json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>()}};
     });
 }
 

@@ -29,12 +29,26 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
     const double thickness = shape.thickness.body / voxel_edge,
                  part = shape.thickness.part / voxel_edge;
     if (thickness < kThinVoxels || part < kThinPartVoxels)
-        return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick",
-                                            thickness < kThinVoxels ? thickness : part)};
+        return {Surface::exact,
+                fmt::format("parts of it are only {:.2g} voxels thick",
+                            thickness < kThinVoxels ? thickness : part),
+                true};
     return {Surface::smooth,
             fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",
                         mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed",
-                        thickness)};
+                        thickness),
+            shape.thickness.hint < kThinVoxels * voxel_edge};
+}
+
+SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
+                           const MeshSummary& part) {
+    const double share = part.triangles > 0 ? part.area.total / mesh.area.total : 0;
+    if (share == 0) return {choice.surface, choice.reason};
+    const std::string thin = fmt::format("{:.2g} % of it lies around parts thinner than {} voxels",
+                                         100 * share, kThinVoxels);
+    if (share > kMaxThinShare) return {Surface::exact, thin};
+    return {Surface::smooth,
+            fmt::format("it is closed and without sharp edges; {}, and is exact", thin), true};
 }
 
 }  // namespace voxelume

@@ -7,6 +7,7 @@
 #include "runtime/geometry/mesh_creases.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/mesh_thickness.hpp"
+#include "runtime/geometry/thin_part.hpp"
 #include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
@@ -16,11 +17,11 @@ namespace voxelume {
 /// noise.
 inline constexpr double kSharpShare = 0.7;
 
-/// Parts of a body are thin below this many voxels.
-inline constexpr double kThinVoxels = 2;
-
 /// Small parts of one are lost or shredded below this many.
 inline constexpr double kThinPartVoxels = 1;
+
+/// A mesh of which more of the area lies around thin parts is exact as a whole.
+inline constexpr double kMaxThinShare = 0.5;
 
 /// What is asked of a mesh besides its summary.
 struct MeshShape {
@@ -37,11 +38,17 @@ bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
 struct SurfaceChoice {
     Surface surface = Surface::smooth;
     std::string reason;
+    bool may_be_thin = false;  ///< it hangs on how much of the mesh is thin
 };
 
 /// `smooth` for a mesh with an inside and without sharp edges that is at least kThinVoxels thick,
 /// and its parts kThinPartVoxels, else `exact`. `voxel_edge` is that of the voxels that would hold
 /// its distances, metres in the space of the mesh.
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
+
+/// What becomes of a choice that hangs on thin parts, of which `part` tells: `smooth` where they
+/// are at most kMaxThinShare of the area, and then they are exact.
+SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
+                           const MeshSummary& part);
 
 }  // namespace voxelume

@@ -6,13 +6,15 @@
 
 namespace voxelume {
 
-/// The shares of its area by which a body counts as thin, and by which it has a part that does.
-inline constexpr double kThinShare = 0.02, kThinPartShare = 0.002;
+/// The shares of its area by which a body counts as thin, by which it has a part that does, and by
+/// which it may have one.
+inline constexpr double kThinShare = 0.02, kThinPartShare = 0.002, kThinHintShare = 0.0002;
 
 /// Metres.
 struct MeshThickness {
     double body = 0;  ///< what all but kThinShare of the area has behind it
     double part = 0;  ///< what all but kThinPartShare has
+    double hint = 0;  ///< what all but kThinHintShare has, if only walls count; see Chord
 };
 
 /// The thickness that a closed mesh's area has behind it. A

@@ -8,6 +8,8 @@
 // cubes on both sides belong to it; this is left out, too.
 #pragma once
 
+#include <algorithm>
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 
 #include "runtime/geometry/mesh.hpp"
@@ -22,6 +24,11 @@ struct SurfaceArea {
     glm::dvec3 shadows{0};  ///< sums of the patches' |area vectors|, per axis
     double total = 0;
 };
+
+/// What is left of an area without a part of it.
+inline SurfaceArea without(const SurfaceArea& area, const SurfaceArea& part) {
+    return {glm::max(area.shadows - part.shadows, 0.0), std::max(area.total - part.total, 0.0)};
+}
 
 SurfaceArea mesh_area(const Mesh& mesh);
 

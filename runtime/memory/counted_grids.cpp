@@ -85,7 +85,8 @@ SharedGrid CountedGrids::world_grid(const Object& object, const Model& model,
     if (!model.solid) check_lattice(object, model, lattice.frame.size);
     return make({.model = object.model,
                  .object = int(&object - scene_.objects.data()),
-                 .counts = objects_.object_grid(object, lattice.frame, estimate_)},
+                 .is_thin_part = model.is_thin_part,
+                 .counts = objects_.object_grid(object, model, lattice.frame, estimate_)},
                 model);
 }
 
@@ -93,7 +94,7 @@ SharedGrid CountedGrids::world_grid(const Object& object, const Model& model,
 SharedGrid CountedGrids::own_grid(const Object& object, const Model& model) {
     if (has_own_voxels(model)) {
         const VoxelModel& voxels = meshes_.voxels(model);
-        if (SharedGrid grid = found(object.model, -1, voxels.frame)) return grid;
+        if (SharedGrid grid = found(object, model, voxels.frame)) return grid;
         GridCounts counts{.frame = voxels.frame, .surface = voxels.surface, .set = voxels.set};
         counts.bricks = voxels.coordinates.size();
         counts.voxels = voxels.voxels();
@@ -104,8 +105,10 @@ SharedGrid CountedGrids::own_grid(const Object& object, const Model& model) {
 
 SharedGrid CountedGrids::model_grid(const Object& object, const Model& model,
                                     const GridFrame& frame) {
-    if (SharedGrid grid = found(object.model, -1, frame)) return grid;
-    return make({.model = object.model, .counts = objects_.model_grid(model, frame, estimate_)},
+    if (SharedGrid grid = found(object, model, frame)) return grid;
+    return make({.model = object.model,
+                 .is_thin_part = model.is_thin_part,
+                 .counts = objects_.model_grid(model, frame, estimate_)},
                 model);
 }
 
@@ -125,9 +128,11 @@ BrickGrid CountedGrids::grid_of(const GridCounts& counts, const Model& model) {
     return count_cut_grid(device_, bodies_.back(), counts);
 }
 
-SharedGrid CountedGrids::found(int model, int object, const GridFrame& frame) const {
+SharedGrid CountedGrids::found(const Object& object, const Model& model,
+                               const GridFrame& frame) const {
     const auto same = std::ranges::find_if(grids_, [&](const CountedGrid& counted) {
-        return counted.model == model && counted.object == object && counted.counts.frame == frame;
+        return counted.model == object.model && counted.object == -1 &&
+               counted.is_thin_part == model.is_thin_part && counted.counts.frame == frame;
     });
     return same == grids_.end() ? nullptr : same->grid;
 }
@@ -139,9 +144,11 @@ const GridCounts& CountedGrids::counts_of(const SharedGrid& grid) const {
 std::vector<BrickGrid> CountedGrids::make_again(
     const std::function<bool(const CountedGrid&)>& is_changed) {
     std::vector<BrickGrid> made;
-    for (const CountedGrid& grid : grids_)
-        if (is_changed(grid))
-            made.push_back(grid_of(grid.counts, scene_.models[size_t(grid.model)]));
+    for (const CountedGrid& grid : grids_) {
+        if (!is_changed(grid)) continue;
+        const Model& model = scene_.models[size_t(grid.model)];
+        made.push_back(grid_of(grid.counts, grid.is_thin_part ? *thin_part_of(model) : model));
+    }
     return made;
 }
 

@@ -14,7 +14,8 @@ namespace voxelume {
 /// A grid with what making and keeping it takes of the device.
 struct CountedGrid {
     int model = 0;
-    int object = -1;  ///< whose grid it is alone; -1 for a model's, which objects share
+    int object = -1;            ///< whose grid it is alone; -1 for a model's, which objects share
+    bool is_thin_part = false;  ///< it is that of the model's thin parts
     GridCounts counts;
     SharedGrid grid = {};
     double made_bytes = 0;  ///< the maximum while it is made, its own bytes included
@@ -61,7 +62,8 @@ class CountedGrids {
     const GridCounts& counts_of(const SharedGrid& grid) const;
     SharedGrid make(CountedGrid counted, const Model& model);
     BrickGrid grid_of(const GridCounts& counts, const Model& model);
-    SharedGrid found(int model, int object, const GridFrame& frame) const;
+    /// The grid of a model that objects share, if it is there.
+    SharedGrid found(const Object& object, const Model& model, const GridFrame& frame) const;
 
     const Device& device_;
     const Scene& scene_;

@@ -8,6 +8,7 @@
 #include "runtime/geometry/solid/solid_clip.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/stages/voxelize/cut.hpp"
+#include "runtime/stages/voxelize/leave_out.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 
 namespace voxelume {
@@ -128,8 +129,12 @@ BrickGrid GridCache::make(const Model& model, const Source& source) {
     if (model.solid)
         return voxelize_solid(device_, *model.solid, source.frame_from_model, source.frame,
                               options);
-    return voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model, source.frame,
-                               options);
+    BrickGrid grid = voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model,
+                                         source.frame, options);
+    if (thin_part_of(model))
+        leave_out(meshes_.thin_part_of(model).points, model.thin_edge, source.frame_from_model,
+                  grid);
+    return grid;
 }
 
 GridCache::Source GridCache::body_source(const Model& model, const Source& source, VoxelSet set) {
@@ -164,7 +169,9 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
 
 /// Whether a grid is one of a model, and no other of it was asked for: that is old.
 bool GridCache::is_old(const Model& model, const Source& source) const {
-    const Model own = source_of(model);
+    const std::optional<Model> part = source.model.is_thin_part ? thin_part_of(model) : model;
+    if (!part) return false;
+    const Model own = source_of(*part);
     if (source.model != own && source.model != source_of(whole_of(model, source.model.set)))
         return false;
     return std::ranges::none_of(

@@ -27,7 +27,7 @@ void add_solid(CacheKey& words, const Solid& solid) {
 void add_model(CacheKey& words, const Model& model, AssetStore& meshes) {
     words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
     words.add(int(model.shading.kind)).add(model.shading.crease_angle);
-    words.add(int(model.normals));
+    words.add(int(model.normals)).add(model.thin_edge);
     words.add(model.cuts.size());
     for (const Solid& cut : model.cuts) add_solid(words, cut);
     if (model.solid) add_solid(words, *model.solid);

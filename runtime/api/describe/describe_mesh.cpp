@@ -25,7 +25,10 @@ Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
     model.resolution = resolution;
     const GridPlan plan = plan_model(model, mesh);
     const glm::ivec3 size = plan.frame.size - 2 * kModelMargin;
-    const SurfaceChoice choice = surface_for(summary, shape, plan.frame.voxel_edge.x);
+    const double edge = plan.frame.voxel_edge.x;
+    SurfaceChoice choice = surface_for(summary, shape, edge);
+    if (choice.may_be_thin)
+        choice = surface_with(choice, summary, summary_of(thin_part_of(mesh, edge).mesh));
     return {{"resolution", resolution},
             {"voxel edge", plan.frame.voxel_edge.x},
             {"voxels", fmt::format("{}x{}x{}", size.x, size.y, size.z)},

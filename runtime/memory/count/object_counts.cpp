@@ -152,29 +152,29 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
         counts.cut_bricks = cut_bricks(model, kOwnSpace, frame);
         return counts;
     }
-    return mesh_grid(model, *mesh, frame, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
+    return mesh_grid(model, *mesh, frame,
+                     model.cuts.empty() ? min_area_of(model, meshes_) : SurfaceArea{});
 }
 
-GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& frame,
-                                     Estimate estimate) {
-    const Model& model = scene_.models[size_t(object.model)];
+GridCounts ObjectCounts::object_grid(const Object& object, const Model& model,
+                                     const GridFrame& frame, Estimate estimate) {
+    const bool is_expected = estimate == Estimate::expected;
+    if (model.is_thin_part)
+        return counts_of(model, meshes_.summary_of(model), frame,
+                         is_expected ? extents_.thin_part(object, 0) : SurfaceExtent{});
     const double band = stored_band(model);
     SurfaceExtent extent =
         model.solid ? object_extent(object, frame) : extents_.planned(object, band);
-    if (estimate == Estimate::minimum) {
+    if (!is_expected) {
         const SurfaceExtent minimum = extents_.minimum(object, band);
         extent = model.solid ? smaller(extent, minimum) : minimum;
     }
     GridCounts counts = counts_of(model, meshes_.summary_of(model), frame, extent);
-    if (estimate == Estimate::expected)
-        counts.cut_bricks = cut_bricks(model, object.world_from_object, frame);
+    if (is_expected) counts.cut_bricks = cut_bricks(model, object.world_from_object, frame);
     return counts;
 }
 
 BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
-    const auto alone = [](const SurfaceExtent& extent) {
-        return BrickCount{extent, extent.bricks};
-    };
     const Model& model = scene_.models[size_t(object.model)];
     if (!model.voxels.empty() && model.surface != Surface::exact)
         return count_voxels(meshes_.voxels(model), object.world_from_object, spread_of(object),
@@ -199,7 +199,7 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
         extent.voxels += inside;
         extent.bricks += inside / double(kVoxelsPerBrick);
     }
-    return alone(extent);
+    return {extent, extent.bricks};
 }
 
 SurfaceExtent ObjectCounts::min_of_voxels(const Object& object, const VoxelModel& voxels) {
@@ -268,6 +268,10 @@ WorldCounts ObjectCounts::expected_world() {
         else
             of_others += kMargin * new_bricks;
         primitives += extent.voxels * listed(model);
+        const SurfaceExtent thin = with_margin(extents_.thin_part(object, kPlacedBand));
+        sum.voxels += thin.voxels;  // its voxels that are smooth as well list two records
+        of_others += thin.bricks;
+        primitives += thin.voxels * kTrianglesPerVoxel;
     }
     return sum_of(sum, primitives, {of_fields, of_others}, frame);
 }

@@ -34,7 +34,8 @@ class ObjectCounts {
 
     /// The grid of a model in its own space; of an object in the world's, or a part of it.
     GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
-    GridCounts object_grid(const Object& object, const GridFrame& frame, Estimate estimate);
+    GridCounts object_grid(const Object& object, const Model& model, const GridFrame& frame,
+                           Estimate estimate);
 
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);

@@ -31,6 +31,12 @@ const SurfaceArea& ObjectExtents::area_of(int model_number) {
     return entry->second;
 }
 
+SurfaceArea min_area_of(const Model& model, AssetStore& meshes) {
+    const SurfaceArea& area = meshes.summary_of(model)->min_area;
+    const std::optional<Model> part = thin_part_of(model);
+    return part ? without(area, meshes.summary_of(*part)->area) : area;
+}
+
 SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_least) {
     const Model& model = scene_.models[size_t(object.model)];
     const glm::dmat4& map = object.world_from_object;
@@ -39,8 +45,7 @@ SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_l
                                           : solid_area(*model.solid, map, box_);
         return surface_extent(area, glm::dmat4(1), frame_, band);
     }
-    const SurfaceArea& area =
-        at_least ? meshes_.summary_of(model)->min_area : area_of(object.model);
+    const SurfaceArea area = at_least ? min_area_of(model, meshes_) : area_of(object.model);
     const SurfaceExtent extent = surface_extent(area, map, frame_, band);
     const double inside = part_in_world(object);
     return {extent.voxels * inside, extent.bricks * inside};
@@ -49,6 +54,13 @@ SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_l
 SurfaceExtent ObjectExtents::minimum(const Object& object, double band) {
     if (!scene_.models[size_t(object.model)].cuts.empty()) return {};
     return extent(object, band, true);
+}
+
+SurfaceExtent ObjectExtents::thin_part(const Object& object, double band) {
+    const std::optional<Model> part = thin_part_of(scene_.models[size_t(object.model)]);
+    if (!part) return {};
+    const SurfaceArea& area = meshes_.summary_of(*part)->area;
+    return surface_extent(area, object.world_from_object, frame_, band);
 }
 
 double ObjectExtents::inside_voxels(const Object& object) {

@@ -25,6 +25,9 @@ class ObjectExtents {
     /// The minimum that it takes; nothing for a mesh that is cut.
     SurfaceExtent minimum(const Object& object, double band);
 
+    /// What the exact parts of a smooth mesh take; nothing where it has none.
+    SurfaceExtent thin_part(const Object& object, double band);
+
     /// The world's voxels in an object whose inside rays see: at most those of its box.
     double inside_voxels(const Object& object);
 
@@ -46,6 +49,10 @@ class ObjectExtents {
     std::map<const Object*, double> parts_;  ///< of meshes, in the world
     std::vector<VoxelBox> boxes_;            ///< none before they are asked for
 };
+
+/// The area that the surface of a mesh has at least in its own space, without its thin parts, where
+/// the field is left out.
+SurfaceArea min_area_of(const Model& model, AssetStore& meshes);
 
 /// The ratio of the box around a cube in the object's space to the cube, on average over its axes.
 double spread_of(const Object& object);

@@ -5,6 +5,14 @@
 
 namespace voxelume {
 
+std::optional<Model> thin_part_of(const Model& model) {
+    if (model.thin_edge == 0 || model.is_thin_part || !stores_distances(model.surface)) return {};
+    Model part = model;
+    part.surface = Surface::exact;
+    part.is_thin_part = true;
+    return part;
+}
+
 std::span<const ValueRow<Model>> model_rows() {
     static constexpr std::array<ValueRow<Model>, 2> rows = {
         {{"mesh", &Model::mesh}, {"voxels", &Model::voxels}}};

@@ -75,6 +75,9 @@ struct Model {
     bool is_surface_open = false;  ///< the scene leaves the surface to its files; until they are
                                    ///< read, `surface` is that of most files of the kind
     std::string surface_reason;    ///< why make_choices() chose it, as half a sentence
+    double thin_edge = 0;          ///< of a smooth mesh: its parts that are too thin for voxels of
+                                   ///< this size, metres in object space, are exact; 0: none are
+    bool is_thin_part = false;     ///< it is the exact model of these parts alone
     VoxelSet set = VoxelSet::supercover;       ///< for `cubes`
     Shading shading;                           ///< of an exact mesh, or of cubes with its normals
     CubeNormals normals = CubeNormals::faces;  ///< of `cubes`
@@ -86,6 +89,10 @@ struct Model {
 
     friend bool operator==(const Model&, const Model&) = default;
 };
+
+/// The model of the parts of a smooth mesh that are exact, which its objects show besides; none if
+/// there are no such parts.
+std::optional<Model> thin_part_of(const Model& model);
 
 /// The material of one group of faces of an object's mesh.
 struct GroupMaterial {

@@ -21,8 +21,8 @@ inline constexpr double kFinestField = 1.42;
 struct PlacedObject {
     const BrickGrid* grid = nullptr;    ///< in the object's own frame; not owned
     glm::dmat4 world_from_object{1.0};  ///< metres to metres; it may mirror and shear
-    uint32_t object = 0;  ///< the object's number in the scene, which no other object has, at most
-                          ///< 65535
+    uint32_t object = 0;  ///< the object's number in the scene, at most 65535; of several with one
+                          ///< number all but one are exact
     int priority = 0;     ///< where objects overlap, the larger priority wins
     std::vector<uint32_t> material_of_group =
         {};  ///< for each of the grid's groups; the last material serves all further groups; if

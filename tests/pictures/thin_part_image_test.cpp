@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of meshes that are smooth but for thin parts, whose surfaces overlap those of the rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/scene_choices.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "runtime/world/world.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/finned_ball.hpp"
+#include "tests/support/shared_device.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+class ThinPartImage : public FileTest {
+  protected:
+    void SetUp() override {
+        FileTest::SetUp();
+        write_obj(folder / "fin.obj", finned_ball(0.012, 0.6, 192));
+    }
+
+    /// The finned ball in a world of such voxels, with its surface chosen.
+    Scene scene_of(double voxel, const char* placement, const char* surface = "auto",
+                   const char* material = "", const char* more = "") const {
+        AssetStore files;
+        Scene scene = parse_scene(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": {0}, "bounds": {{"min": [-0.8, -0.8, -0.8], "max": [0.8, 0.8, 0.8]}},
+          "ambient": [0.3, 0.3, 0.3]}},
+"models": {{"m": {{"mesh": "fin.obj", "voxel_size": {0}, "surface": "{2}"}}}},
+"materials": {{"paint": {{{3}}}}},
+"objects": [{{"name": "fin", "model": "m", "material": "paint", "turn": [14, 35, 5],
+             "placement": "{1}"}}{4}],
+"lights": [{{"type": "point", "position": [-3, 4, -4], "intensity": 30}}],
+"observer": {{"position": [0.3, 0.6, -2.2], "look_at": [0, 0, 0],
+             "display": {{"shape": "pyramid", "angle": 34}}}},
+"render": {{"size": [160, 160]}}}})",
+                                              voxel, placement, surface, material, more),
+                                  folder / "fin.json", {}, [&](const Model& model, bool keeps) {
+                                      return files.box_of_file(model, keeps);
+                                  });
+        AssetStore meshes;
+        make_choices(scene, meshes);
+        return scene;
+    }
+
+    static Image picture(Scene scene) {
+        scene.render.channels.depth = scene.render.channels.object = true;
+        RenderReport report;
+        return render(shared_device(), scene, report);
+    }
+};
+
+/// Expects pictures of one body: every pixel of the one shows it where the other does, but for
+/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel.
+void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim) {
+    const auto& a = mixed.planes.at("Z");
+    const auto& b = exact.planes.at("Z");
+    int lost = 0, off = 0, seen = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        lost += std::isfinite(a[i]) != std::isfinite(b[i]);
+        if (!std::isfinite(a[i]) || !std::isfinite(b[i])) continue;
+        ++seen;
+        off += std::abs(a[i] - b[i]) > 0.1 * voxel;
+        EXPECT_LT(a[i] - b[i], 0.5 * voxel) << "a hole at " << i;
+    }
+    EXPECT_GT(seen, 6000);
+    EXPECT_LE(lost, rim);
+    EXPECT_LE(off, rim);
+    const auto& ids = mixed.id_planes.at("objectId");
+    const auto& other = exact.id_planes.at("objectId");
+    int different = 0;
+    for (size_t i = 0; i < ids.size(); ++i) different += ids[i] != other[i];
+    EXPECT_EQ(different, lost) << "one object";
+}
+
+TEST_F(ThinPartImage, HasNoHolesWhereTheSurfacesMeet) {
+    for (const double voxel : {1 / 38.0, 1 / 48.0, 1 / 110.0})
+        for (const char* placement : {"world", "instance"}) {
+            SCOPED_TRACE(fmt::format("{} in voxels of {} m", placement, voxel));
+            const Scene mixed = scene_of(voxel, placement);
+            ASSERT_GT(mixed.models[0].thin_edge, 0) << mixed.models[0].surface_reason;
+            expect_alike(picture(mixed), picture(scene_of(voxel, placement, "exact")), voxel, 6);
+        }
+}
+
+TEST_F(ThinPartImage, ShowsWhatSmoothLoses) {
+    Scene smooth = scene_of(1 / 48.0, "world");
+    const Image mixed = picture(smooth);
+    smooth.models[0].thin_edge = 0;
+    const Image lost = picture(smooth);
+    int missing = 0;
+    for (size_t i = 0; i < mixed.planes.at("Z").size(); ++i)
+        missing += std::isfinite(mixed.planes.at("Z")[i]) && !std::isfinite(lost.planes.at("Z")[i]);
+    EXPECT_GT(missing, 20);
+}
+
+TEST_F(ThinPartImage, OfGlassIsThatOfExactGlass) {
+    const char* const glass = R"("transmission": 0.9, "ior": 1.4, "absorption": [0.5, 1, 2])";
+    const auto hash = [&](const char* surface) {
+        return oracle::image_hash(picture(scene_of(1 / 48.0, "world", surface, glass)));
+    };
+    EXPECT_EQ(hash("auto"), hash("exact"));
+}
+
+TEST_F(ThinPartImage, OfSeveralObjectsKeepsThemApart) {
+    const char* const second =
+        R"(, {"name": "second", "model": "m", "material": "paint", "position": [0.2, 0.3, 0.35],
+             "turn": [80, 10, 0]})";
+    const auto ids = [&](const char* surface) {
+        return picture(scene_of(1 / 48.0, "world", surface, "", second)).id_planes.at("objectId");
+    };
+    const auto mixed = ids("auto"), exact = ids("exact");
+    int other = 0;
+    for (size_t i = 0; i < mixed.size(); ++i) other += mixed[i] != exact[i];
+    EXPECT_LE(other, 12);
+}
+
+TEST_F(ThinPartImage, IsTheSameFromTheCache) {
+    const ModelCache cache = ModelCache(folder / "cache", 1 << 26, 0).with_worlds();
+    const auto hash = [&](double voxel, const ModelCache& kept) {
+        RenderReport report;
+        const Scene scene = scene_of(voxel, "world");
+        const BuiltWorld world =
+            WorldBuilder(shared_device(), false, AssetStore(kept)).build(scene, report.world);
+        return oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
+    };
+    for (int run = 0; run < 2; ++run)
+        for (const double voxel : {1 / 38.0, 1 / 48.0})
+            EXPECT_EQ(hash(voxel, cache), hash(voxel, {})) << voxel << " in run " << run;
+}
+
+TEST_F(ThinPartImage, TakesTheMemoryThatIsPromised) {
+    for (const char* placement : {"world", "instance"}) {
+        Scene scene = scene_of(1 / 110.0, placement);
+        const Device device = test_device();
+        AssetStore meshes;
+        find_potentially_visible(scene, std::vector<int>{1}, meshes);
+        const FramePlan planned = plan_frames(scene, std::vector<int>{1}, meshes, device.info());
+        const double promise = planned.plan.run_bytes(1, double(device.info().memory));
+        RenderReport report;
+        render(device, scene, report);
+        const auto fact = double(device.counters().peak_bytes);
+        EXPECT_LE(planned.plan.min_bytes, fact) << placement;
+        EXPECT_GE(promise, fact) << placement;
+        EXPECT_LE(promise, 1.4 * fact) << placement;
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
