@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "runtime/analysis/mesh_warnings.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
@@ -47,6 +48,15 @@ Report clips_in(const GltfFile& file) {
     return clips;
 }
 
+/// What of the file isn't shown.
+std::vector<std::string> notes_of(const MeshSummary& mesh) {
+    std::vector<std::string> notes = mesh.notes;
+    notes.insert(notes.end(), mesh.library_faults.begin(), mesh.library_faults.end());
+    if (mesh.library_faults.empty() && !mesh.missing_materials.empty())
+        notes.push_back(missing_materials_sentence(mesh.missing_materials, mesh));
+    return notes;
+}
+
 }  // namespace
 
 Report describe_mesh(const std::filesystem::path& path) {
@@ -83,7 +93,8 @@ Report describe_mesh(const std::filesystem::path& path) {
         report["texture maps"] = "roughness, metalness or emission, which \"cubes\" don't show";
     if (summary.paint.has_alpha) report["texture alpha"] = "only \"exact\" surfaces show it";
     if (!clips.empty()) report["clips"] = clips;
-    if (!mesh.notes.empty()) report["notes"] = mesh.notes;
+    const std::vector<std::string> notes = notes_of(summary);
+    if (!notes.empty()) report["notes"] = notes;
     if (box.min == box.max) return report;
     report["as voxels"] = Report::array();
     for (const int resolution : {128, 256, 512, 1024})
