@@ -179,6 +179,8 @@ std::vector<NamedLibrary> find_libraries(const std::filesystem::path& mesh,
 
 std::vector<MtlMaterial> parse_material_library(std::string_view text) {
     std::vector<MtlMaterial> materials;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     while (!text.empty()) {
         const size_t end = std::min(text.find('\n'), text.size());
         const Statement statement(text.substr(0, end));

@@ -54,6 +54,7 @@ TEST(MaterialLibrary, IsEmptyForWhatIsNone) {
     EXPECT_THAT(parse_material_library(""), IsEmpty());
     EXPECT_THAT(parse_material_library(std::string(5000, '\0')), IsEmpty());
     EXPECT_THAT(parse_material_library("map_Kd -o -o -s\n\n  \n"), IsEmpty());
+    EXPECT_EQ(parse_material_library("\xEF\xBB\xBFnewmtl a\r\n").at(0).name, "a");
     const auto odd = parse_material_library("newmtl\nmap_Kd -o 1 2\nmap_Kd\nKd\nd");
     ASSERT_EQ(odd.size(), 1u);
     EXPECT_EQ(odd[0].name, "");

@@ -91,11 +91,13 @@ TEST_F(VoxelBoundsTest, SchematicsOfAirAndOfLongNamesAreRefusedAtOnce) {
                                             W::bytes("BlockData", data));
     };
     EXPECT_THAT(refusal("a.schem", schematic(640, "air", "")), HasSubstr("no voxels"));
-    EXPECT_THAT(refusal("b.schem", schematic(646, "air", "")), HasSubstr("268435456 at most"));
+    EXPECT_THAT(refusal("b.schem", schematic(1025, "air", "")), HasSubstr("1073741824 at most"));
     EXPECT_THAT(refusal("c.schem", schematic(1, std::string(257, 'o'), std::string(1, '\0'))),
                 HasSubstr("more than 256 bytes"));
-    EXPECT_THAT(refusal("d.schem", gzipped(std::string((1 << 27) + 1, '\0'))),
-                HasSubstr("134217728 bytes"));
+    const std::string zeros = gzipped(std::string(1 << 24, '\0'));
+    std::string members;
+    for (int i = 0; i < 33; ++i) members += zeros;
+    EXPECT_THAT(refusal("d.schem", members), HasSubstr("becomes more than the 512 MiB"));
 }
 
 TEST_F(VoxelBoundsTest, FarApartAndTinyValuesHaveAThreshold) {
