@@ -56,6 +56,11 @@ void print_table(const Report& rows) {
     for (const std::vector<std::string>& line : lines) print_row(line, widths);
 }
 
+/// True for lists of which each item takes a line.
+bool is_sentences(std::string_view key) {
+    return key == "notes" || key == "not shown";
+}
+
 /// A sentence a line.
 void print_notes(std::string_view name, const Report& notes) {
     for (const Report& note : notes) {
@@ -68,7 +73,7 @@ void print_object(const Report& object) {
     for (const auto& item : object.items()) {
         if (is_table(item.value()))
             print_table(item.value());
-        else if (item.key() == "notes" && item.value().is_array())
+        else if (is_sentences(item.key()) && item.value().is_array())
             print_notes(item.key(), item.value());
         else if (item.value().is_object())
             print_object(item.value());

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 #include "runtime/image/srgb.hpp"
 #include "runtime/import/gloss.hpp"
@@ -34,6 +36,15 @@ std::string members_of(const std::vector<std::string>& groups) {
     return members.empty() ? "" : fmt::format(", \"materials\": {{{}}}", fmt::join(members, ", "));
 }
 
+/// Light through eight voxels of coloured glass has its colour.
+std::string absorption_member(const VoxMaterial& m, const glm::dvec3& linear) {
+    constexpr double kTint = 0.125, kDarkest = 0.02;
+    const glm::dvec3 absorption =
+        glm::log(1.0 / glm::max(linear, kDarkest)) * (kTint * double(m.weight) + double(m.density));
+    return fmt::format("\"ior\": {}, \"absorption\": {}", rounded(m.ior, 4),
+                       json_list(rounded(absorption, 3)));
+}
+
 }  // namespace
 
 Model vox_model(const ImportedFile& file, int part) {
@@ -45,26 +56,21 @@ Model vox_model(const ImportedFile& file, int part) {
 }
 
 std::string material_values(const VoxMaterial& m, uint32_t color) {
-    // Light through eight voxels of coloured glass has its colour.
-    constexpr double kTint = 0.125, kDarkest = 0.02;
     const glm::dvec3 linear = linear_color(color);
     switch (m.kind) {
         case VoxMaterialKind::metal:
             return "\"color\": [1, 1, 1], " + metal_members(m.weight, m.rough);
         case VoxMaterialKind::blend:
-            return "\"color\": [1, 1, 1], " + metal_members(m.metal, m.rough);
-        case VoxMaterialKind::glass: {
-            glm::dvec3 absorption;
-            for (int c = 0; c < 3; ++c)
-                absorption[c] =
-                    std::log(1 / std::max(linear[c], kDarkest)) * (kTint * m.weight + m.density);
+            return "\"color\": [1, 1, 1], " + metal_members(m.metal, m.rough) +
+                   (m.weight > 0 ? fmt::format(", \"transmission\": {}, {}", rounded(m.weight, 3),
+                                               absorption_member(m, linear))
+                                 : "");
+        case VoxMaterialKind::glass:
             return fmt::format(
                 "\"color\": [1, 1, 1], \"diffuse\": {}, \"specular\": 0.5, \"shininess\": {}, "
-                "\"reflection\": 1, \"refraction\": {}, \"fresnel\": true, \"ior\": {}, "
-                "\"absorption\": {}",
+                "\"reflection\": 1, \"refraction\": {}, \"fresnel\": true, {}",
                 rounded(1 - m.weight, 3), shininess_of(m.rough), rounded(m.weight, 3),
-                rounded(m.ior, 4), json_list(rounded(absorption, 3)));
-        }
+                absorption_member(m, linear));
         case VoxMaterialKind::emit:
             return fmt::format(
                 "\"color\": [1, 1, 1], \"emission\": {}",
@@ -81,7 +87,9 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
 
 bool VoxParts::has_glass() const {
     return std::ranges::any_of(entries_, [&](int entry) {
-        return vox_.materials[size_t(entry)].kind == VoxMaterialKind::glass;
+        const VoxMaterial& m = vox_.materials[size_t(entry)];
+        return m.kind == VoxMaterialKind::glass ||
+               (m.kind == VoxMaterialKind::blend && m.weight > 0);
     });
 }
 

@@ -99,7 +99,7 @@ class LibraryTextures {
 
 /// True for the names by which programs say that faces have no material.
 bool names_no_material(const std::string& name) {
-    return name.empty() || name == "None" || name == "(null)";
+    return name.empty() || name == "None" || name == "Default" || name == "(null)";
 }
 
 void read_library_textures(const fs::path& name, Mesh& mesh) {

@@ -53,8 +53,10 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
             m.weight = first_in(values, {"_metal", "_weight"}, 1);
             break;
         case VoxMaterialKind::glass:
-        case VoxMaterialKind::blend:
             m.weight = first_in(values, {"_trans", "_alpha", "_weight"}, 0.5f);
+            break;
+        case VoxMaterialKind::blend:
+            m.weight = first_in(values, {"_trans", "_alpha"}, 0);
             break;
         case VoxMaterialKind::emit:
             m.weight = first_in(values, {"_emit", "_weight"}, 1);

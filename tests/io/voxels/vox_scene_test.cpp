@@ -97,6 +97,29 @@ TEST_F(VoxSceneTest, MaterialsOfBothKindsAreGroupsAndMaterialsOfTheScene) {
     EXPECT_THAT(whole, HasSubstr("\"materials\": {\"metal 2\": \"metal 2\""));
 }
 
+// A blend is a mixture of metal, glass and what is matt.
+TEST_F(VoxSceneTest, BlendsLetLightThroughAsFarAsTheySay) {
+    VoxWriter writer;
+    writer.model({3, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}, {2, 0, 0, 3}});
+    writer.palette(odd_palette());
+    writer.material(2,
+                    {{"_type", "_blend"}, {"_metal", "0.25"}, {"_trans", "0.5"}, {"_ri", "1.4"}});
+    writer.material(3, {{"_type", "_blend"}, {"_metal", "0.75"}, {"_weight", "0.9"}});
+    const auto file = put(writer.bytes());
+    AssetStore assets;
+    const Scene scene = scene_of(file, assets);
+    const auto material = [&](const std::string& name) {
+        return *std::ranges::find(scene.materials, name, &Material::name);
+    };
+    EXPECT_DOUBLE_EQ(material("blend 2").metallic.value(), 0.25);
+    EXPECT_DOUBLE_EQ(material("blend 2").transmission.value(), 0.5);
+    EXPECT_FLOAT_EQ(material("blend 2").ior, 1.4f);
+    EXPECT_NE(material("blend 2").absorption, glm::vec3(0));
+    EXPECT_DOUBLE_EQ(material("blend 3").metallic.value(), 0.75);
+    EXPECT_EQ(material("blend 3").transmission.value_or(0), 0);
+    EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), HasSubstr("\"shadow\": \"filtered\""));
+}
+
 TEST_F(VoxSceneTest, WorldsThatAreFarLargerThanTheirModelsWorkOrAreRefused) {
     const auto far_apart = [&](int distance) {
         VoxWriter writer;

@@ -239,7 +239,7 @@ TEST_F(VoxelArtTest, LongsOfZerosAreAirWhereTheFirstBlockIs) {
     std::mt19937 random(5);
     std::vector<uint64_t> longs(15);
     std::map<uint32_t, uint32_t> numbers;
-    for (int i = 0; i < 12; ++i) numbers[random() % 315] = 1 + random() % 4;
+    for (int i = 0; i < 12; ++i) numbers[uint32_t(random() % 315)] = uint32_t(1 + random() % 4);
     numbers[21] = 3;  // begins at bit 63
     for (const auto& [cell, number] : numbers) {
         longs[cell * 3 / 64] |= uint64_t{number} << cell * 3 % 64;
