@@ -64,6 +64,8 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
         default:
             break;
     }
+    const std::string medium = text_in(values, "_media_type");
+    m.absorbs = text_in(values, "_type") != "_cloud" && (medium.empty() || medium == "_absorb");
     m.weight = std::clamp(m.weight, 0.0f, 1.0f);
     m.metal = std::clamp(number_in(values, "_metal", 0), 0.0f, 1.0f);
     m.rough = std::clamp(number_in(values, "_rough", m.rough), 0.0f, 1.0f);
@@ -101,6 +103,9 @@ VoxDictionary values_of(const VoxMaterial& m) {
             [[fallthrough]];
         case VoxMaterialKind::glass:
             values["_trans"] = values["_alpha"] = text(m.weight);
+            break;
+        case VoxMaterialKind::media:
+            values["_media_type"] = m.absorbs ? "_absorb" : "_scatter";
             break;
         default:
             break;

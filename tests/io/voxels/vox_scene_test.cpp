@@ -120,6 +120,36 @@ TEST_F(VoxSceneTest, BlendsLetLightThroughAsFarAsTheySay) {
     EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), HasSubstr("\"shadow\": \"filtered\""));
 }
 
+// Faces within what absorbs light aren't seen, as those within glass; others have an opacity.
+TEST_F(VoxSceneTest, MediaThatAbsorbAreClearBodies) {
+    VoxWriter writer;
+    writer.model({4, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}, {2, 0, 0, 3}, {3, 0, 0, 4}});
+    std::array<uint32_t, 256> palette = odd_palette();
+    palette[1] = palette[2] = palette[4] = 0xFF4080FFu;
+    palette[3] = 0xFFFFFFFFu;
+    writer.palette(palette);
+    writer.material(1, {{"_type", "_media"}, {"_d", "0.25"}});
+    writer.material(2, {{"_type", "_media"}, {"_d", "0.25"}, {"_media_type", "_scatter"}});
+    writer.material(3, {{"_type", "_media"}, {"_d", "0.25"}, {"_media_type", "_absorb"}});
+    writer.material(4, {{"_type", "_cloud"}, {"_d", "0.25"}});
+    AssetStore assets;
+    const Scene scene = scene_of(put(writer.bytes()), assets);
+    const auto material = [&](const std::string& name) {
+        return *std::ranges::find(scene.materials, name, &Material::name);
+    };
+    EXPECT_EQ(material("media 1").refraction, 1);
+    EXPECT_EQ(material("media 1").ior, 1);
+    EXPECT_EQ(material("media 1").opacity, 1);
+    // Red 1 passes, and of linear green 0.2159 and blue 0.0513 log(1 / x) (1/8 + 1/4) is absorbed.
+    EXPECT_NEAR(material("media 1").absorption.r, 0, 1e-3);
+    EXPECT_NEAR(material("media 1").absorption.g, 0.575, 2e-3);
+    EXPECT_NEAR(material("media 1").absorption.b, 1.114, 5e-3);  // three digits are written
+    for (const char* name : {"media 2", "media 3", "media 4"}) {
+        EXPECT_EQ(material(name).refraction, 0) << name;
+        EXPECT_FLOAT_EQ(material(name).opacity, 0.4f) << name;
+    }
+}
+
 TEST_F(VoxSceneTest, WorldsThatAreFarLargerThanTheirModelsWorkOrAreRefused) {
     const auto far_apart = [&](int distance) {
         VoxWriter writer;
