@@ -144,6 +144,9 @@ TEST_F(VoxSceneTest, MediaThatAbsorbAreClearBodies) {
     EXPECT_NEAR(material("media 1").absorption.r, 0, 1e-3);
     EXPECT_NEAR(material("media 1").absorption.g, 0.575, 2e-3);
     EXPECT_NEAR(material("media 1").absorption.b, 1.114, 5e-3);  // three digits are written
+    // The ground touches nothing, or rays out of a clear body pass through it here and there.
+    const Object& ground = *std::ranges::find(scene.objects, "ground", &Object::name);
+    EXPECT_NEAR(ground.world_from_object[3].y + 0.000488 / 2, -0.01, 1e-9);
     for (const char* name : {"media 2", "media 3", "media 4"}) {
         EXPECT_EQ(material(name).refraction, 0) << name;
         EXPECT_FLOAT_EQ(material(name).opacity, 0.4f) << name;
