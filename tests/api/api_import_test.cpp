@@ -243,7 +243,7 @@ TEST_F(ApiImport, TheGroupsOfAnObjFileHaveTheMaterialsOfItsLibrary) {
     EXPECT_NO_THROW(scene_of_file(folder / "room.obj"));
     std::ofstream(folder / "room.mtl", std::ios::app) << "newmtl nothing\nnewmtl room\n";
     EXPECT_THAT(import_file(folder / "room.obj", folder, {}, no_cache),
-                HasSubstr("\"material\": \"room model\""))
+                HasSubstr("\"material\": \"room\",\n     \"materials\": {\"oak\":"))
         << "the faces before the first group have none";
 }
 
