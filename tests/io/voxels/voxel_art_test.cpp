@@ -2,9 +2,6 @@
 // Files of voxel editors and games, voxel by voxel.
 #include <gmock/gmock.h>
 
-#include <map>
-#include <random>
-
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/voxel_art/block_colors.hpp"
@@ -229,44 +226,6 @@ TEST_F(VoxelArtTest, LitematicNumbersStraddleLongs) {
     EXPECT_THAT(read_schematic(folder / "b.litematic").notes, Contains("2 regions, shown as one"));
     longs.resize(1);
     EXPECT_THAT(refusal("c.litematic", file(region("one", 1, 7))), HasSubstr("fewer blocks"));
-}
-
-// Cells of 3 bits, some of which straddle two longs, in longs that are mostly zeros; and the same
-// bits where the number 0 is no air.
-TEST_F(VoxelArtTest, LongsOfZerosAreAirWhereTheFirstBlockIs) {
-    using W = NbtWriter;
-    const glm::ivec3 size(7, 9, 5);
-    std::mt19937 random(5);
-    std::vector<uint64_t> longs(15);
-    std::map<uint32_t, uint32_t> numbers;
-    for (int i = 0; i < 12; ++i) numbers[uint32_t(random() % 315)] = uint32_t(1 + random() % 4);
-    numbers[21] = 3;  // begins at bit 63
-    for (const auto& [cell, number] : numbers) {
-        longs[cell * 3 / 64] |= uint64_t{number} << cell * 3 % 64;
-        if (cell * 3 % 64 > 61) longs[cell * 3 / 64 + 1] |= number >> (64 - cell * 3 % 64);
-    }
-    const auto xyz = [](const std::string& name, const glm::ivec3& v) {
-        return W::compound(name, W::whole("x", v.x) + W::whole("y", v.y) + W::whole("z", v.z));
-    };
-    for (const std::string first : {"air", "clay"}) {
-        const std::vector<std::string> names = {first, "stone", "dirt", "sand", "gold_block"};
-        std::vector<std::string> palette;
-        for (const std::string& name : names) palette.push_back(W::words("Name", name));
-        const std::string region = W::compound(
-            "one", xyz("Position", {0, 0, 0}) + xyz("Size", size) +
-                       W::compounds("BlockStatePalette", palette) + W::longs("BlockStates", longs));
-        VoxelCells expected;
-        for (uint32_t cell = 0; cell < 315; ++cell) {
-            const auto found = numbers.find(cell);
-            if (found == numbers.end() && first == "air") continue;
-            const std::string& name = names[found == numbers.end() ? 0 : found->second];
-            expected[{int(cell % 7), int(cell / 35), int(cell / 7 % 5)}] = {block_color(name).color,
-                                                                            ""};
-        }
-        EXPECT_EQ(cells("a.litematic", gzipped(W::compound("", W::compound("Regions", region)))),
-                  expected)
-            << first;
-    }
 }
 
 TEST_F(VoxelArtTest, DeepAndEndlessTagsAreRefused) {
