@@ -114,14 +114,18 @@ void print_volume(const Plan& plan) {
         fmt::print("a volumetric image of its display needs at most {}\n", bytes_text(bytes));
 }
 
-void print_verdict(const Plan& plan, bool is_of_frames) {
-    const std::string of_frames = is_of_frames ? fmt::format(" by frame {}", plan.frame) : "";
+void print_verdict(const Plan& plan, size_t frames) {
+    const std::string of_frames = frames > 1 ? fmt::format(" by frame {}", plan.frame) : "";
+    const std::string chosen =
+        plan.chosen_frames > 0
+            ? fmt::format(" for {} frames, chosen from {}", plan.chosen_frames, frames)
+            : "";
     const std::string needed = plan.verdict == Verdict::fits
                                    ? fmt::format("fits: at most {}", bytes_text(plan.max_bytes))
                                    : fmt::format("may fit: {} to {}", bytes_text(plan.min_bytes),
                                                  bytes_text(plan.max_bytes));
-    fmt::print("\n{} of {} are needed{}; counts and memory are estimates\n", needed,
-               bytes_text(plan.device_bytes), of_frames);
+    fmt::print("\n{} of {} are needed{}; counts and memory are estimates{}\n", needed,
+               bytes_text(plan.device_bytes), of_frames, chosen);
 }
 
 /// Plans with a bar where a person watches, as many frames take long.
@@ -152,6 +156,7 @@ void print_plan(const Scene& scene, const Device& device, const PlanOptions& opt
     }
     Report report = plan_report(plan, device);
     if (scene.moves()) report["frame"] = plan.frame;
+    if (plan.chosen_frames > 0) report["chosen frames"] = plan.chosen_frames;
     if (as_json) {
         if (!scene.fitted().empty()) report["fitted"] = fitted_report(scene);
         add_verdict(plan, report);
@@ -161,7 +166,7 @@ void print_plan(const Scene& scene, const Device& device, const PlanOptions& opt
     if (as_json) return;
     const size_t frames =
         options.frames.empty() ? size_t(scene.moves() ? scene.frames() : 1) : options.frames.size();
-    print_verdict(plan, frames > 1);
+    print_verdict(plan, frames);
     print_volume(plan);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxelume::cli {
@@ -55,10 +56,25 @@ void print_table(const Report& rows) {
     for (const std::vector<std::string>& line : lines) print_row(line, widths);
 }
 
+/// True for lists of which each item takes a line.
+bool is_sentences(std::string_view key) {
+    return key == "notes" || key == "not shown";
+}
+
+/// A sentence a line.
+void print_notes(std::string_view name, const Report& notes) {
+    for (const Report& note : notes) {
+        fmt::print("  {:<15} {}\n", name, text_of(note));
+        name = {};
+    }
+}
+
 void print_object(const Report& object) {
     for (const auto& item : object.items()) {
         if (is_table(item.value()))
             print_table(item.value());
+        else if (is_sentences(item.key()) && item.value().is_array())
+            print_notes(item.key(), item.value());
         else if (item.value().is_object())
             print_object(item.value());
         else

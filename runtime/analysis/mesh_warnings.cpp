@@ -12,6 +12,8 @@
 namespace voxelume {
 namespace {
 
+constexpr size_t kMaxNotes = 8;  // warnings of one file
+
 bool needs_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     return stores_distances(model.surface) || transmits(scene, object) ||
@@ -37,30 +39,66 @@ void add_topology_warnings(const Model& model, const MeshSummary& mesh,
     }
 }
 
+/// The names of the libraries, in quotes.
+std::string libraries_of(const MeshSummary& mesh) {
+    std::vector<std::string> quoted;
+    for (const std::string& name : mesh.material_libraries) quoted.push_back(quote(name));
+    return fmt::format("{}", fmt::join(quoted, " and "));
+}
+
+/// The groups whose materials the file lacks, and to which the scene gives none either.
+std::vector<std::string> missing_materials(const Object& object, const MeshSummary& mesh) {
+    if (object.material != 0) return {};
+    std::vector<std::string> missing;
+    for (const std::string& name : mesh.missing_materials) {
+        const bool is_given =
+            std::ranges::find(object.groups, name, &GroupMaterial::group) != object.groups.end();
+        if (!is_given) missing.push_back(name);
+    }
+    return missing;
+}
+
 /// What of the material library is missed; empty if nothing is.
 std::string missed_materials(const Object& object, const MeshSummary& mesh) {
-    const std::string library = quote(mesh.material_library);
+    const std::vector<std::string> missing = missing_materials(object, mesh);
+    if (!missing.empty()) return missing_materials_sentence(missing, mesh);
+    if (mesh.material_libraries.empty() || !object.groups.empty()) return "";
+    const std::string library = libraries_of(mesh);
     if (mesh.group_names.size() > 1)
         return fmt::format("the {} materials of {} aren't read", mesh.group_names.size(), library);
     return object.material == 0 ? fmt::format("{} isn't read", library) : "";
 }
 
+/// What to do about what is missed.
+std::string material_advice(const Object& object, const MeshSummary& mesh) {
+    if (mesh.group_names.size() < 2) return "give the object a \"material\" of the scene";
+    const std::vector<std::string> missing = missing_materials(object, mesh);
+    return fmt::format("give the object \"materials\", like {{{}: NAME}}",
+                       quote(missing.empty() ? mesh.group_names.front() : missing.front()));
+}
+
+/// Adds a sentence on a file, which is told of the first object that shows it.
+void add_note(const Object& object, const std::string& text, std::vector<Warning>& warnings) {
+    const bool is_known = std::ranges::any_of(warnings, [&](const Warning& warning) {
+        return warning.kind == WarningKind::ignored_materials && warning.text == text;
+    });
+    if (!is_known) warnings.push_back({WarningKind::ignored_materials, object.where, text});
+}
+
 void add_material_warning(const Object& object, const Model& model, const MeshSummary& mesh,
                           std::vector<Warning>& warnings) {
     const std::string file = quote(model.mesh.filename().string());
-    for (const std::string& note : mesh.notes)
-        add_once({WarningKind::ignored_materials, object.where, fmt::format("{}: {}", file, note)},
+    const size_t shown = std::min(mesh.notes.size(), kMaxNotes);
+    for (size_t i = 0; i < shown; ++i)
+        add_note(object, fmt::format("{}: {}", file, mesh.notes[i]), warnings);
+    if (mesh.notes.size() > shown)
+        add_note(object,
+                 fmt::format("{}: {} more of what it has isn't shown; `voxelume info` lists it",
+                             file, mesh.notes.size() - shown),
                  warnings);
-    std::string missed;
-    if (!mesh.material_library.empty() && object.groups.empty())
-        missed = missed_materials(object, mesh);
+    const std::string missed = missed_materials(object, mesh);
     if (missed.empty()) return;
-    const std::string advice = mesh.group_names.size() > 1
-                                   ? fmt::format("give the object \"materials\", like {{{}: NAME}}",
-                                                 quote(mesh.group_names.front()))
-                                   : "give the object a \"material\" of the scene";
-    add_once({WarningKind::ignored_materials, object.where,
-              fmt::format("{}: {}; {}", file, missed, advice)},
+    add_note(object, fmt::format("{}: {}; {}", file, missed, material_advice(object, mesh)),
              warnings);
 }
 
@@ -88,6 +126,18 @@ void add_texture_warning(const Model& model, const MeshPaint& paint,
 }
 
 }  // namespace
+
+std::string missing_materials_sentence(const std::vector<std::string>& missing,
+                                       const MeshSummary& mesh) {
+    if (!mesh.library_faults.empty())
+        return fmt::format("{}", fmt::join(mesh.library_faults, ", and "));
+    const bool is_one = missing.size() == 1;
+    const std::string its =
+        is_one ? fmt::format("its material {}", quote(missing[0]))
+               : fmt::format("{} of its materials, like {},", missing.size(), quote(missing[0]));
+    if (mesh.material_libraries.empty()) return fmt::format("it names no library that has {}", its);
+    return fmt::format("{} {} in {}", its, is_one ? "isn't" : "aren't", libraries_of(mesh));
+}
 
 void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
                        std::vector<Warning>& warnings) {

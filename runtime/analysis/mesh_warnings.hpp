@@ -2,10 +2,12 @@
 // object -> what its mesh file lacks, or says and nobody reads
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/base/warning.hpp"
+#include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {
@@ -14,5 +16,9 @@ namespace voxelume {
 /// a surface or material needs an inside; materials and textures that aren't read.
 void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
                        std::vector<Warning>& warnings);
+
+/// Says why a mesh has groups whose materials no library has. There are some.
+std::string missing_materials_sentence(const std::vector<std::string>& missing,
+                                       const MeshSummary& mesh);
 
 }  // namespace voxelume

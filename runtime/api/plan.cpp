@@ -57,6 +57,7 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
     v1::Plan result;
     result.refusal = refusal_of(scene, planned, device);
     result.frame = planned.frame;
+    result.chosen_frames = planned.is_of_all ? 0 : planned.plans;
     result.min_bytes = plan.min_bytes;
     result.max_bytes = plan.run_bytes(frames, double(device.memory));
     result.device_bytes = double(device.memory);

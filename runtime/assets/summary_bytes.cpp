@@ -33,6 +33,18 @@ std::string text_of(const nlohmann::json& json) {
     return {bytes.begin(), bytes.end()};
 }
 
+nlohmann::json json_of(const std::vector<std::string>& names) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const std::string& name : names) list.push_back(json_of(name));
+    return list;
+}
+
+std::vector<std::string> texts_of(const nlohmann::json& list) {
+    std::vector<std::string> texts;
+    for (const nlohmann::json& text : list) texts.push_back(text_of(text));
+    return texts;
+}
+
 nlohmann::json json_of(const MeshPaint& paint) {
     return {paint.colors, paint.has_corner_colors, paint.texels,    paint.textures,
             paint.uvs,    paint.has_corner_uvs,    paint.has_alpha, paint.mapped};
@@ -53,15 +65,17 @@ MeshSummary read_summary(const nlohmann::json& json) {
     summary.min_area = area_of(json.at(3).at(1));
     summary.paint = read_paint(json.at(4));
     summary.corners = json.at(6).get<uint64_t>();
-    for (const nlohmann::json& name : json.at(5)) summary.group_names.push_back(text_of(name));
+    summary.group_names = texts_of(json.at(5));
     const nlohmann::json& topology = json.at(7);
     summary.topology = {topology.at(0).get<uint64_t>(), topology.at(1).get<double>(),
                         topology.at(2).get<double>()};
-    summary.material_library = text_of(json.at(8).at(0));
-    summary.texture = text_of(json.at(8).at(1));
+    summary.material_libraries = texts_of(json.at(8).at(0));
+    summary.missing_materials = texts_of(json.at(8).at(1));
+    summary.library_faults = texts_of(json.at(8).at(2));
+    summary.texture = text_of(json.at(8).at(3));
     summary.has_normals = json.at(9).get<bool>();
     summary.longest_edge = json.at(10).get<double>();
-    for (const nlohmann::json& note : json.at(11)) summary.notes.push_back(text_of(note));
+    summary.notes = texts_of(json.at(11));
     return summary;
 }
 
@@ -83,22 +97,20 @@ std::optional<Value> value_of(const std::string& bytes, Value (*read)(const nloh
 }  // namespace
 
 std::string bytes_of(const MeshSummary& summary) {
-    nlohmann::json whole = {
-        summary.triangles,
-        {json_of(summary.surface.min), json_of(summary.surface.max)},
-        {json_of(summary.vertices.min), json_of(summary.vertices.max)},
-        {json_of(summary.area), json_of(summary.min_area)},
-        json_of(summary.paint),
-        nlohmann::json::array(),
-        summary.corners,
-        {summary.topology.open_edges, summary.topology.hole_area, summary.topology.volume},
-        {json_of(summary.material_library), json_of(summary.texture)},
-        summary.has_normals,
-        summary.longest_edge,
-        nlohmann::json::array()};
-    for (const std::string& note : summary.notes) whole[11].push_back(json_of(note));
-    for (const std::string& name : summary.group_names) whole[5].push_back(json_of(name));
-    return cbor_of(whole);
+    return cbor_of(
+        {summary.triangles,
+         {json_of(summary.surface.min), json_of(summary.surface.max)},
+         {json_of(summary.vertices.min), json_of(summary.vertices.max)},
+         {json_of(summary.area), json_of(summary.min_area)},
+         json_of(summary.paint),
+         json_of(summary.group_names),
+         summary.corners,
+         {summary.topology.open_edges, summary.topology.hole_area, summary.topology.volume},
+         {json_of(summary.material_libraries), json_of(summary.missing_materials),
+          json_of(summary.library_faults), json_of(summary.texture)},
+         summary.has_normals,
+         summary.longest_edge,
+         json_of(summary.notes)});
 }
 
 std::optional<MeshSummary> summary_of_bytes(const std::string& bytes) {

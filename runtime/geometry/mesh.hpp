@@ -47,8 +47,11 @@ struct Mesh {
     /// Indices into `textures`, one per group of faces, kNoTexture for a group without one. Empty:
     /// there are no textures.
     std::vector<uint32_t> group_textures;
-    std::string material_library = {};  ///< name of OBJ's first mtllib
-    std::string texture = {};           ///< of PLY's first comment TextureFile
+    std::vector<std::string> material_libraries = {};  ///< what OBJ's mtllib statements name, once
+    /// Names of groups whose materials none of the libraries has, and sentences on libraries that
+    /// can't be read.
+    std::vector<std::string> missing_materials = {}, library_faults = {};
+    std::string texture = {};  ///< of PLY's first comment TextureFile
     /// What isn't shown of the file, a sentence each without its full stop.
     std::vector<std::string> notes = {};
 };

@@ -70,7 +70,9 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.longest_edge = longest_edge(mesh);
     summary.group_names = mesh.group_names;
     summary.topology = mesh_topology(mesh);
-    summary.material_library = mesh.material_library;
+    summary.material_libraries = mesh.material_libraries;
+    summary.missing_materials = mesh.missing_materials;
+    summary.library_faults = mesh.library_faults;
     summary.texture = mesh.texture;
     summary.notes = mesh.notes;
     return summary;

@@ -39,9 +39,9 @@ struct MeshSummary {
     std::vector<std::string> group_names;
     uint64_t corners = 0;  ///< positions that triangles share
     MeshTopology topology;
-    std::string material_library;    ///< as in Mesh
-    std::string texture;             ///< likewise
-    std::vector<std::string> notes;  ///< likewise
+    std::vector<std::string> material_libraries, missing_materials, library_faults;  ///< as in Mesh
+    std::string texture;                                                             ///< likewise
+    std::vector<std::string> notes;                                                  ///< likewise
 };
 
 MeshSummary summary_of(const Mesh& mesh);

@@ -42,7 +42,9 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
         }
         return materials;
     }
-    for (MtlMaterial material : read_material_library(file.path, mesh.material_library)) {
+    std::vector<std::string> faults;  // the mesh's summary has them, too
+    for (MtlMaterial material :
+         read_material_libraries(file.path, mesh.material_libraries, faults)) {
         if (mesh.paint.uvs == 0)  // nothing tells where the maps lie
             material.emission_map = material.roughness_map = material.metallic_map = {};
         materials.push_back({material.name, mtl_values(material), mtl_transmits(material)});
@@ -51,7 +53,8 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
 }
 
 /// Adds the materials that the mesh's groups have in the file. Returns the members of the object
-/// that name them, and the material of all other groups, which is named as the model.
+/// that name them, and the material of all other groups, which is named as the model. Where the
+/// file's own is missing, that is the scene's "default", so that a warning asks for another one.
 std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
                           const std::string& name, Contents& contents) {
     const std::vector<FileMaterial> materials = materials_of(file, mesh);
@@ -67,9 +70,9 @@ std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
     }
     std::string text;
     if (members.empty() || members.size() < mesh.group_names.size()) {
-        contents.materials.push_back(
-            fmt::format("{}: {{{}}}", json_text(name), plain_values(mesh)));
-        text = fmt::format(", \"material\": {}", json_text(name));
+        const std::string plain = json_text(mesh.missing_materials.empty() ? name : "default");
+        contents.materials.push_back(fmt::format("{}: {{{}}}", plain, plain_values(mesh)));
+        text = fmt::format(", \"material\": {}", plain);
     }
     if (!members.empty())
         text += fmt::format(",\n     \"materials\": {{{}}}", fmt::join(members, ",\n       "));

@@ -97,11 +97,19 @@ double max_radius(const glm::dvec3& voxel_size) {
     return kMaxVoxels * std::min(voxel_size.x, voxel_size.z);
 }
 
-void add_ground(const Bounds& box, double radius, const glm::dvec3& color, Studio& studio) {
+/// How far below what stands on it the ground lies: unseen, and more than rays are moved off a
+/// surface. Where they touched, rays out of glass passed through the ground here and there.
+double ground_gap(const Bounds& box, const glm::dvec3& voxel_size) {
+    return rounded(std::max(voxel_size.y / 100, longest_side(box) / 8192), 3);
+}
+
+void add_ground(const Bounds& box, double radius, double gap, const glm::dvec3& color,
+                Studio& studio) {
     const glm::dvec3 middle = (box.min + box.max) / 2.0;
     // Cameras that stand low would see the side of a thick disk.
     const double height = rounded(longest_side(box) / 8192, 3);
-    const glm::dvec3 position(rounded(middle.x, 6), box.min.y - height / 2, rounded(middle.z, 6));
+    const double level = rounded(box.min.y - gap - height / 2, 12);
+    const glm::dvec3 position(rounded(middle.x, 6), level, rounded(middle.z, 6));
     studio.materials.push_back(fmt::format("\"ground\": {{\"color\": {}}}", json_list(color)));
     studio.models.push_back(
         fmt::format("\"ground\": {{\"shape\": \"cylinder\", \"radius\": {}, \"height\": {},\n"
@@ -183,7 +191,7 @@ Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const Import
     const glm::dvec3 color = ground_color(around.ground, studio.background, on_ground, options);
     const bool ends = around.ground && !options.background;
     add_ground(box, ends ? std::min(rounded(kFarGround * longest_side(box), 3), most) : radius,
-               color, studio);
+               ground_gap(box, voxel_size), color, studio);
     return studio;
 }
 

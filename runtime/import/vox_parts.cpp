@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 #include "runtime/image/srgb.hpp"
 #include "runtime/import/gloss.hpp"
@@ -34,6 +36,21 @@ std::string members_of(const std::vector<std::string>& groups) {
     return members.empty() ? "" : fmt::format(", \"materials\": {{{}}}", fmt::join(members, ", "));
 }
 
+/// True for a medium that only takes light away, where it takes enough to be seen.
+bool is_clear_medium(const VoxMaterial& m, const glm::dvec3& linear) {
+    constexpr double kFaint = 0.9;
+    return m.kind == VoxMaterialKind::media && m.absorbs &&
+           std::min({linear.x, linear.y, linear.z}) < kFaint;
+}
+
+/// Light through eight voxels of coloured glass has its colour.
+std::string absorption_member(const VoxMaterial& m, const glm::dvec3& linear) {
+    constexpr double kTint = 0.125, kDarkest = 0.02;
+    const glm::dvec3 absorption =
+        glm::log(1.0 / glm::max(linear, kDarkest)) * (kTint * double(m.weight) + double(m.density));
+    return fmt::format("\"absorption\": {}", json_list(rounded(absorption, 3)));
+}
+
 }  // namespace
 
 Model vox_model(const ImportedFile& file, int part) {
@@ -45,32 +62,31 @@ Model vox_model(const ImportedFile& file, int part) {
 }
 
 std::string material_values(const VoxMaterial& m, uint32_t color) {
-    // Light through eight voxels of coloured glass has its colour.
-    constexpr double kTint = 0.125, kDarkest = 0.02;
     const glm::dvec3 linear = linear_color(color);
     switch (m.kind) {
         case VoxMaterialKind::metal:
             return "\"color\": [1, 1, 1], " + metal_members(m.weight, m.rough);
         case VoxMaterialKind::blend:
-            return "\"color\": [1, 1, 1], " + metal_members(m.metal, m.rough);
-        case VoxMaterialKind::glass: {
-            glm::dvec3 absorption;
-            for (int c = 0; c < 3; ++c)
-                absorption[c] =
-                    std::log(1 / std::max(linear[c], kDarkest)) * (kTint * m.weight + m.density);
+            return "\"color\": [1, 1, 1], " + metal_members(m.metal, m.rough) +
+                   (m.weight > 0 ? fmt::format(", \"transmission\": {}, \"ior\": {}, {}",
+                                               rounded(m.weight, 3), rounded(m.ior, 4),
+                                               absorption_member(m, linear))
+                                 : "");
+        case VoxMaterialKind::glass:
             return fmt::format(
                 "\"color\": [1, 1, 1], \"diffuse\": {}, \"specular\": 0.5, \"shininess\": {}, "
-                "\"reflection\": 1, \"refraction\": {}, \"fresnel\": true, \"ior\": {}, "
-                "\"absorption\": {}",
+                "\"reflection\": 1, \"refraction\": {}, \"fresnel\": true, \"ior\": {}, {}",
                 rounded(1 - m.weight, 3), shininess_of(m.rough), rounded(m.weight, 3),
-                rounded(m.ior, 4), json_list(rounded(absorption, 3)));
-        }
+                rounded(m.ior, 4), absorption_member(m, linear));
         case VoxMaterialKind::emit:
             return fmt::format(
                 "\"color\": [1, 1, 1], \"emission\": {}",
                 json_list(
                     rounded(linear * double(m.weight) * double((1 + m.flux) * (1 + m.flux)), 3)));
         case VoxMaterialKind::media:
+            if (is_clear_medium(m, linear))
+                return "\"color\": [1, 1, 1], \"diffuse\": 0, \"refraction\": 1, \"ior\": 1, " +
+                       absorption_member(m, linear);
             return fmt::format("\"color\": [1, 1, 1], \"opacity\": {}",
                                rounded(0.2 + 0.8 * m.density, 3));
         case VoxMaterialKind::diffuse:
@@ -81,7 +97,10 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
 
 bool VoxParts::has_glass() const {
     return std::ranges::any_of(entries_, [&](int entry) {
-        return vox_.materials[size_t(entry)].kind == VoxMaterialKind::glass;
+        const VoxMaterial& m = vox_.materials[size_t(entry)];
+        return m.kind == VoxMaterialKind::glass ||
+               (m.kind == VoxMaterialKind::blend && m.weight > 0) ||
+               is_clear_medium(m, linear_color(vox_.palette[size_t(entry)]));
     });
 }
 

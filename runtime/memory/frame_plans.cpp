@@ -7,21 +7,12 @@
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/memory/frames_to_plan.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {
-
-/// True if both frames have the same plan, as nothing changed that it depends on. It depends on
-/// whether lights shine, but not on their other values. It depends on the observer only in images
-/// without colour, whose rays are followed through surfaces that he may be behind.
-bool is_planned_like(const Scene& a, const Scene& b) {
-    return (a.render.channels.color || a.observer == b.observer) && a.objects == b.objects &&
-           a.models == b.models && a.materials == b.materials &&
-           std::ranges::equal(a.lights, b.lights, {}, shines, shines) &&
-           a.world.medium == b.world.medium;
-}
 
 /// True if both frames show the same meshes and voxels.
 bool has_files_of(const Scene& a, const Scene& b) {
@@ -38,15 +29,74 @@ void forget_largest(const Scene& scene, const DeviceInfo& device, AssetStore& me
     meshes.forget_unused();
 }
 
-FramePlan plan_frame(const Scene& scene, int frame, Scene now, AssetStore& meshes,
-                     const DeviceInfo& device, SolidExtents& solids) {
-    return in_frame(scene, frame, [&] {
-        FramePlan planned{frame, std::move(now), {}};
-        check_placements(planned.scene);
-        planned.plan = plan_scene(planned.scene, meshes, device, solids);
-        return planned;
-    });
-}
+/// Plans frames one after the other, and keeps the plan that takes the most.
+class FramePlanner {
+  public:
+    FramePlanner(const Scene& scene, AssetStore& meshes, const DeviceInfo& device)
+        : scene_(scene), meshes_(meshes), device_(device) {}
+
+    FramePlan run(std::span<const int> frames, const std::function<void(size_t)>& progress) {
+        // Where frames are chosen, seeing them all is half of the way.
+        const bool chooses = frames.size() > kMaxPlannedFrames;
+        const size_t seen = progress && chooses ? frames.size() / 2 : 0;
+        const FramesToPlan found = frames_to_plan(scene_, frames, [&](size_t i) {
+            if (progress) progress(i / 2);
+        });
+        for (size_t i = 0; i < found.chosen.size(); ++i) {
+            if (progress) progress(seen + i * (frames.size() - seen) / found.chosen.size());
+            if (!plan(found, found.chosen[i])) return std::move(*refused_);
+        }
+        if (!climb(found)) return std::move(*refused_);
+        maximum_->plans = plans_;
+        maximum_->is_of_all = found.step == 1;
+        return std::move(*maximum_);
+    }
+
+  private:
+    /// Plans the frame unless it is planned like the one before. False if it doesn't fit.
+    bool plan(const FramesToPlan& found, size_t place) {
+        const int frame = found.changed[place];
+        Scene now = in_frame(scene_, frame, [&] { return scene_at(scene_, frame); });
+        if (before_ && is_planned_like(*before_, now)) return true;
+        FramePlan planned = in_frame(scene_, frame, [&] {
+            FramePlan made{frame, std::move(now), {}};
+            check_placements(made.scene);
+            made.plan = plan_scene(made.scene, meshes_, device_, solids_);
+            return made;
+        });
+        planned.plans = ++plans_;
+        meshes_.forget_unused();
+        before_ = planned.scene;
+        if (is_refused(planned, device_)) {
+            refused_ = std::move(planned);
+            return false;
+        }
+        if (!maximum_ || planned.plan.peak_bytes() > maximum_->plan.peak_bytes()) {
+            maximum_ = std::move(planned);
+            place_ = place;
+        }
+        return true;
+    }
+
+    /// Comes closer to the frame that takes the most where it lies between those chosen.
+    bool climb(const FramesToPlan& found) {
+        for (size_t step = found.step / 2; step > 0; step /= 2) {
+            const size_t middle = place_;
+            if (middle >= step && !plan(found, middle - step)) return false;
+            if (middle + step < found.changed.size() && !plan(found, middle + step)) return false;
+        }
+        return true;
+    }
+
+    const Scene& scene_;
+    AssetStore& meshes_;
+    const DeviceInfo& device_;
+    SolidExtents solids_;
+    std::optional<Scene> before_;
+    std::optional<FramePlan> maximum_, refused_;
+    size_t place_ = 0;  ///< of the maximum among the frames that change
+    int plans_ = 0;
+};
 
 }  // namespace
 
@@ -61,32 +111,16 @@ bool is_refused(const FramePlan& planned, const DeviceInfo& device) {
 
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                       const DeviceInfo& device, const std::function<void(size_t)>& progress) {
-    std::optional<FramePlan> maximum;
-    std::optional<Scene> before;
-    SolidExtents solids;
-    int plans = 0;
-    for (size_t i = 0; i < frames.size(); ++i) {
-        if (progress) progress(i);
-        const int frame = frames[i];
-        Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
-        if (before && is_planned_like(*before, now)) continue;
-        FramePlan planned = plan_frame(scene, frame, std::move(now), meshes, device, solids);
-        planned.plans = ++plans;
-        meshes.forget_unused();
-        before = planned.scene;
-        if (is_refused(planned, device)) return planned;
-        if (!maximum || planned.plan.peak_bytes() > maximum->plan.peak_bytes())
-            maximum = std::move(planned);
-    }
-    maximum->plans = plans;
-    return std::move(*maximum);
+    return FramePlanner(scene, meshes, device).run(frames, progress);
 }
 
 void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                   const DeviceInfo& device) {
     std::optional<Scene> first, before;
     SolidExtents solids;
-    for (const int frame : frames)
+    const FramesToPlan found = frames_to_plan(scene, frames);
+    for (const size_t place : found.chosen) {
+        const int frame = found.changed[place];
         in_frame(scene, frame, [&] {
             Scene now = scene_at(scene, frame);
             if (before && is_planned_like(*before, now)) return;
@@ -98,6 +132,7 @@ void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& m
             }
             before = std::move(now);
         });
+    }
 }
 
 }  // namespace voxelume

@@ -15,21 +15,23 @@ struct FramePlan {
     Scene scene;  ///< as it is then
     ScenePlan plan;
     int plans = 1;  ///< made for this and other frames; the rest have the plans of those before
+    bool is_of_all = true;  ///< false: of frames chosen by frames_to_plan()
 };
 
 /// True if check_memory refuses the frame.
 bool is_refused(const FramePlan& planned, const DeviceInfo& device);
 
 /// Plans all `frames` of a scene, one or more, and returns the first that doesn't fit the device,
-/// or else the one that needs the most memory. Reads every file of models that they show. Calls
+/// or else the one that needs the most memory. Of very many those of frames_to_plan() are planned,
+/// and some around the largest of them. Reads every file of models that they show. Calls
 /// `progress`, unless it is empty, with the number of frames that are done.
 ///
 /// Throws as scene_at, check_placements and plan_scene do, with the frame.
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                       const DeviceInfo& device, const std::function<void(size_t)>& progress = {});
 
-/// Holds all `frames` against the rules for placements and against the device's memory, as
-/// check_memory does, before the first is rendered.
+/// Holds all `frames` against the rules for placements, and those of frames_to_plan() against the
+/// device's memory, as check_memory does, before the first is rendered.
 ///
 /// Frames whose models are of other files, or other shapes of a morph, than the first one's aren't
 /// planned here but when it is their turn: reading their meshes would take as long as rendering.

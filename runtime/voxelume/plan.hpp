@@ -58,6 +58,9 @@ struct Plan {
     Verdict verdict = Verdict::fits;  ///< of the frame that takes the most
     std::optional<Error> refusal{};   ///< why it doesn't fit: what is too large, and what to do
     int frame = 1;                    ///< that takes the most memory
+    /// Number of the frames that were planned where those that change are too many to plan all:
+    /// chosen at the tracks' keys, evenly between them, and around the largest. 0: all are planned.
+    int chosen_frames = 0;
     double min_bytes = 0;             ///< of the device, at least
     double max_bytes = 0;             ///< of the device, at most, for what the options want
     double device_bytes = 0;          ///< that can be used

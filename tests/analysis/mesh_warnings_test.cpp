@@ -2,6 +2,9 @@
 // What is said of meshes: their unit, holes, faces, materials; and that it is read once.
 #include "runtime/analysis/mesh_warnings.hpp"
 
+#include <fmt/format.h>
+
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/image/png.hpp"
 #include "tests/analysis/warned_scene.hpp"
 #include "tests/support/writers/gltf_writer.hpp"
@@ -108,6 +111,73 @@ TEST_F(MeshWarnings, NameMaterialsThatAreNotRead) {
     EXPECT_EQ(warnings()[0].text, "\"m.obj\": its texture \"wood.png\" isn't in its folder");
     put_bytes(folder / "wood.png", "no picture");
     EXPECT_THAT(warnings()[0].text, HasSubstr("neither PNG nor JPEG"));
+}
+
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv .5 0 0\nv 0 .5 0\nv 0 0 .5\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    "usemtl a\nf 1/1 3/2 2/3\nf 1/1 2/2 4/3\n";
+
+/// What is said of a file without a scene.
+std::vector<std::string> sentences_on(const std::filesystem::path& file) {
+    AssetStore assets;
+    const Scene scene = parse_scene(
+        scene_of_file(file, file.filename().string(), {}, assets), file, {file.parent_path()},
+        [&](const Model& model, bool keeps) { return assets.box_of_file(model, keeps); });
+    std::vector<std::string> sentences;
+    for (const Warning& warning : scene_warnings(scene, std::vector<int>{1}, assets))
+        if (warning.kind == WarningKind::ignored_materials) sentences.push_back(warning.text);
+    return sentences;
+}
+
+TEST_F(MeshWarnings, NameTheMissingLibraryOfAFileWithoutAScene) {
+    const auto file = folder / "m.obj";
+    put_bytes(file, std::string("mtllib a.mtl\n") + kTetrahedron + "f 2 3 4\nf 3 1 4\n");
+    EXPECT_THAT(sentences_on(file),
+                ElementsAre("\"m.obj\": its material library \"a.mtl\" isn't in its folder; give "
+                            "the object a \"material\" of the scene"));
+    put_bytes(folder / "a.mtl", "newmtl b\nKd 1 0 0\n");
+    EXPECT_THAT(sentences_on(file),
+                ElementsAre("\"m.obj\": its material \"a\" isn't in \"a.mtl\"; give the object a "
+                            "\"material\" of the scene"));
+    put_bytes(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
+    EXPECT_THAT(sentences_on(file), IsEmpty());
+    put_bytes(file, std::string(kTetrahedron) + "f 2 3 4\nf 3 1 4\n");
+    EXPECT_THAT(sentences_on(file),
+                ElementsAre("\"m.obj\": it names no library that has its material \"a\"; give "
+                            "the object a \"material\" of the scene"));
+}
+
+TEST_F(MeshWarnings, NameEachMissingMaterialAndTextureOnce) {
+    const auto file = folder / "m.obj";
+    put_bytes(file, std::string("mtllib a.mtl\nmtllib b.mtl\n") + kTetrahedron +
+                        "usemtl b\nf 2/1 3/2 4/3\nusemtl None\nf 3/1 1/2 4/3\n");
+    put_bytes(folder / "b.mtl", "newmtl b\nmap_Kd one.png\nmap_Ke two.png\nmap_Pr two.png\n");
+    EXPECT_THAT(sentences_on(file),
+                ElementsAre("\"m.obj\": its texture \"one.png\" isn't in its folder",
+                            "\"m.obj\": its texture \"two.png\" isn't in its folder",
+                            "\"m.obj\": its material library \"a.mtl\" isn't in its folder; give "
+                            "the object \"materials\", like {\"a\": NAME}"));
+    // Two objects show it, and one has a material for what the file lacks.
+    json["models"]["ball"] = {{"mesh", "m.obj"}, {"surface", "exact"}};
+    json["objects"][0].erase("material");
+    json["objects"][0]["materials"] = {{"a", "red"}, {"b", "red"}};
+    json["objects"].push_back(json["objects"][0]);
+    json["objects"].back().erase("name");
+    EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials, Kind::ignored_materials));
+}
+
+TEST_F(MeshWarnings, AreAtMostNineOfAFile) {
+    std::string mesh = std::string("mtllib a.mtl\n") + kTetrahedron, library;
+    for (int i = 0; i < 20; ++i) {
+        mesh += fmt::format("usemtl m{}\nf 2/1 3/2 4/3\n", i);
+        library += fmt::format("newmtl m{0}\nmap_Kd {0}.png\n", i);
+    }
+    put_bytes(folder / "m.obj", mesh);
+    put_bytes(folder / "a.mtl", library + "newmtl a\n");
+    const std::vector<std::string> found = sentences_on(folder / "m.obj");
+    ASSERT_EQ(found.size(), 9u);
+    EXPECT_EQ(found.back(),
+              "\"m.obj\": 12 more of what it has isn't shown; `voxelume info` lists it");
 }
 
 /// A glTF tetrahedron with a texture of one pixel.

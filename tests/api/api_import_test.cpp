@@ -234,13 +234,17 @@ TEST_F(ApiImport, TheGroupsOfAnObjFileHaveTheMaterialsOfItsLibrary) {
                                  "\"ior\": 1.5, \"fresnel\": true}"));
     EXPECT_THAT(scene, HasSubstr("\"emission\": [1, 0.214, 0]"));
     EXPECT_THAT(scene, HasSubstr("\"opacity\": 0.5"));
-    EXPECT_THAT(scene, HasSubstr("\"material\": \"room\",\n     \"materials\": {\"oak\": "
+    EXPECT_THAT(scene, HasSubstr("\"material\": \"default\",\n     \"materials\": {\"oak\": "
                                  "\"oak\","))
-        << "the faces before the first group have none";
+        << "the library lacks two materials, and a warning asks for them";
     EXPECT_THAT(scene, HasSubstr("\"shadow\": \"filtered\""));
     EXPECT_THAT(scene, Not(HasSubstr("unused")));
     EXPECT_THAT(scene, Not(HasSubstr("nothing")));
     EXPECT_NO_THROW(scene_of_file(folder / "room.obj"));
+    std::ofstream(folder / "room.mtl", std::ios::app) << "newmtl nothing\nnewmtl room\n";
+    EXPECT_THAT(import_file(folder / "room.obj", folder, {}, no_cache),
+                HasSubstr("\"material\": \"room\",\n     \"materials\": {\"oak\":"))
+        << "the faces before the first group have none";
 }
 
 }  // namespace

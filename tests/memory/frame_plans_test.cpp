@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "runtime/scene/scene_animation.hpp"
@@ -41,6 +42,82 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_THAT(error.what(), testing::EndsWith("(at frame 2)"));
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
+}
+
+DeviceInfo roomy_device() {
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    return device;
+}
+
+std::vector<int> first_frames(int count) {
+    std::vector<int> frames(static_cast<size_t>(count));
+    std::iota(frames.begin(), frames.end(), 1);
+    return frames;
+}
+
+// A radius with 2000 keys, so that they aren't planned for their own sake, which is largest in
+// frame 3000 of 6000.
+TEST_F(FramePlans, OfThousandsSomeAreMadeAndTheLargestIsFound) {
+    std::string keys;
+    for (int frame = 3; frame <= 6000; frame += 3)
+        keys += fmt::format("{}{{\"frame\": {}, \"value\": {}}}", keys.empty() ? "" : ", ", frame,
+                            0.1 + 0.25 * std::exp(-std::pow((frame - 3000) / 400.0, 2)));
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 30,
+                 fmt::format(R"("animation": {{"frames": 6000, "tracks": [
+        {{"target": "models.thing.radius", "keys": [{}]}}]}},)",
+                             keys));
+    AssetStore meshes;
+    size_t last = 0;
+    const FramePlan maximum =
+        plan_frames(scene, first_frames(6000), meshes, roomy_device(), [&](size_t done) {
+            EXPECT_GE(done, last);
+            last = done;
+        });
+    EXPECT_LT(last, 6000u);
+    EXPECT_FALSE(maximum.is_of_all);
+    EXPECT_LE(maximum.plans, 2048 + 16);
+    double largest = 0;
+    for (int frame = 2990; frame <= 3010; ++frame)
+        largest = std::max(largest, plan_of(scene_at(scene, frame)).peak_bytes());
+    EXPECT_EQ(maximum.plan.peak_bytes(), largest);
+    DeviceInfo small = roomy_device();
+    small.memory = size_t(largest * 0.3);
+    const FramePlan refused = plan_frames(scene, first_frames(6000), meshes, small);
+    EXPECT_TRUE(is_refused(refused, small));
+    EXPECT_EQ(error_of([&] { check_frames(scene, first_frames(6000), meshes, small); }).kind(),
+              ErrorKind::limit);
+}
+
+TEST_F(FramePlans, OfThousandsTheKeysAreMade) {
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 30,
+                 R"("animation": {"frames": 6000, "tracks": [
+        {"target": "models.thing.radius", "keys": [
+            {"frame": 1, "value": 0.1}, {"frame": 4600, "value": 0.2}, {"frame": 4601, "value": 0.35},
+            {"frame": 4602, "value": 0.2}, {"frame": 6000, "value": 0.1}]}]},)");
+    AssetStore meshes;
+    EXPECT_EQ(plan_frames(scene, first_frames(6000), meshes, roomy_device()).frame, 4601);
+}
+
+// The observer looks at himself in frame 5001 alone.
+TEST_F(FramePlans, OfThousandsAllAreHeldAgainstTheRulesForValues) {
+    constexpr const char* kTracks = R"("animation": {{"frames": 6000, "tracks": [
+        {{"target": "models.thing.radius", "keys": [
+            {{"frame": 1, "value": 0.1}}, {{"frame": 6000, "value": 0.2}}]}},
+        {{"target": "observer.position", "keys": [
+            {{"frame": 1, "value": [0.5, 0.5, -3]}}, {{"frame": 6000, "value": [0.5, 0.5, 3]}}]}},
+        {{"target": "observer.look_at", "keys": [
+            {{"frame": 1, "value": [0.5, 0.5, {0}]}}, {{"frame": 6000, "value": [0.5, 0.5, {0}]}}]}}]}},)";
+    const double z = -3 + 6.0 * 5000 / 5999;  // where the observer is in frame 5001
+    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})",
+                                 1.0 / 30, fmt::format(kTracks, z));
+    AssetStore meshes;
+    const Error error =
+        error_of([&] { plan_frames(scene, first_frames(6000), meshes, roomy_device()); });
+    EXPECT_EQ(error.kind(), ErrorKind::scene);
+    EXPECT_THAT(error.what(), testing::EndsWith("(at frame 5001)"));
 }
 
 TEST_F(FramePlans, TellHowManyFramesAreDone) {
@@ -148,8 +225,11 @@ TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
         AssetStore meshes;
         EXPECT_NO_THROW(check_frames(scene("far"), frames, meshes, device));
         const Scene wrong = scene("fare");
-        for (const Error& error : {error_of([&] { check_frames(wrong, frames, meshes, device); }),
-                                   error_of([&] { plan_frames(wrong, frames, meshes, device); })}) {
+        // The object is seen from frame 3 on, and changes the plan no more, of however many frames.
+        for (const Error& error :
+             {error_of([&] { check_frames(wrong, frames, meshes, device); }),
+              error_of([&] { plan_frames(wrong, frames, meshes, device); }),
+              error_of([&] { plan_frames(wrong, first_frames(3000), meshes, device); })}) {
             EXPECT_EQ(error.kind(), ErrorKind::scene);
             EXPECT_THAT(error.what(), HasSubstr("the mesh has no group of faces named \"fare\"; "
                                                 "did you mean \"far\"? (at frame 3)"));

@@ -10,7 +10,7 @@ namespace voxelume {
 
 class PlanTest : public FileTest {
   protected:
-    Scene scene_of(const std::string& model, double voxel, const char* animation = "") {
+    Scene scene_of(const std::string& model, double voxel, const std::string& animation = "") {
         const bool has_lights =
             std::string_view(animation).find("\"lights\"") != std::string_view::npos;
         const std::string text =

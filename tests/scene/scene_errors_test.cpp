@@ -110,6 +110,7 @@ TEST(SceneErrors, TellWhereTextStopsBeingJson) {
     EXPECT_THAT(message("{\"voxelume\": 1,\n  \"world\": }"),
                 StartsWith("room.json:2:12: this is not JSON: "));
     EXPECT_THAT(message(""), StartsWith("room.json:1:1: this is not JSON: "));
+    EXPECT_THAT(message("Kaydara FBX"), HasSubstr("are known by their endings"));
     EXPECT_THAT(message("{\"voxelume\": NaN}"), StartsWith("room.json:1:14: this is not JSON: "));
     EXPECT_THAT(message("{\"voxelume\": 1e999}"), HasSubstr("number overflow"));
     EXPECT_THAT(message("{\"voxelume\": 1} 2"), StartsWith("room.json:1:17: this is not JSON: "));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "runtime/analysis/mesh_warnings.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
@@ -50,15 +51,41 @@ Report clips_in(const GltfFile& file) {
     return clips;
 }
 
+/// The kinds of textures in a glTF file that no surface shows. Nearly every file has some, so
+/// rendering says nothing.
+std::vector<std::string> unshown_textures(const GltfFile& file) {
+    bool has_bumps = false, has_occlusion = false;
+    for (const GltfValue& material : file.root().items("materials")) {
+        has_bumps |= material.has("normalTexture");
+        has_occlusion |= material.has("occlusionTexture");
+    }
+    std::vector<std::string> notes;
+    if (has_bumps) notes.emplace_back("its normal textures aren't shown: surfaces have no bumps");
+    if (has_occlusion)
+        notes.emplace_back("its occlusion textures aren't shown: rays find what is occluded");
+    return notes;
+}
+
+/// What of the file isn't shown.
+std::vector<std::string> notes_of(const MeshSummary& mesh, std::vector<std::string> notes) {
+    notes.insert(notes.begin(), mesh.notes.begin(), mesh.notes.end());
+    notes.insert(notes.end(), mesh.library_faults.begin(), mesh.library_faults.end());
+    if (mesh.library_faults.empty() && !mesh.missing_materials.empty())
+        notes.push_back(missing_materials_sentence(mesh.missing_materials, mesh));
+    return notes;
+}
+
 }  // namespace
 
 Report describe_mesh(const std::filesystem::path& path) {
     Report clips = Report::array();
+    std::vector<std::string> unshown;
     Mesh mesh;
     if (is_gltf_file(path)) {
         const GltfFile file(read_mesh_bytes(path), path);
         mesh = gltf_mesh(file, 0);
         clips = clips_in(file);
+        unshown = unshown_textures(file);
     } else {
         mesh = read_mesh(path);
     }
@@ -86,7 +113,8 @@ Report describe_mesh(const std::filesystem::path& path) {
         report["texture maps"] = "roughness, metalness or emission, which \"cubes\" don't show";
     if (summary.paint.has_alpha) report["texture alpha"] = "only \"exact\" surfaces show it";
     if (!clips.empty()) report["clips"] = clips;
-    if (!mesh.notes.empty()) report["notes"] = mesh.notes;
+    const std::vector<std::string> notes = notes_of(summary, std::move(unshown));
+    if (!notes.empty()) report["notes"] = notes;
     if (box.min == box.max) return report;
     report["as voxels"] = Report::array();
     for (const int resolution : {128, 256, 512, 1024})

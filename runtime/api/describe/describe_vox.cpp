@@ -111,8 +111,7 @@ Report not_shown(const VoxFile& vox, const std::array<uint64_t, 256>& uses) {
     std::array<int, 6> kinds{};
     for (size_t i = 1; i < 256; ++i)
         if (uses[i] > 0) ++kinds[size_t(vox.materials[i].kind)];
-    add(kinds[size_t(VoxMaterialKind::media)], "media, shown as surfaces that are seen through");
-    add(kinds[size_t(VoxMaterialKind::blend)], "blends, shown as metals");
+    add(kinds[size_t(VoxMaterialKind::media)], "media, of which only what they absorb is shown");
     int cut = 0;
     for (size_t i = 1; i < 256; ++i) cut += uses[i] > 0 && vox.materials[i].is_flux_cut;
     add(cut, "fluxes above 8, which are 8 here");

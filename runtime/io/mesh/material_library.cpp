@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/material_library.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,13 +10,14 @@
 
 #include "runtime/base/decimal.hpp"
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/base/utf8.hpp"
 #include "runtime/io/mesh/companion_file.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr size_t kMaxMaterials = 16384;
+constexpr size_t kMaxMaterials = 16384, kMaxLibraries = 64;
 constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
 
 /// A statement: its words, and where each begins, as names may have spaces in them.
@@ -143,18 +146,41 @@ void read_statement(const Statement& statement, MtlMaterial& m) {
     }
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-    const InputFile file(path);
-    if (file.size() > kMaxBytes) return {};
+std::string bytes_of(const InputFile& file) {
     std::string bytes(file.size(), '\0');
     file.read(0, bytes.data(), bytes.size());
     return is_utf16(bytes) ? utf8_of_utf16(bytes) : bytes;
+}
+
+/// A library by the name that the mesh's file has for it; no file: there is none.
+struct NamedLibrary {
+    std::string name;
+    std::optional<std::filesystem::path> file;
+};
+
+std::vector<NamedLibrary> find_libraries(const std::filesystem::path& mesh,
+                                         const std::vector<std::string>& names) {
+    std::vector<NamedLibrary> found;
+    for (const std::string& name : names) {
+        auto file = companion_file(mesh, name);
+        std::vector<NamedLibrary> several;
+        std::istringstream words(name);
+        for (std::string word; !file && words >> word;)
+            several.push_back({word, companion_file(mesh, word)});
+        if (std::ranges::any_of(several, [](const NamedLibrary& one) { return !!one.file; }))
+            found.insert(found.end(), several.begin(), several.end());
+        else
+            found.push_back({name, std::move(file)});
+    }
+    return found;
 }
 
 }  // namespace
 
 std::vector<MtlMaterial> parse_material_library(std::string_view text) {
     std::vector<MtlMaterial> materials;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     while (!text.empty()) {
         const size_t end = std::min(text.find('\n'), text.size());
         const Statement statement(text.substr(0, end));
@@ -169,21 +195,34 @@ std::vector<MtlMaterial> parse_material_library(std::string_view text) {
     return materials;
 }
 
+void append_library(const std::string& name, std::vector<std::string>& names) {
+    const bool is_new = std::ranges::find(names, name) == names.end();
+    if (!name.empty() && is_new && names.size() < kMaxLibraries) names.push_back(name);
+}
+
 std::vector<std::filesystem::path> material_library_files(const std::filesystem::path& mesh,
-                                                          const std::string& name) {
-    if (name.empty()) return {};
-    if (const auto file = companion_file(mesh, name)) return {*file};
+                                                          const std::vector<std::string>& names) {
     std::vector<std::filesystem::path> files;
-    std::istringstream words(name);
-    for (std::string word; words >> word;)
-        if (const auto file = companion_file(mesh, word)) files.push_back(*file);
+    for (const NamedLibrary& library : find_libraries(mesh, names))
+        if (library.file) files.push_back(*library.file);
     return files;
 }
 
-std::vector<MtlMaterial> read_material_library(const std::filesystem::path& mesh,
-                                               const std::string& name) {
+std::vector<MtlMaterial> read_material_libraries(const std::filesystem::path& mesh,
+                                                 const std::vector<std::string>& names,
+                                                 std::vector<std::string>& faults) {
     std::vector<MtlMaterial> materials;
-    for (const std::filesystem::path& file : material_library_files(mesh, name)) {
+    for (const NamedLibrary& library : find_libraries(mesh, names)) {
+        const std::string its = fmt::format("its material library {}", quote(library.name));
+        if (!library.file) {
+            faults.push_back(its + " isn't in its folder");
+            continue;
+        }
+        const InputFile file(*library.file);
+        if (file.size() > kMaxBytes) {
+            faults.push_back(its + " isn't read: it has more than 64 MiB");
+            continue;
+        }
         const std::vector<MtlMaterial> more = parse_material_library(bytes_of(file));
         materials.insert(materials.end(), more.begin(), more.end());
     }

@@ -42,13 +42,19 @@ struct MtlMaterial {
 /// numbers: a library never keeps a mesh from being read. At most 16,384 materials are read.
 std::vector<MtlMaterial> parse_material_library(std::string_view text);
 
-/// The materials of the library `name` that the OBJ file `mesh` names; empty where companion_file()
-/// finds none, or one above 64 MiB. A name with spaces that is no file is taken for several.
-std::vector<MtlMaterial> read_material_library(const std::filesystem::path& mesh,
-                                               const std::string& name);
+/// Adds what a statement mtllib names to what others did, unless one of them did, or it is empty.
+/// At most 64 are kept.
+void append_library(const std::string& name, std::vector<std::string>& names);
 
-/// The files that read_material_library() reads.
+/// The materials of the libraries that the OBJ file `mesh` names. A name with spaces that is no
+/// file is taken for several. `faults` gets a sentence for each that companion_file() doesn't find,
+/// and for each above 64 MiB.
+std::vector<MtlMaterial> read_material_libraries(const std::filesystem::path& mesh,
+                                                 const std::vector<std::string>& names,
+                                                 std::vector<std::string>& faults);
+
+/// The files that read_material_libraries() reads.
 std::vector<std::filesystem::path> material_library_files(const std::filesystem::path& mesh,
-                                                          const std::string& name);
+                                                          const std::vector<std::string>& names);
 
 }  // namespace voxelume

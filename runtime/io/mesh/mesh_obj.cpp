@@ -69,7 +69,7 @@ class ObjParser {
         } else if (word == "mtllib") {
             const char* const line = p_;
             skip_statement();
-            if (mesh_.material_library.empty()) mesh_.material_library = name_after_word(line);
+            append_library(name_after_word(line), mesh_.material_libraries);
         } else if (word == "vn" || word == "vt" ||
                    std::ranges::find(kSkippedStatements, word) != std::end(kSkippedStatements)) {
             skip_statement();

@@ -97,14 +97,23 @@ class LibraryTextures {
     std::map<std::pair<std::string, bool>, uint32_t> known_;
 };
 
+/// True for the names by which programs say that faces have no material.
+bool names_no_material(const std::string& name) {
+    return name.empty() || name == "None" || name == "Default" || name == "(null)";
+}
+
 void read_library_textures(const fs::path& name, Mesh& mesh) {
-    const std::vector<MtlMaterial> library = read_material_library(name, mesh.material_library);
+    const std::vector<MtlMaterial> library =
+        read_material_libraries(name, mesh.material_libraries, mesh.library_faults);
     const size_t groups = std::max<size_t>(mesh.group_names.size(), 1);
     LibraryTextures textures(name, mesh);
     for (uint32_t group = 0; group < groups && group < mesh.group_names.size(); ++group) {
-        const auto material =
-            std::ranges::find(library, mesh.group_names[group], &MtlMaterial::name);
-        if (material == library.end()) continue;
+        const std::string& wanted = mesh.group_names[group];
+        const auto material = std::ranges::find(library, wanted, &MtlMaterial::name);
+        if (material == library.end()) {
+            if (!names_no_material(wanted)) mesh.missing_materials.push_back(wanted);
+            continue;
+        }
         const MtlTexture& map = material->diffuse_map;
         if (map.file.empty() && !has_maps(*material)) continue;
         if (mesh.uvs.empty()) {
@@ -130,9 +139,10 @@ void read_ply_texture(const fs::path& name, Mesh& mesh) {
     mesh.triangle_colors = {};
 }
 
-/// The name that the first statement mtllib of an OBJ file has.
-std::string library_name(const std::string& bytes) {
+/// The names that statements mtllib of an OBJ file have.
+std::vector<std::string> library_names(const std::string& bytes) {
     constexpr std::string_view kWord = "mtllib";
+    std::vector<std::string> names;
     for (size_t at = bytes.find(kWord); at != std::string::npos; at = bytes.find(kWord, at + 1)) {
         const size_t line = at == 0 ? 0 : bytes.find_last_of('\n', at) + 1;
         if (bytes.find_first_not_of(" \t", line) != at) continue;
@@ -140,9 +150,9 @@ std::string library_name(const std::string& bytes) {
         const size_t end = std::min(bytes.find('\n', at), bytes.size());
         if (begin == std::string::npos || begin >= end || begin == at + kWord.size()) continue;
         const std::string name = bytes.substr(begin, end - begin);
-        return name.substr(0, name.find_last_not_of(" \t\r") + 1);
+        append_library(name.substr(0, name.find_last_not_of(" \t\r") + 1), names);
     }
-    return {};
+    return names;
 }
 
 /// The name after the first "comment TextureFile" of a PLY file's header.
@@ -194,7 +204,7 @@ uint32_t append_texture(const fs::path& mesh_file, const std::string& texture_fi
 void read_textures(const fs::path& name, Mesh& mesh) {
     if (!mesh.texture.empty())
         read_ply_texture(name, mesh);
-    else if (!mesh.material_library.empty())
+    else if (ending_of(name) == ".obj")
         read_library_textures(name, mesh);
     if (!mesh.textures.empty()) return;
     mesh.uvs = {};
@@ -211,9 +221,10 @@ std::vector<fs::path> companion_files(const std::string& bytes, const fs::path& 
         const std::string texture = ply_texture_name(bytes);
         if (!texture.empty()) add(texture);
     } else if (ending_of(name) == ".obj") {
-        const std::string library = library_name(bytes);
-        files = material_library_files(name, library);
-        for (const MtlMaterial& material : read_material_library(name, library))
+        const std::vector<std::string> libraries = library_names(bytes);
+        files = material_library_files(name, libraries);
+        std::vector<std::string> faults;
+        for (const MtlMaterial& material : read_material_libraries(name, libraries, faults))
             for (const MtlTexture* map : {&material.diffuse_map, &material.emission_map,
                                           &material.roughness_map, &material.metallic_map})
                 if (!map->file.empty()) add(map->file);

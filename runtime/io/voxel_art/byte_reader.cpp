@@ -34,7 +34,7 @@ std::string read_all_inflated(const InputFile& file, size_t max) {
         got = stream.read_some(bytes.data() + before, kPiece);
         bytes.resize(before + got);
         if (bytes.size() > max)
-            file.refuse(fmt::format("becomes more than the {} bytes that are possible", max));
+            file.refuse(fmt::format("becomes more than the {} MiB that are possible", max >> 20));
     }
     return bytes;
 }

@@ -22,8 +22,8 @@ namespace {
 
 using Kind = NbtValue::Kind;
 
-constexpr size_t kMaxTags = size_t{1} << 27;             // bytes
-constexpr uint64_t kMaxRegionCells = uint64_t{1} << 28;  // in all
+constexpr size_t kMaxTags = size_t{1} << 29;             // bytes
+constexpr uint64_t kMaxRegionCells = uint64_t{1} << 30;  // in all
 constexpr size_t kMaxBlockName = 256;                    // bytes
 constexpr int64_t kMaxSide = 65536, kFarthestRegion = 1'000'000;
 constexpr uint32_t kNoBlock = 0xFFFFFFFF;
@@ -223,11 +223,17 @@ class SchematicReader {
 
     void set_packed(const Region& region, CellBricks& bricks) const {
         const uint64_t bits = bits_for(region.colors.size());
-        for (uint64_t i = 0; i < region.cells(); ++i) {
+        const bool begins_with_air = region.colors[0] == kNoBlock;
+        for (uint64_t i = 0; i < region.cells();) {
             const uint64_t bit = i * bits, at = bit / 64, shift = bit % 64;
-            uint64_t number = region.data->long_at(size_t(at)) >> shift;
+            const uint64_t word = region.data->long_at(size_t(at));
+            if (word == 0 && begins_with_air && shift + bits <= 64) {
+                i += (64 - shift) / bits;  // most of a large region is air
+                continue;
+            }
+            uint64_t number = word >> shift;
             if (shift + bits > 64) number |= region.data->long_at(size_t(at + 1)) << (64 - shift);
-            set(region, i, number & ((uint64_t{1} << bits) - 1), bricks);
+            set(region, i++, number & ((uint64_t{1} << bits) - 1), bricks);
         }
     }
 

@@ -52,6 +52,7 @@ struct VoxMaterial {
     float density = 0;  ///< of what attenuates light inside
     float flux = 0;     ///< power of emission, in powers: light is (1 + flux)² times as strong
     bool is_flux_cut = false;  ///< the file has more than kMaxFlux
+    bool absorbs = true;       ///< of media; false: they scatter light, or glow
 };
 
 /// More than MagicaVoxel gives.

@@ -53,8 +53,10 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
             m.weight = first_in(values, {"_metal", "_weight"}, 1);
             break;
         case VoxMaterialKind::glass:
-        case VoxMaterialKind::blend:
             m.weight = first_in(values, {"_trans", "_alpha", "_weight"}, 0.5f);
+            break;
+        case VoxMaterialKind::blend:
+            m.weight = first_in(values, {"_trans", "_alpha"}, 0);
             break;
         case VoxMaterialKind::emit:
             m.weight = first_in(values, {"_emit", "_weight"}, 1);
@@ -62,6 +64,8 @@ void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials)
         default:
             break;
     }
+    const std::string medium = text_in(values, "_media_type");
+    m.absorbs = text_in(values, "_type") != "_cloud" && (medium.empty() || medium == "_absorb");
     m.weight = std::clamp(m.weight, 0.0f, 1.0f);
     m.metal = std::clamp(number_in(values, "_metal", 0), 0.0f, 1.0f);
     m.rough = std::clamp(number_in(values, "_rough", m.rough), 0.0f, 1.0f);
@@ -99,6 +103,9 @@ VoxDictionary values_of(const VoxMaterial& m) {
             [[fallthrough]];
         case VoxMaterialKind::glass:
             values["_trans"] = values["_alpha"] = text(m.weight);
+            break;
+        case VoxMaterialKind::media:
+            values["_media_type"] = m.absorbs ? "_absorb" : "_scatter";
             break;
         default:
             break;

@@ -54,6 +54,7 @@ TEST(MaterialLibrary, IsEmptyForWhatIsNone) {
     EXPECT_THAT(parse_material_library(""), IsEmpty());
     EXPECT_THAT(parse_material_library(std::string(5000, '\0')), IsEmpty());
     EXPECT_THAT(parse_material_library("map_Kd -o -o -s\n\n  \n"), IsEmpty());
+    EXPECT_EQ(parse_material_library("\xEF\xBB\xBFnewmtl a\r\n").at(0).name, "a");
     const auto odd = parse_material_library("newmtl\nmap_Kd -o 1 2\nmap_Kd\nKd\nd");
     ASSERT_EQ(odd.size(), 1u);
     EXPECT_EQ(odd[0].name, "");
@@ -78,17 +79,27 @@ TEST_F(Companions, OfOneNameAreOneFileWithSpacesOrSeveral) {
     const fs::path mesh = folder / "m.obj";
     put_bytes(folder / "a.mtl", "newmtl a\n");
     put_bytes(folder / "b.mtl", "newmtl b\n");
-    const auto names = [&](const std::string& library) {
+    std::vector<std::string> faults;
+    const auto names = [&](const std::vector<std::string>& libraries) {
         std::vector<std::string> found;
-        for (const MtlMaterial& material : read_material_library(mesh, library))
+        faults.clear();
+        for (const MtlMaterial& material : read_material_libraries(mesh, libraries, faults))
             found.push_back(material.name);
         return found;
     };
-    EXPECT_THAT(names("a.mtl b.mtl"), ElementsAre("a", "b"));
-    EXPECT_THAT(names("c.mtl"), IsEmpty());
-    EXPECT_THAT(names(""), IsEmpty());
+    EXPECT_THAT(names({"a.mtl b.mtl"}), ElementsAre("a", "b"));
+    EXPECT_THAT(names({"b.mtl", "a.mtl"}), ElementsAre("b", "a"));
+    EXPECT_THAT(faults, IsEmpty());
+    EXPECT_THAT(names({"a.mtl c.mtl", "not there.mtl"}), ElementsAre("a"));
+    EXPECT_THAT(faults, ElementsAre("its material library \"c.mtl\" isn't in its folder",
+                                    "its material library \"not there.mtl\" isn't in its folder"));
+    EXPECT_THAT(names({}), IsEmpty());
     put_bytes(folder / "a.mtl b.mtl", "newmtl c\n");
-    EXPECT_THAT(names("a.mtl b.mtl"), ElementsAre("c"));
+    EXPECT_THAT(names({"a.mtl b.mtl"}), ElementsAre("c"));
+    fs::resize_file(folder / "b.mtl", (uintmax_t{64} << 20) + 1);
+    EXPECT_THAT(names({"b.mtl"}), IsEmpty());
+    EXPECT_THAT(faults,
+                ElementsAre("its material library \"b.mtl\" isn't read: it has more than 64 MiB"));
 }
 
 TEST_F(Companions, LieInTheFolderOfTheFileThatNamesThem) {

@@ -32,17 +32,22 @@ TEST(MeshObj, HasItsVerticesTrianglesAndGroups) {
     EXPECT_THAT(mesh.group_names, ElementsAre("red brick", "glass"));
     EXPECT_THAT(mesh.triangle_group, ElementsAre(0u, 1u, 0u));
     EXPECT_THAT(mesh.vertex_colors, IsEmpty());
-    EXPECT_EQ(mesh.material_library, "house.mtl");
+    EXPECT_THAT(mesh.material_libraries, ElementsAre("house.mtl"));
 }
 
-TEST(MeshObj, KeepsTheNameOfItsFirstMaterialLibrary) {
-    const auto library = [](const std::string& lines) {
-        return parse_mesh(lines + kObjVertices + "f 1 2 3\n", "a.obj").material_library;
+TEST(MeshObj, KeepsTheNamesOfItsMaterialLibrariesOnce) {
+    const auto libraries = [](const std::string& lines) {
+        return parse_mesh(lines + kObjVertices + "f 1 2 3\n", "a.obj").material_libraries;
     };
-    EXPECT_EQ(library(""), "");
-    EXPECT_EQ(library("mtllib my house.mtl \r\nmtllib other.mtl\n"), "my house.mtl");
-    EXPECT_EQ(library("mtllib\n"), "");
-    EXPECT_EQ(library("mtllib a.mtl \\\n b.mtl\n"), "a.mtl \\");  // a name over two lines is none
+    EXPECT_THAT(libraries(""), IsEmpty());
+    EXPECT_THAT(libraries("mtllib my house.mtl \r\nmtllib other.mtl\nmtllib my house.mtl\n"),
+                ElementsAre("my house.mtl", "other.mtl"));
+    EXPECT_THAT(libraries("mtllib\n"), IsEmpty());
+    // A name over two lines is none.
+    EXPECT_THAT(libraries("mtllib a.mtl \\\n b.mtl\n"), ElementsAre("a.mtl \\"));
+    std::string many;
+    for (int i = 0; i < 200; ++i) many += "mtllib " + std::to_string(i) + "\n";
+    EXPECT_EQ(libraries(many).size(), 64u);
 }
 
 // The bytes of both orders, and a name of two units: U+1F600, D83D DE00.

@@ -136,6 +136,18 @@ TEST_F(ArrayCubesTest, EachLabelHasAColourOfItsOwn) {
     EXPECT_NE(cells.at({1, 0, 0}), cells.at({2, 0, 0}));
     EXPECT_NE(cells.at({1, 0, 0}), cells.at({4, 0, 0}));
     EXPECT_THAT(refusal(file, {.label = 5}), HasSubstr("no cell has the value 5"));
+    // Bytes have the colours that other numbers of the same value have.
+    const auto wide = put(
+        "w.npy", npy_bytes("<i2", "4, 1, 1", bytes_of_values(std::vector<int16_t>{0, 3, -4, 120})));
+    const auto narrow = put(
+        "n.npy", npy_bytes("|i1", "4, 1, 1", bytes_of_values(std::vector<int8_t>{0, 3, -4, 120})));
+    EXPECT_EQ(cells_of(cubes(narrow, {.each_label = true})),
+              cells_of(cubes(wide, {.each_label = true})));
+    const auto high =
+        put("h.npy", npy_bytes("<i2", "2, 1, 1", bytes_of_values(std::vector<int16_t>{252, 0})));
+    const auto byte = put("b.npy", npy_bytes("|u1", "2, 1, 1", std::string("\xFC\0", 2)));
+    EXPECT_EQ(cells_of(cubes(byte, {.each_label = true})),
+              cells_of(cubes(high, {.each_label = true})));
 }
 
 TEST_F(ArrayCubesTest, NrrdIsReadRawCompressedAndFromAnotherFile) {

@@ -97,6 +97,62 @@ TEST_F(VoxSceneTest, MaterialsOfBothKindsAreGroupsAndMaterialsOfTheScene) {
     EXPECT_THAT(whole, HasSubstr("\"materials\": {\"metal 2\": \"metal 2\""));
 }
 
+// A blend is a mixture of metal, glass and what is matt.
+TEST_F(VoxSceneTest, BlendsLetLightThroughAsFarAsTheySay) {
+    VoxWriter writer;
+    writer.model({3, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}, {2, 0, 0, 3}});
+    writer.palette(odd_palette());
+    writer.material(2,
+                    {{"_type", "_blend"}, {"_metal", "0.25"}, {"_trans", "0.5"}, {"_ri", "1.4"}});
+    writer.material(3, {{"_type", "_blend"}, {"_metal", "0.75"}, {"_weight", "0.9"}});
+    const auto file = put(writer.bytes());
+    AssetStore assets;
+    const Scene scene = scene_of(file, assets);
+    const auto material = [&](const std::string& name) {
+        return *std::ranges::find(scene.materials, name, &Material::name);
+    };
+    EXPECT_DOUBLE_EQ(material("blend 2").metallic.value(), 0.25);
+    EXPECT_DOUBLE_EQ(material("blend 2").transmission.value(), 0.5);
+    EXPECT_FLOAT_EQ(material("blend 2").ior, 1.4f);
+    EXPECT_NE(material("blend 2").absorption, glm::vec3(0));
+    EXPECT_DOUBLE_EQ(material("blend 3").metallic.value(), 0.75);
+    EXPECT_EQ(material("blend 3").transmission.value_or(0), 0);
+    EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), HasSubstr("\"shadow\": \"filtered\""));
+}
+
+// Faces within what absorbs light aren't seen, as those within glass; others have an opacity.
+TEST_F(VoxSceneTest, MediaThatAbsorbAreClearBodies) {
+    VoxWriter writer;
+    writer.model({4, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}, {2, 0, 0, 3}, {3, 0, 0, 4}});
+    std::array<uint32_t, 256> palette = odd_palette();
+    palette[1] = palette[2] = palette[4] = 0xFF4080FFu;
+    palette[3] = 0xFFFFFFFFu;
+    writer.palette(palette);
+    writer.material(1, {{"_type", "_media"}, {"_d", "0.25"}});
+    writer.material(2, {{"_type", "_media"}, {"_d", "0.25"}, {"_media_type", "_scatter"}});
+    writer.material(3, {{"_type", "_media"}, {"_d", "0.25"}, {"_media_type", "_absorb"}});
+    writer.material(4, {{"_type", "_cloud"}, {"_d", "0.25"}});
+    AssetStore assets;
+    const Scene scene = scene_of(put(writer.bytes()), assets);
+    const auto material = [&](const std::string& name) {
+        return *std::ranges::find(scene.materials, name, &Material::name);
+    };
+    EXPECT_EQ(material("media 1").refraction, 1);
+    EXPECT_EQ(material("media 1").ior, 1);
+    EXPECT_EQ(material("media 1").opacity, 1);
+    // Red 1 passes, and of linear green 0.2159 and blue 0.0513 log(1 / x) (1/8 + 1/4) is absorbed.
+    EXPECT_NEAR(material("media 1").absorption.r, 0, 1e-3);
+    EXPECT_NEAR(material("media 1").absorption.g, 0.575, 2e-3);
+    EXPECT_NEAR(material("media 1").absorption.b, 1.114, 5e-3);  // three digits are written
+    // The ground touches nothing, or rays out of a clear body pass through it here and there.
+    const Object& ground = *std::ranges::find(scene.objects, "ground", &Object::name);
+    EXPECT_NEAR(ground.world_from_object[3].y + 0.000488 / 2, -0.01, 1e-9);
+    for (const char* name : {"media 2", "media 3", "media 4"}) {
+        EXPECT_EQ(material(name).refraction, 0) << name;
+        EXPECT_FLOAT_EQ(material(name).opacity, 0.4f) << name;
+    }
+}
+
 TEST_F(VoxSceneTest, WorldsThatAreFarLargerThanTheirModelsWorkOrAreRefused) {
     const auto far_apart = [&](int distance) {
         VoxWriter writer;

@@ -2,11 +2,16 @@
 // Small files that stand for much work or memory are refused by their counts, before either.
 #include <gmock/gmock.h>
 
+#include <map>
+#include <random>
+
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
+#include "runtime/io/voxel_art/block_colors.hpp"
 #include "runtime/io/voxel_art/cell_bricks.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/voxel_cells.hpp"
 #include "tests/support/writers/array_writer.hpp"
 #include "tests/support/writers/art_writer.hpp"
 
@@ -91,11 +96,51 @@ TEST_F(VoxelBoundsTest, SchematicsOfAirAndOfLongNamesAreRefusedAtOnce) {
                                             W::bytes("BlockData", data));
     };
     EXPECT_THAT(refusal("a.schem", schematic(640, "air", "")), HasSubstr("no voxels"));
-    EXPECT_THAT(refusal("b.schem", schematic(646, "air", "")), HasSubstr("268435456 at most"));
+    EXPECT_THAT(refusal("b.schem", schematic(1025, "air", "")), HasSubstr("1073741824 at most"));
     EXPECT_THAT(refusal("c.schem", schematic(1, std::string(257, 'o'), std::string(1, '\0'))),
                 HasSubstr("more than 256 bytes"));
-    EXPECT_THAT(refusal("d.schem", gzipped(std::string((1 << 27) + 1, '\0'))),
-                HasSubstr("134217728 bytes"));
+    const std::string zeros = gzipped(std::string(1 << 24, '\0'));
+    std::string members;
+    for (int i = 0; i < 33; ++i) members += zeros;
+    EXPECT_THAT(refusal("d.schem", members), HasSubstr("becomes more than the 512 MiB"));
+}
+
+// Cells of 3 bits, some of which straddle two longs, in longs that are mostly zeros; and the same
+// bits where the number 0 is no air.
+TEST_F(VoxelBoundsTest, LongsOfZerosAreAirWhereTheFirstBlockIs) {
+    using W = NbtWriter;
+    const glm::ivec3 size(7, 9, 5);
+    std::mt19937 random(5);
+    std::vector<uint64_t> longs(15);
+    std::map<uint32_t, uint32_t> numbers;
+    for (int i = 0; i < 12; ++i) numbers[uint32_t(random() % 315)] = uint32_t(1 + random() % 4);
+    numbers[21] = 3;  // begins at bit 63
+    for (const auto& [cell, number] : numbers) {
+        longs[cell * 3 / 64] |= uint64_t{number} << cell * 3 % 64;
+        if (cell * 3 % 64 > 61) longs[cell * 3 / 64 + 1] |= number >> (64 - cell * 3 % 64);
+    }
+    const auto xyz = [](const std::string& name, const glm::ivec3& v) {
+        return W::compound(name, W::whole("x", v.x) + W::whole("y", v.y) + W::whole("z", v.z));
+    };
+    for (const std::string first : {"air", "clay"}) {
+        const std::vector<std::string> names = {first, "stone", "dirt", "sand", "gold_block"};
+        std::vector<std::string> palette;
+        for (const std::string& name : names) palette.push_back(W::words("Name", name));
+        const std::string region = W::compound(
+            "one", xyz("Position", {0, 0, 0}) + xyz("Size", size) +
+                       W::compounds("BlockStatePalette", palette) + W::longs("BlockStates", longs));
+        VoxelCells expected;
+        for (uint32_t cell = 0; cell < 315; ++cell) {
+            const auto found = numbers.find(cell);
+            if (found == numbers.end() && first == "air") continue;
+            const std::string& name = names[found == numbers.end() ? 0 : found->second];
+            expected[{int(cell % 7), int(cell / 35), int(cell / 7 % 5)}] = {block_color(name).color,
+                                                                            ""};
+        }
+        const auto file = folder / "a.litematic";
+        put_bytes(file, gzipped(W::compound("", W::compound("Regions", region))));
+        EXPECT_EQ(cells_of(read_voxel_model(file, Surface::cubes)), expected) << first;
+    }
 }
 
 TEST_F(VoxelBoundsTest, FarApartAndTinyValuesHaveAThreshold) {

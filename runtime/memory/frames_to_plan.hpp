@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// frames of a scene -> those whose memory is estimated
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// The most frames of an animation that are planned, and of those at the keys of tracks.
+inline constexpr size_t kMaxPlannedFrames = 2048, kMaxPlannedKeys = 1024;
+
+struct FramesToPlan {
+    std::vector<int> changed;  ///< frames whose plans may differ from those of the frames before
+    std::vector<size_t>
+        chosen;       ///< places in `changed`, ascending; all of them unless they are many
+    size_t step = 1;  ///< the largest distance between neighbours in `chosen`
+};
+
+/// True if both frames have the same plan, as nothing changed that it depends on. It depends on
+/// whether lights shine, but not on their other values. It depends on the observer only in images
+/// without colour, whose rays are followed through surfaces that he may be behind.
+bool is_planned_like(const Scene& a, const Scene& b);
+
+/// Chooses among `frames`. Up to kMaxPlannedFrames are all chosen, and nothing is checked. Of more
+/// frames each is held against the rules for values and placements; chosen are those at and beside
+/// the keys of tracks, if these are few, and others at even distances; and in any case all that
+/// show an object or a file first. Calls `progress`, unless it is empty, with the number of
+/// frames seen.
+///
+/// Throws as scene_at and check_placements do, with the frame.
+FramesToPlan frames_to_plan(const Scene& scene, std::span<const int> frames,
+                            const std::function<void(size_t)>& progress = {});
+
+}  // namespace voxelume
