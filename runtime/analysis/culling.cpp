@@ -41,7 +41,7 @@ bool may_send_on(const Model& model, AssetStore& meshes) {
 bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     if (!traces_light(scene)) return false;
     if (scene.render.light == LightMode::global && scene.render.bounces > 0) return true;
-    // Rays to the sky and to points of the sun go on any way.
+    // Rays to the sky and to points of the sun go in any direction.
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;

@@ -48,8 +48,8 @@ std::optional<Bounds> own_box(const Model& model, AssetStore& meshes) {
     return Bounds{own.min, own.max};
 }
 
-/// Whether an object encloses the other wholly, as a room does what stands in it: the middle and
-/// the corners of its box. One whose middle alone is inside is stuck in it.
+/// Whether an object wholly encloses the other, as a room encloses its furniture: the middle and
+/// the corners of its box are inside. If the middle alone is, the other is stuck in a wall.
 bool encloses(const Scene& scene, const Object& object, const Object& other, AssetStore& meshes) {
     const auto box = own_box(scene.models[size_t(other.model)], meshes);
     const auto has = [&](const glm::dvec3& p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// object -> what its mesh file lacks, or says and nobody reads
+// object -> what its mesh file lacks, and what it says without effect
 #pragma once
 
 #include <string>

@@ -90,7 +90,7 @@ class AssetStore {
         std::optional<ThinPart> part;
         std::optional<MeshSummary> summary;
     };
-    /// The numbers of a FileMap, which maps can be keyed by.
+    /// The numbers of a FileMap, as a key.
     using MapKey = std::array<double, 4>;
     struct MeshFile {
         std::string source;  ///< hash of the file's bytes; empty without a cache

@@ -49,7 +49,7 @@ struct ScheduleOptions {
 
 struct ScheduleOutcome {
     size_t frames_done = 0;  ///< those output: all, unless the run was cancelled
-    /// The first frame that was rendered with no other world in memory, because memory lacked.
+    /// The first frame that was rendered with no other world in memory, because memory ran short.
     std::optional<size_t> one_by_one_from;
 };
 

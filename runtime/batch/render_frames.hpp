@@ -21,8 +21,8 @@ namespace voxelume {
 /// frame.
 using BatchProgress = std::function<void(double done, int frame)>;
 
-/// Hears of warnings, which are about different things each: before the first frame of those that
-/// need no rendering, after the last one of the others. It may throw, which ends the run.
+/// Is told warnings, each about something else: before the first frame those that need no
+/// rendering, after the last one the others. It may throw, which ends the run.
 using BatchWarnings = std::function<void(std::span<const Warning>)>;
 
 /// The image of a frame's samples before others are added to them.

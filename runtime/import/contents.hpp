@@ -30,7 +30,7 @@ struct Contents {
     std::vector<std::string> lights;      ///< items; none: those of a studio
     std::optional<FileLight> file_light;  ///< none: the studio's own
     bool has_glass = false;               ///< shadows are to let light through
-    int lamps = 0;                        ///< objects that emit light
+    int emissive_objects = 0;             ///< objects that emit light
     Bounds box;                           ///< around all that is visible, metres
     glm::dvec3 voxel_size{0};             ///< of the world, metres
     glm::dvec3 lattice{0};                ///< a corner of some voxel, metres

@@ -30,13 +30,14 @@ bool has_faces(const GltfValue& mesh) {
 
 /// A node that some axis of its map makes flat can't be placed.
 bool can_be_placed(const glm::dmat4& map) {
-    double least = INFINITY, most = 0;
+    double shortest = INFINITY, longest = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        least = std::min(least, glm::length(glm::dvec3(map[axis])));
-        most = std::max(most, glm::length(glm::dvec3(map[axis])));
+        shortest = std::min(shortest, glm::length(glm::dvec3(map[axis])));
+        longest = std::max(longest, glm::length(glm::dvec3(map[axis])));
     }
     const double volume = std::abs(glm::determinant(glm::dmat3(map)));
-    return std::isfinite(most) && least > 1e-4 * most && volume > 1e-9 * most * most * most;
+    return std::isfinite(longest) && shortest > 1e-4 * longest &&
+           volume > 1e-9 * longest * longest * longest;
 }
 
 /// The clip that the options choose; an empty one where the file has none.

@@ -19,17 +19,17 @@ namespace {
 /// What weights and their keys make of a box.
 Bounds reach_of_targets(const GltfMorph& morph, const GltfFile& file, int mesh, const Bounds& box) {
     if (morph.weights.empty()) return box;
-    std::vector<double> least = morph.weights, most = morph.weights;
+    std::vector<double> lowest = morph.weights, highest = morph.weights;
     if (morph.keys)
         for (size_t i = 0; i < morph.keys->values.size(); ++i) {
-            const size_t target = i % least.size();
-            least[target] = std::min(least[target], morph.keys->values[i]);
-            most[target] = std::max(most[target], morph.keys->values[i]);
+            const size_t target = i % lowest.size();
+            lowest[target] = std::min(lowest[target], morph.keys->values[i]);
+            highest[target] = std::max(highest[target], morph.keys->values[i]);
         }
-    for (double& weight : least) weight = std::min(weight, 0.0);
-    for (double& weight : most) weight = std::max(weight, 0.0);
+    for (double& weight : lowest) weight = std::min(weight, 0.0);
+    for (double& weight : highest) weight = std::max(weight, 0.0);
     const std::vector<MorphTarget> targets = gltf_targets(file, mesh + 1);
-    return box_of_targets(box_of_targets(box, targets, least), targets, most);
+    return box_of_targets(box_of_targets(box, targets, lowest), targets, highest);
 }
 
 GltfMorph weights_of(const GltfFile& file, const GltfClip& clip, const GltfNode& node) {

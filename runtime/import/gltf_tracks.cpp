@@ -28,11 +28,11 @@ std::string row_text(const std::vector<double>& values, size_t row, size_t width
 /// Scales that make things vanish leave a ten-thousandth of them: a flat map is none to place
 /// things by.
 Keyframes without_flatness(Keyframes keys) {
-    double most = 0;
-    for (const double value : keys.values) most = std::max(most, std::abs(value));
-    const double least = most > 0 ? 1e-4 * most : 1e-4;
+    double largest = 0;
+    for (const double value : keys.values) largest = std::max(largest, std::abs(value));
+    const double min_scale = largest > 0 ? 1e-4 * largest : 1e-4;
     for (double& value : keys.values)
-        if (std::abs(value) < least) value = std::copysign(least, value);
+        if (std::abs(value) < min_scale) value = std::copysign(min_scale, value);
     return keys;
 }
 

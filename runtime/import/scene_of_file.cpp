@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kFilledShare = 0.92;  // of the image's width or height: shadows need room, too
 constexpr int kSamples = 4;
-// Local light sends rays from each point to each lamp, global light to one of them.
-constexpr int kLampsInLocalLight = 16, kGlobalSamples = 64;
+// Local light sends rays from each point to each emissive object, global light to one of them.
+constexpr int kEmissiveObjectsInLocalLight = 16, kGlobalSamples = 64;
 constexpr double kAmbientInside = 0.15;
 
 struct ModelFormat {
@@ -179,7 +179,8 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
             contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
     text += has_camera ? contents.observer : observer_of(contents.box, studio.box, options);
     // Volumetric images are in local light.
-    const bool is_global = contents.lamps > kLampsInLocalLight && !options.is_lattice;
+    const bool is_global =
+        contents.emissive_objects > kEmissiveObjectsInLocalLight && !options.is_lattice;
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}{}{}}}\n}}\n",
                               options.size.x, options.size.y, is_global ? kGlobalSamples : kSamples,
                               is_global ? ", \"light\": \"global\"" : "",

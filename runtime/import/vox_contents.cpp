@@ -116,7 +116,7 @@ class VoxContents {
         if (object.hidden || first > 0) text += ", \"visible\": false";
         contents_.objects.push_back(text + "}");
         if (object.hidden) return;
-        contents_.lamps += int(parts_.is_lamp(model));
+        contents_.emissive_objects += int(parts_.is_emissive(model));
         if (!is_always) add_visible_track(name, first, last);
         add_pose_tracks(name, object, turns.is_mirrored);
         for (const VoxPose& at : object.poses) add_box(placement_of(at), parts_.box_of(model));

@@ -122,7 +122,7 @@ std::string VoxParts::group_members(int model) {
     return members_of(groups);
 }
 
-bool VoxParts::is_lamp(int model) {
+bool VoxParts::is_emissive(int model) {
     const std::vector<std::string>& groups = file_.assets.groups_of(vox_model(file_, model + 1));
     return std::any_of(groups.begin() + 1, groups.end(), [&](const std::string& group) {
         const VoxMaterial& material = vox_.materials[size_t(entry_of(group))];

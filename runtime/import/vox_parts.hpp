@@ -23,7 +23,7 @@ class VoxParts {
     /// `, "materials": {...}` for the model's voxels that have a material of their own.
     std::string group_members(int model);
     /// Whether some of its voxels emit light.
-    bool is_lamp(int model);
+    bool is_emissive(int model);
     /// The box around the model's voxels.
     Bounds box_of(int model);
 

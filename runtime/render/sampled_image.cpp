@@ -61,7 +61,7 @@ void for_each_tile(const std::vector<TileRange>& tiles, See&& see) {
         for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) see(tile);
 }
 
-/// How far an image's tiles are.
+/// How many samples an image's tiles have.
 class TileSamples {
   public:
     /// All have so many, at most `maximum`.

@@ -8,8 +8,8 @@
 
 namespace voxelume {
 
-/// The numbers of a track at a frame, as values_at() has them of its keys, but that a spline which
-/// leaves the value's range between keys stays at the range's end, or, where the end itself is no
+/// The numbers of a track at a frame, as values_at() finds them from its keys. A spline that leaves
+/// the value's range between keys stays at the end of the range or, where the end itself is no
 /// value, at the key that is closest to it.
 std::vector<double> values_of(const Track& track, double frame);
 

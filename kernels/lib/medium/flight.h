@@ -12,7 +12,7 @@
 #include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
 
-/// How far paths come.
+/// How far paths go before the medium scatters them.
 typedef struct {
     lane_float t;
     lane_float depth;  // sum of density times t up to there

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in a file, as JSON values: one function a kind of file.
+// What is in a file, as JSON values: one function for each kind of file.
 #pragma once
 
 #include <filesystem>

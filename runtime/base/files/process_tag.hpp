@@ -11,7 +11,7 @@ namespace voxelume {
 /// since numbers of processes are used again.
 std::string process_tag();
 
-/// True if a name ends with the tag of a process of this host that lives no more. False for
+/// True if a name ends with the tag of a process of this host that has ended. False for
 /// processes of other hosts, of which nothing is known, and for names without a tag.
 bool ends_with_dead_tag(std::string_view name);
 

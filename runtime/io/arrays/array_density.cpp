@@ -18,7 +18,7 @@ namespace {
 constexpr uint64_t kMaxDensityCells = uint64_t{1} << 28;
 constexpr int kBlockEdge = 8;  // cells along the edge of a block whose range is known
 
-/// The least and the largest of some values; none where `min` is above `max`.
+/// The smallest and the largest of some values; none where `min` is above `max`.
 struct Extremes {
     float min = INFINITY, max = -INFINITY;
     bool has_gaps = false;  ///< some are missing

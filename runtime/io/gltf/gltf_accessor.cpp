@@ -96,10 +96,10 @@ void place(const GltfFile& file, const GltfValue& at, uint64_t count, Elements& 
     const std::span<const uint8_t> bytes = file.view(at, "bufferView");
     const uint64_t offset = at.count("byteOffset", 0);
     const GltfValue view = file.root().item("bufferViews", size_t(at.count("bufferView", 0)));
-    const uint64_t least = elements.bytes();
-    elements.stride = view.count("byteStride", least);
-    if (elements.stride < least || elements.stride > 4096)
-        view.fail(fmt::format("elements of {} bytes, {} bytes apart", least, elements.stride));
+    const uint64_t min_stride = elements.bytes();
+    elements.stride = view.count("byteStride", min_stride);
+    if (elements.stride < min_stride || elements.stride > 4096)
+        view.fail(fmt::format("elements of {} bytes, {} bytes apart", min_stride, elements.stride));
     const uint64_t needed = count == 0 ? 0 : (count - 1) * elements.stride + elements.bytes();
     if (offset > bytes.size() || needed > bytes.size() - offset)
         at.fail(fmt::format("{} elements from byte {} on don't fit into its {} bytes", count,
@@ -110,7 +110,8 @@ void place(const GltfFile& file, const GltfValue& at, uint64_t count, Elements& 
 uint64_t count_of(const GltfValue& accessor) {
     const uint64_t count = accessor.count("count", 0);
     if (count == 0 || count >= kMaxGltfElements)
-        accessor.fail(fmt::format("{} elements; it has at least 1 and fewer than 2^31", count));
+        accessor.fail(
+            fmt::format("{} elements; it has at min_stride 1 and fewer than 2^31", count));
     return count;
 }
 

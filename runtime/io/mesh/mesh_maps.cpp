@@ -58,7 +58,7 @@ bool has_maps(const MtlMaterial& m) {
 
 void LibraryMaps::add(const MtlMaterial& material, Texture& texture) {
     const MtlTexture &rough = material.roughness_map, &metal = material.metallic_map,
-                     &glow = material.emission_map;
+                     &emission = material.emission_map;
     const MtlTexture& gloss = rough.file.empty() ? metal : rough;
     const auto map = [&](const MtlTexture& from, const Key& key, const auto& image) -> TextureMap {
         if (from.file.empty()) return {};
@@ -66,8 +66,8 @@ void LibraryMaps::add(const MtlMaterial& material, Texture& texture) {
     };
     texture.maps[kGlossMap] = map(gloss, {kGlossMap, rough.file, metal.file, gloss.clamps},
                                   [&] { return gloss_image(rough.file, metal.file); });
-    texture.maps[kEmissionMap] = map(glow, {kEmissionMap, glow.file, "", glow.clamps},
-                                     [&] { return emission_image(glow.file); });
+    texture.maps[kEmissionMap] = map(emission, {kEmissionMap, emission.file, "", emission.clamps},
+                                     [&] { return emission_image(emission.file); });
 }
 
 /// The number of a texture whose image is made once.

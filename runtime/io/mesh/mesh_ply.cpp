@@ -180,7 +180,7 @@ class BodyParser {
             mesh_.triangle_uvs.push_back(places + first);
     }
 
-    /// Triangles in strips: each index makes one with the two before it, and -1 begins anew.
+    /// Triangles in strips: each index makes one with the two before it, and -1 ends a strip.
     void parse_strips(const PlyElement& element) {
         const PlyProperty& corners = corners_of(element, "tristrips");
         for (uint64_t i = 0; i < element.count; ++i) {

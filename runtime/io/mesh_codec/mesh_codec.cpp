@@ -21,7 +21,7 @@ constexpr uint64_t kMaxElements = uint64_t{1} << 31;
 constexpr uint64_t kMaxDecoded = uint64_t{16} << 30;
 
 /// How often data may be smaller than what they decode to. meshoptimizer's vertices take at least 2
-/// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no least size, so
+/// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no minimum size, so
 /// that its limit is a guess; what it may take is limited where it runs.
 uint64_t most_of_a_byte(MeshCodec codec) {
     return codec == MeshCodec::draco ? 8192 : codec == MeshCodec::meshopt_vertices ? 64 : 12;
@@ -72,9 +72,9 @@ class RequestFile {
 
 CodecArrays receive(WireReceiver& receiver, const CodecTask& task) {
     CodecArrays arrays;
-    const auto take = [&](uint64_t least, uint64_t most) {
-        arrays.push_back(receiver.values<uint8_t>(most));
-        if (arrays.back().size() < least) WireReceiver::fail();
+    const auto take = [&](uint64_t min, uint64_t max) {
+        arrays.push_back(receiver.values<uint8_t>(max));
+        if (arrays.back().size() < min) WireReceiver::fail();
     };
     if (task.codec != MeshCodec::draco) {
         take(task.count * task.stride, task.count * task.stride);

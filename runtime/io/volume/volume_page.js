@@ -93,8 +93,8 @@ function project(width, height, scale) {
     const [px, py, pz] = voxels.points, [mx, my, mz] = voxels.middle, [sx, sy, sz] = voxels.screen;
     const [ci, cj, ck] = voxels.cells, m = frame.merged;
     const low = view.low.map(l => l / m), high = view.high.map(h => h / m);
-    const away = 3 * voxels.radius, least = away - voxels.radius;
-    const first = least + 2 * voxels.radius * view.cut;
+    const away = 3 * voxels.radius, nearest = away - voxels.radius;
+    const first = nearest + 2 * voxels.radius * view.cut;
     const toBucket = (kBuckets - 1) / (2.001 * voxels.radius);
     const counts = new Uint32Array(kBuckets + 1);
     let shown = 0;
@@ -109,17 +109,17 @@ function project(width, height, scale) {
         sx[i] = width / 2 + (x * right[0] + y * right[1] + z * right[2]) * by;
         sy[i] = height / 2 - (x * up[0] + y * up[1] + z * up[2]) * by;
         sz[i] = depth;
-        ++counts[bucket(depth, least, toBucket) + 1];
+        ++counts[bucket(depth, nearest, toBucket) + 1];
         ++shown;
     }
     for (let b = 0; b < kBuckets; ++b) counts[b + 1] += counts[b];
     for (let i = 0; i < frame.count; ++i)
-        if (sz[i] > 0) voxels.order[counts[bucket(sz[i], least, toBucket)]++] = i;
+        if (sz[i] > 0) voxels.order[counts[bucket(sz[i], nearest, toBucket)]++] = i;
     return shown;
 }
 
-function bucket(depth, least, toBucket) {
-    return Math.max(0, Math.min(kBuckets - 1, (depth - least) * toBucket)) | 0;
+function bucket(depth, nearest, toBucket) {
+    return Math.max(0, Math.min(kBuckets - 1, (depth - nearest) * toBucket)) | 0;
 }
 
 /// Paints the voxels of `order`, the last and farthest first.

@@ -121,8 +121,16 @@ void take_old_material(VoxContent& content, std::array<VoxMaterial, 256>& materi
     m.weight = std::clamp(content.take_float(), 0.0f, 1.0f);
     const int properties = content.take_int();
     // Bits of the values that follow, in their order; the last one has none.
-    enum { plastic = 1, rough = 2, specular = 4, ior = 8, attenuation = 16, power = 32, glow = 64 };
-    for (const int property : {plastic, rough, specular, ior, attenuation, power, glow}) {
+    enum {
+        plastic = 1,
+        rough = 2,
+        specular = 4,
+        ior = 8,
+        attenuation = 16,
+        power = 32,
+        emission = 64
+    };
+    for (const int property : {plastic, rough, specular, ior, attenuation, power, emission}) {
         if ((properties & property) == 0) continue;
         const float value = std::clamp(content.take_float(), 0.0f, 1.0f);
         if (property == rough) m.rough = value;

@@ -22,12 +22,12 @@ void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
 void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
                       const InputFile& file) {
     for (int axis = 0; axis < 3; ++axis) {
-        const double least = std::max(1e-9, 1e-12 * std::abs(origin[axis]));
-        if (!(voxel_edge[axis] >= least))
+        const double min_edge = std::max(1e-9, 1e-12 * std::abs(origin[axis]));
+        if (!(voxel_edge[axis] >= min_edge))
             file.refuse(
-                fmt::format("its voxels are {:.3g} m long, and at least {:.3g} m are possible "
+                fmt::format("its voxels are {:.3g} m long, and at min_edge {:.3g} m are possible "
                             "at its place",
-                            voxel_edge[axis], least));
+                            voxel_edge[axis], min_edge));
     }
 }
 
