@@ -27,7 +27,7 @@ Action add_check(CLI::App& app) {
         const Scene scene = read_with(options->scene, "check");
         print_plan(scene, Device::open(options->scene.device),
                    {.cache = cache_options(options->scene)},
-                   {options->json, options->quiet, options->scene.strict});
+                   {options->json, options->quiet, options->scene.strict, true});
         return 0;
     };
 }

@@ -107,7 +107,7 @@ double bytes_with(const Plan& plan, std::string_view shown) {
     return bytes;
 }
 
-/// Says what a volumetric image takes where it is more than what is asked for.
+/// Says what a volumetric image takes where that is more than what the image does.
 void print_volume(const Plan& plan) {
     const double bytes = bytes_with(plan, "volume");
     if (bytes > plan.max_bytes)
@@ -167,7 +167,7 @@ void print_plan(const Scene& scene, const Device& device, const PlanOptions& opt
     const size_t frames =
         options.frames.empty() ? size_t(scene.moves() ? scene.frames() : 1) : options.frames.size();
     print_verdict(plan, frames);
-    print_volume(plan);
+    if (print.tells_volume && frames == 1) print_volume(plan);
 }
 
 }  // namespace voxelume::cli

@@ -142,7 +142,9 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
                     .image = !command.outputs.empty(),
                     .volume = !command.volumes.empty(),
                     .cache = cache_options(command.scene)},
-                   {.quiet = command.quiet, .strict = command.scene.strict});
+                   {.quiet = command.quiet,
+                    .strict = command.scene.strict,
+                    .tells_volume = command.outputs.empty() && command.volumes.empty()});
         return;
     }
     if (!command.quiet && scene.has_default_light())

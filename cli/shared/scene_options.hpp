@@ -59,8 +59,9 @@ CacheOptions cache_options(const SceneOptions& options);
 /// How a plan is printed.
 struct PlanPrint {
     bool as_json = false;
-    bool quiet = false;   ///< without warnings, but for those in JSON
-    bool strict = false;  ///< warnings are errors
+    bool quiet = false;         ///< without warnings, but for those in JSON
+    bool strict = false;        ///< warnings are errors
+    bool tells_volume = false;  ///< also of a volumetric image that isn't asked for
 };
 
 /// Says what a scene holds and what rendering takes on a device, on stdout, of the frames the one

@@ -77,8 +77,11 @@ std::string material_advice(const Object& object, const MeshSummary& mesh) {
                        quote(missing.empty() ? mesh.group_names.front() : missing.front()));
 }
 
-/// Adds a sentence on a file, which is told of the first object that shows it.
-void add_note(const Object& object, const std::string& text, std::vector<Warning>& warnings) {
+/// Adds a sentence on a file, which is told of the first object that shows it. Names in files may
+/// be of any length.
+void add_note(const Object& object, std::string text, std::vector<Warning>& warnings) {
+    constexpr size_t kMaxLength = 600;
+    if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
     const bool is_known = std::ranges::any_of(warnings, [&](const Warning& warning) {
         return warning.kind == WarningKind::ignored_materials && warning.text == text;
     });
@@ -129,8 +132,13 @@ void add_texture_warning(const Model& model, const MeshPaint& paint,
 
 std::string missing_materials_sentence(const std::vector<std::string>& missing,
                                        const MeshSummary& mesh) {
-    if (!mesh.library_faults.empty())
-        return fmt::format("{}", fmt::join(mesh.library_faults, ", and "));
+    if (!mesh.library_faults.empty()) {
+        const size_t others = mesh.library_faults.size() - 1;
+        return mesh.library_faults.front() +
+               (others == 0   ? ""
+                : others == 1 ? ", and " + mesh.library_faults.back()
+                              : fmt::format(", and {} more of its libraries aren't read", others));
+    }
     const bool is_one = missing.size() == 1;
     const std::string its =
         is_one ? fmt::format("its material {}", quote(missing[0]))

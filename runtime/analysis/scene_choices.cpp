@@ -37,24 +37,36 @@ bool is_plain(const Scene& scene, const Object& object) {
     return !transmits(scene, object) && !has_emission(scene, object);
 }
 
-/// True if the model, or more of its objects than where they stand, may change from frame to frame.
+/// True if the model, one of its objects or a material may change from frame to frame.
 bool may_change(const Scene& scene, size_t number) {
     return moves(scene) && std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
-               return (part.part == ScenePart::model && part.place == number) ||
-                      (part.part == ScenePart::object && !part.only_placed) ||
-                      part.part == ScenePart::material;
+               return part.part == ScenePart::material ||
+                      (part.part == ScenePart::model && part.place == number) ||
+                      (part.part == ScenePart::object &&
+                       size_t(scene.objects[part.place].model) == number);
            });
 }
 
+/// True if all of an object's mesh lies in the world.
+bool is_within_world(const Scene& scene, const Object& object, const MeshSummary& mesh) {
+    const Bounds world = lattice_bounds(scene.world);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p(object.world_from_object * glm::dvec4(corner(mesh.surface, i), 1));
+        if (glm::any(glm::lessThan(p, world.min)) || glm::any(glm::greaterThan(p, world.max)))
+            return false;
+    }
+    return true;
+}
+
 /// True if a mesh may be smooth in one part and exact in another, which overlap: only opaque
-/// surfaces that don't shine hide that.
+/// surfaces that don't shine and are seen from outside alone hide that.
 bool may_be_mixed(const Scene& scene, size_t number, const MeshSummary& mesh) {
     const Model& model = scene.models[number];
-    // Where a field is left out, its outermost voxels have neither colours nor groups in the world.
-    const bool is_plain_mesh = !mesh.paint.is_there() && mesh.group_names.size() < 2;
-    if (model.morph || !is_plain_mesh || may_change(scene, number)) return false;
+    if (model.morph || !may_have_exact_parts(mesh) || may_change(scene, number)) return false;
+    if (scene.observer.display.visibility == Visibility::all) return false;
     return std::ranges::none_of(scene.objects, [&](const Object& object) {
-        return size_t(object.model) == number && !is_plain(scene, object);
+        return size_t(object.model) == number &&
+               !(is_plain(scene, object) && is_within_world(scene, object, mesh));
     });
 }
 
@@ -118,8 +130,7 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
 /// of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;
 
-/// The number of plain objects that show each model as meshes that are `exact`, or parts of which
-/// are; 0 where cubes are in the
+/// The number of plain objects that show each model as `exact` meshes; 0 where cubes are in the
 /// world, which hide what shares their voxels.
 std::vector<uint32_t> count_copies(const Scene& scene) {
     std::vector<uint32_t> copies(scene.models.size());
@@ -127,9 +138,8 @@ std::vector<uint32_t> count_copies(const Scene& scene) {
         const Model& model = scene.models[size_t(object.model)];
         if (!object.visible) continue;
         if (shows_voxels(model.surface)) return std::vector<uint32_t>(scene.models.size());
-        copies[size_t(object.model)] += !model.mesh.empty() &&
-                                        (lists_primitives(model.surface) || model.thin_edge > 0) &&
-                                        is_plain(scene, object);
+        copies[size_t(object.model)] +=
+            !model.mesh.empty() && lists_primitives(model.surface) && is_plain(scene, object);
     }
     return copies;
 }

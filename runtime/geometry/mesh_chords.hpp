@@ -21,7 +21,7 @@ struct Chord {
 
 /// Gives `add` the chords of lines along x, then y, then z: regular lattices that divide each side
 /// of the mesh's box by `lines`, at most 8192. They are in the order of the lines and the
-/// triangles, so equal meshes give equal chords. False if more than 4 million crossings lie on 16
+/// triangles, so equal meshes give equal chords. False if more than 4 million crossings lie on 64
 /// rows of lines, or on all of a lattice of 64 x 64: such a mesh has no inside.
 bool for_each_chord(const Mesh& mesh, const glm::ivec3& lines,
                     const std::function<void(const Chord&)>& add);

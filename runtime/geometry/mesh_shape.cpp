@@ -29,10 +29,8 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
     const double thickness = shape.thickness.body / voxel_edge,
                  part = shape.thickness.part / voxel_edge;
     if (thickness < kThinVoxels || part < kThinPartVoxels)
-        return {Surface::exact,
-                fmt::format("parts of it are only {:.2g} voxels thick",
-                            thickness < kThinVoxels ? thickness : part),
-                true};
+        return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick",
+                                            thickness < kThinVoxels ? thickness : part)};
     return {Surface::smooth,
             fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",
                         mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed",
@@ -40,12 +38,18 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
             shape.thickness.hint < kThinVoxels * voxel_edge};
 }
 
+bool may_have_exact_parts(const MeshSummary& mesh) {
+    return !mesh.paint.is_there() && mesh.group_names.size() < 2;
+}
+
 SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
                            const MeshSummary& part) {
     const double share = part.triangles > 0 ? part.area.total / mesh.area.total : 0;
     if (share == 0) return {choice.surface, choice.reason};
-    const std::string thin = fmt::format("{:.2g} % of it lies around parts thinner than {} voxels",
-                                         100 * share, kThinVoxels);
+    const std::string thin = fmt::format(
+        "{} % of it lies around parts thinner than {} voxels",
+        share < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share),
+        kThinVoxels);
     if (share > kMaxThinShare) return {Surface::exact, thin};
     return {Surface::smooth,
             fmt::format("it is closed and without sharp edges; {}, and is exact", thin), true};

@@ -38,7 +38,8 @@ bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
 struct SurfaceChoice {
     Surface surface = Surface::smooth;
     std::string reason;
-    bool may_be_thin = false;  ///< it hangs on how much of the mesh is thin
+    bool may_be_thin = false;  ///< smooth, and small parts may be too thin, for surface_with; what
+                               ///< that returns has such parts, which are exact
 };
 
 /// `smooth` for a mesh with an inside and without sharp edges that is at least kThinVoxels thick,
@@ -46,8 +47,12 @@ struct SurfaceChoice {
 /// its distances, metres in the space of the mesh.
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
-/// What becomes of a choice that hangs on thin parts, of which `part` tells: `smooth` where they
-/// are at most kMaxThinShare of the area, and then they are exact.
+/// True if parts of a mesh may be exact beside a field: where that is left out, its outermost voxels
+/// have neither colours nor groups in the world.
+bool may_have_exact_parts(const MeshSummary& mesh);
+
+/// What becomes of a choice of `smooth` whose parts may be too thin. `part` is the mesh around
+/// them: it is exact where it has at most kMaxThinShare of the area, else all is.
 SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
                            const MeshSummary& part);
 

@@ -11,6 +11,7 @@
 #include "runtime/memory/count/count_sources.hpp"
 #include "runtime/memory/counted_grids.hpp"
 #include "runtime/memory/frame_memory.hpp"
+#include "runtime/memory/plan.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -78,16 +79,26 @@ class FollowingWalk {
             image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
             hits = {device_, "hits", hit_bytes(joined)};
         }
-        // The image's arrays are freed before the volumetric image is made.
+        // Before the volumetric image is made, the image's arrays are freed but for what is
+        // retained.
         Buffer<uint8_t> rest;
-        if (const uint64_t there = bytes_in_use() - before; volume > there)
-            rest = {device_, "volumetric image", size_t(volume - there)};
+        const uint64_t there = bytes_in_use() - before - hits.size();
+        const uint64_t freed = there - std::min(there, retained_bytes(image));
+        if (volume > freed) rest = {device_, "volumetric image", size_t(volume - freed)};
         build_next(placed, world, indexed, instances.listed);
         return double(device_.counters().peak_bytes);
     }
 
   private:
     uint64_t bytes_in_use() const { return device_.counters().bytes_in_use; }
+
+    /// What stays of an image besides its hits: its pixels, and what its renderer retains.
+    uint64_t retained_bytes(const ImageMemory& image) const {
+        uint64_t words =
+            image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size();
+        for (const Buffer<float>& beams : image.light_beams) words += beams.size();
+        return 4 * words + uint64_t(image_bytes(scene_.render));
+    }
 
     /// The maximum bytes that the volumetric image adds to the world's, if one is wanted.
     uint64_t volume_height(const Pyramid& world) const {

@@ -48,7 +48,7 @@ class FramePlanner {
         }
         if (!climb(found)) return std::move(*refused_);
         maximum_->plans = plans_;
-        maximum_->is_of_all = found.step == 1;
+        maximum_->is_of_all = found.chosen.size() == found.changed.size();
         return std::move(*maximum_);
     }
 
@@ -78,12 +78,19 @@ class FramePlanner {
         return true;
     }
 
+    /// Plans a frame that wasn't chosen. False if it doesn't fit.
+    bool plan_new(const FramesToPlan& found, size_t place) {
+        if (std::ranges::binary_search(found.chosen, place)) return true;
+        return plan(found, place);
+    }
+
     /// Comes closer to the frame that takes the most where it lies between those chosen.
     bool climb(const FramesToPlan& found) {
         for (size_t step = found.step / 2; step > 0; step /= 2) {
             const size_t middle = place_;
-            if (middle >= step && !plan(found, middle - step)) return false;
-            if (middle + step < found.changed.size() && !plan(found, middle + step)) return false;
+            if (middle >= step && !plan_new(found, middle - step)) return false;
+            if (middle + step < found.changed.size() && !plan_new(found, middle + step))
+                return false;
         }
         return true;
     }

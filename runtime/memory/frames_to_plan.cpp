@@ -16,16 +16,45 @@
 namespace voxelume {
 namespace {
 
-/// The frames at the keys of tracks, and on both sides of keys between frames; none where they are
-/// many.
+/// Calls `visit` with the frames on both sides of a key, which may lie between frames.
+template <class Visit>
+void visit_frames(double key, const Visit& visit) {
+    visit(int(std::floor(key)));
+    visit(int(std::ceil(key)));
+}
+
+/// The frames at the keys where each of a track's numbers is smallest and largest.
+template <class Visit>
+void visit_extremes(const Keyframes& keys, const Visit& visit) {
+    for (size_t column = 0; column < keys.width; ++column) {
+        const auto value = [&](size_t key) { return keys.values[key * keys.width + column]; };
+        size_t smallest = 0, largest = 0;
+        for (size_t key = 1; key < keys.frames.size(); ++key) {
+            if (value(key) < value(smallest)) smallest = key;
+            if (value(key) > value(largest)) largest = key;
+        }
+        visit_frames(keys.frames[smallest], visit);
+        visit_frames(keys.frames[largest], visit);
+    }
+}
+
+/// The frames at the keys of tracks; where they are many, those at extreme keys, and some others at
+/// even distances among the keys.
 std::set<int> frames_at_keys(const Scene& scene) {
-    std::set<int> found;
+    std::set<int> all, found;
     for (const MovingPart& part : scene.motion->parts)
-        for (const Track& track : part.tracks)
-            for (const double key : track.keys.frames) {
-                found.insert({int(std::floor(key)), int(std::ceil(key))});
-                if (found.size() > kMaxPlannedKeys) return {};
-            }
+        for (const Track& track : part.tracks) {
+            for (const double key : track.keys.frames)
+                visit_frames(key, [&](int frame) { all.insert(frame); });
+            visit_extremes(track.keys, [&](int frame) {
+                if (found.size() < kMaxPlannedKeys / 2) found.insert(frame);
+            });
+        }
+    if (all.size() <= kMaxPlannedKeys) return all;
+    const size_t step = all.size() / (kMaxPlannedKeys / 2) + 1;
+    size_t number = 0;
+    for (const int frame : all)
+        if (number++ % step == 0) found.insert(frame);
     return found;
 }
 

@@ -10,7 +10,8 @@
 
 namespace voxelume {
 
-/// The most frames of an animation that are planned, and of those at the keys of tracks.
+/// The most frames of an animation that are planned, without those that show something first, and
+/// of those at the keys of tracks.
 inline constexpr size_t kMaxPlannedFrames = 2048, kMaxPlannedKeys = 1024;
 
 struct FramesToPlan {
@@ -26,10 +27,10 @@ struct FramesToPlan {
 bool is_planned_like(const Scene& a, const Scene& b);
 
 /// Chooses among `frames`. Up to kMaxPlannedFrames are all chosen, and nothing is checked. Of more
-/// frames each is held against the rules for values and placements; chosen are those at and beside
-/// the keys of tracks, if these are few, and others at even distances; and in any case all that
-/// show an object or a file first. Calls `progress`, unless it is empty, with the number of
-/// frames seen.
+/// frames each is held against the rules for values and placements. Those are chosen that lie at
+/// the keys of tracks, or, of more than kMaxPlannedKeys, at each track's extreme values and some
+/// other keys; then others at even distances, and in any case all that show an object or a file
+/// first. Calls `progress`, unless it is empty, with the number of frames seen.
 ///
 /// Throws as scene_at and check_placements do, with the frame.
 FramesToPlan frames_to_plan(const Scene& scene, std::span<const int> frames,

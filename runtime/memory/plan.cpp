@@ -126,6 +126,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& d
     plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;
     plan.min_image_bytes = minimum.image;
+    plan.min_volume_bytes = minimum.volume;
     const double min_shown = shown_of(scene.render, minimum.image, minimum.volume);
     plan.min_bytes = std::min(std::max(minimum.built(), min_shown), plan.peak_bytes());
     plan.min_with_next = minimum.place + minimum.index + min_shown;

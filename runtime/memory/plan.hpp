@@ -43,8 +43,9 @@ struct ScenePlan {
     /// tables and medium: the bytes of objects that can't lie in each other's bricks. Only a frame
     /// that needs more than the device has by this count is refused before it is tried.
     double min_bytes = 0;
-    double min_image_bytes = 0;  ///< such a minimum of image_bytes
-    double min_with_next = 0;    ///< such a minimum of bytes_with_next
+    double min_image_bytes = 0;   ///< such a minimum of image_bytes
+    double min_volume_bytes = 0;  ///< such a minimum of volume_bytes
+    double min_with_next = 0;     ///< such a minimum of bytes_with_next
     BufferPlan largest;
 
     double peak_bytes() const;

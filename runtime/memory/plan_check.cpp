@@ -104,6 +104,17 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
                     bytes_text(piece));
 }
 
+/// Where a volumetric image takes more than its world, larger voxels are not the way out.
+void check_volume(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
+    const double memory = double(device.memory), needed = plan.min_volume_bytes;
+    if (!scene.render.shows_volume || needed <= memory || plan.world_bytes > needed / 2) return;
+    throw Error(ErrorKind::limit,
+                "a volumetric image of {} voxels needs {} on \"{}\", which has {}: send fewer rays "
+                "together with VOXELUME_BATCH, or use fewer display voxels",
+                size_text(scene.observer.display.voxels), bytes_text(needed), device.name,
+                bytes_text(memory));
+}
+
 void check_medium(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
     const double bytes = plan.medium.buffer_bytes, piece = double(device.max_allocation);
     if (bytes > piece)
@@ -176,6 +187,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
     }
     check_medium(scene, plan, device);
     check_image(scene, plan, device);
+    check_volume(scene, plan, device);
     const double memory = double(device.memory), peak = plan.min_bytes;
     if (peak > memory)
         refuse_world(scene.world,

@@ -90,7 +90,7 @@ TEST(ThinPart, IsNothingWhereItCantBeFound) {
     EXPECT_TRUE(thin_part_of(flat, kVoxel).points.empty());
 }
 
-TEST(SurfaceFor, AModestThinPartIsExactAlone) {
+TEST(SurfaceFor, ASmallThinPartIsExactAlone) {
     const auto choice = [](const Mesh& mesh, double voxel) {
         const MeshSummary whole = summary_of(mesh);
         const SurfaceChoice first = surface_for(whole, shape_of(mesh), voxel);
@@ -98,15 +98,15 @@ TEST(SurfaceFor, AModestThinPartIsExactAlone) {
                    ? surface_with(first, whole, summary_of(thin_part_of(mesh, voxel).mesh))
                    : first;
     };
-    const Mesh finned = finned_ball(0.008, 0.6, 200);
-    const SurfaceChoice chosen = choice(finned, kVoxel);
+    const Mesh bladed = bladed_ball(0.008);
+    const SurfaceChoice chosen = choice(bladed, kVoxel);
     EXPECT_EQ(chosen.surface, Surface::smooth);
     EXPECT_TRUE(chosen.may_be_thin);
     EXPECT_NE(chosen.reason.find("and is exact"), std::string::npos) << chosen.reason;
-    EXPECT_EQ(choice(finned_ball(0.008, 1.2, 200), kVoxel).surface, Surface::exact)
-        << "most of it is thin";
-    EXPECT_FALSE(choice(finned, 0.0035).may_be_thin);
-    EXPECT_EQ(choice(finned, 0.0035).surface, Surface::smooth);
+    EXPECT_EQ(choice(finned_ball(0.008, 0.6, 200), kVoxel).surface, Surface::exact)
+        << "much of it is thin";
+    EXPECT_FALSE(choice(bladed, 0.0035).may_be_thin);
+    EXPECT_EQ(choice(bladed, 0.0035).surface, Surface::smooth);
     EXPECT_FALSE(choice(ball({0, 0, 0}, 0.5, 48, 24), kVoxel).may_be_thin);
 }
 

@@ -101,6 +101,20 @@ TEST_F(FramePlans, OfThousandsTheKeysAreMade) {
     EXPECT_EQ(plan_frames(scene, first_frames(6000), meshes, roomy_device()).frame, 4601);
 }
 
+TEST_F(FramePlans, OfThousandsOfKeysTheExtremeOnesAreMade) {
+    std::string keys;
+    for (int frame = 1; frame <= 6000; frame += 2)
+        keys += fmt::format("{}{{\"frame\": {}, \"value\": {}}}", keys.empty() ? "" : ", ", frame,
+                            frame == 3333 ? 0.35 : 0.1 + 0.00001 * (frame % 7));
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 30,
+                 fmt::format(R"("animation": {{"frames": 6000, "tracks": [
+        {{"target": "models.thing.radius", "keys": [{}]}}]}},)",
+                             keys));
+    AssetStore meshes;
+    EXPECT_EQ(plan_frames(scene, first_frames(6000), meshes, roomy_device()).frame, 3333);
+}
+
 // The observer looks at himself in frame 5001 alone.
 TEST_F(FramePlans, OfThousandsAllAreHeldAgainstTheRulesForValues) {
     constexpr const char* kTracks = R"("animation": {{"frames": 6000, "tracks": [

@@ -230,6 +230,15 @@ TEST(BuiltScene, OfADisplayOfEachShapeAndLayoutTakesWhatIsPromised) {
         }
 }
 
+TEST(BuiltScene, OfRaysOfADisplayInAMediumAndThroughVeilsTakesWhatIsPromised) {
+    for (const char* ball : {"", R"("opacity": 0.5)"})
+        for (const char* medium : {"", R"("medium": {"absorption": [0.3, 0.3, 0.3]},)"}) {
+            Scene scene = room(ball, "", medium, 0.04);
+            scene.observer.display.voxels = {96, 96, 128};
+            expect_volume_kept(fmt::format("rays: {} {}", ball, medium), scene);
+        }
+}
+
 TEST(BuiltScene, OfALatticeOfGlassInAMediumTakesWhatIsPromised) {
     for (const int samples : {1, 4}) {
         Scene scene = room(R"("refraction": 0.9, "ior": 1.5)", "",

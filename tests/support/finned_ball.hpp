@@ -62,4 +62,15 @@ inline Mesh finned_ball(double thickness, double reach = 0.6, int around = 96) {
     return turned_outline(outline, around);
 }
 
+/// A ball of radius 0.5 with a blade of this thickness that stands out of its top.
+inline Mesh bladed_ball(double thickness) {
+    const auto half = float(thickness / 2);
+    Mesh mesh = ball({0, 0, 0}, 0.5, 48, 24);
+    const Mesh blade = box({-half, 0.49f, -0.025f}, {half, 0.555f, 0.025f});
+    const auto first = uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), blade.positions.begin(), blade.positions.end());
+    for (const glm::uvec3& t : blade.triangles) mesh.triangles.push_back(t + first);
+    return mesh;
+}
+
 }  // namespace voxelume

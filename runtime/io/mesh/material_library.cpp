@@ -165,7 +165,7 @@ std::vector<NamedLibrary> find_libraries(const std::filesystem::path& mesh,
         auto file = companion_file(mesh, name);
         std::vector<NamedLibrary> several;
         std::istringstream words(name);
-        for (std::string word; !file && words >> word;)
+        for (std::string word; !file && several.size() < kMaxLibraries && words >> word;)
             several.push_back({word, companion_file(mesh, word)});
         if (std::ranges::any_of(several, [](const NamedLibrary& one) { return !!one.file; }))
             found.insert(found.end(), several.begin(), several.end());

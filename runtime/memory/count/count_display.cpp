@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 #include <optional>
 
 #include "runtime/analysis/coverage.hpp"
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/image/volume_geometry.hpp"
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
@@ -89,13 +91,35 @@ class DisplayCounter {
             of ? count_dilated_occupancy(device_, world_, *of) : DilatedOccupancy();
         const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
         const RayDepths kept = allocate_ray_depths(device_, features_, all);
-        const double steps = features_.medium && !is_least_ ? double(frame_.size.z) / 2 : 1;
+        // In a medium, each of a ray's steps in the world may show some of it.
+        const double steps = features_.medium ? steps_in_world() : 1;
         const double shown = is_least_ ? 1 : steps * all;
-        if (features_.transmission || features_.medium_grid) return shown;
+        if (features_.transmission || features_.medium_grid) {
+            const Buffer<float> seen(device_, "display layers",
+                                     features_.transmission ? size_t(in_batch) * 4 : 1);
+            const Buffer<uint32_t> words(device_, "display layers",
+                                         size_t(in_batch) * VXL_LAYER_WORDS);
+            return shown;
+        }
         const Buffer<uint32_t> starts(device_, "display counts",
                                       size_t(frame_.size.y) * size_t(frame_.size.z));
         allocate_voxels(device_, numbered(shown));
         return shown;
+    }
+
+    /// The mean number of a ray's steps in the world, if nothing hides it.
+    double steps_in_world() const {
+        constexpr int kSamples = 24;  // along each axis
+        const Bounds world = lattice_bounds(scene_.world);
+        int inside = 0;
+        for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+            const glm::ivec3 at(i % kSamples, i / kSamples % kSamples, i / kSamples / kSamples);
+            const glm::dvec3 share = (glm::dvec3(at) + 0.5) / double(kSamples);
+            const glm::dvec3 p = voxel_center(frame_, glm::ivec3(share * glm::dvec3(frame_.size)));
+            inside += glm::all(glm::greaterThanEqual(p, world.min)) &&
+                      glm::all(glm::lessThanEqual(p, world.max));
+        }
+        return frame_.size.z * double(inside) / (kSamples * kSamples * kSamples) + 1;
     }
 
     /// Follows VolumeRenderer in the layout `lattice`. All arrays stay, except the points that

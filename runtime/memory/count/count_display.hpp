@@ -10,8 +10,8 @@ namespace voxelume {
 /// Makes the device count all that render_volume's image of a world takes, without the world.
 ///
 /// The number of voxels that a display shows follows from the areas of surfaces: a lattice shows as
-/// many as a world of such voxels has, a ray shows one, and with a medium half of its steps. Returns
-/// that number.
+/// many as a world of such voxels has, a ray shows one, and with a medium its steps in the world.
+/// Returns that number.
 double count_volume(const Device& device, const Scene& scene, const Pyramid& world,
                     const DensityPlan& medium, Estimate estimate);
 

@@ -127,8 +127,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
         if (reason.starts_with("parse error at ")) reason.erase(0, reason.find(": ") + 2);
         if (reason.size() > 200) reason = reason.substr(0, 200) + "...";
         const TextPosition at = TokenCursor(text_).seek(bytes_read == 0 ? 0 : bytes_read - 1);
-        const size_t first = text_.find_first_not_of(" \t\r\n");
-        if (first == text_.npos || text_[first] != '{')
+        if (text_.find('{') == text_.npos)
             reason +=
                 "; a scene begins with {, and other files that are read are known by their "
                 "endings: see scenes/manual/model_files.md";
