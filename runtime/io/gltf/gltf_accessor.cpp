@@ -111,7 +111,7 @@ uint64_t count_of(const GltfValue& accessor) {
     const uint64_t count = accessor.count("count", 0);
     if (count == 0 || count >= kMaxGltfElements)
         accessor.fail(
-            fmt::format("{} elements; it has at min_stride 1 and fewer than 2^31", count));
+            fmt::format("{} elements; it has at least 1 and fewer than 2^31", count));
     return count;
 }
 

@@ -25,7 +25,7 @@ void check_voxel_edge(const glm::dvec3& voxel_edge, const glm::dvec3& origin,
         const double min_edge = std::max(1e-9, 1e-12 * std::abs(origin[axis]));
         if (!(voxel_edge[axis] >= min_edge))
             file.refuse(
-                fmt::format("its voxels are {:.3g} m long, and at min_edge {:.3g} m are possible "
+                fmt::format("its voxels are {:.3g} m long, and at least {:.3g} m are possible "
                             "at its place",
                             voxel_edge[axis], min_edge));
     }
