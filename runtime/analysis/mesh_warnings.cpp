@@ -42,6 +42,7 @@ void add_topology_warnings(const Model& model, const MeshSummary& mesh,
 /// The names of the libraries, in quotes.
 std::string libraries_of(const MeshSummary& mesh) {
     std::vector<std::string> quoted;
+    quoted.reserve(mesh.material_libraries.size());
     for (const std::string& name : mesh.material_libraries) quoted.push_back(quote(name));
     return fmt::format("{}", fmt::join(quoted, " and "));
 }

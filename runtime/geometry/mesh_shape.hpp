@@ -47,8 +47,8 @@ struct SurfaceChoice {
 /// its distances, metres in the space of the mesh.
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
-/// True if parts of a mesh may be exact beside a field: where that is left out, its outermost voxels
-/// have neither colours nor groups in the world.
+/// True if parts of a mesh may be exact beside a field: where that is left out, its outermost
+/// voxels have neither colours nor groups in the world.
 bool may_have_exact_parts(const MeshSummary& mesh);
 
 /// What becomes of a choice of `smooth` whose parts may be too thin. `part` is the mesh around

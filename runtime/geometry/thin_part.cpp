@@ -76,10 +76,10 @@ class Cells {
     std::unordered_set<uint64_t> kept_;
 };
 
-using Corners = std::array<glm::dvec3, 3>;
+using TriangleCorners = std::array<glm::dvec3, 3>;
 
 /// Whether a triangle's box lies in some of the cells; large triangles are cut in two.
-bool touches(const Cells& cells, const Corners& t) {
+bool touches(const Cells& cells, const TriangleCorners& t) {
     const glm::ivec3 low = cells.cell_of(glm::min(glm::min(t[0], t[1]), t[2]));
     const glm::ivec3 high = cells.cell_of(glm::max(glm::max(t[0], t[1]), t[2]));
     const glm::ivec3 size = high - low + 1;
@@ -92,7 +92,7 @@ bool touches(const Cells& cells, const Corners& t) {
                 from = i;
             }
         const size_t to = (from + 1) % 3;
-        Corners one = t, other = t;
+        TriangleCorners one = t, other = t;
         one[to] = other[from] = 0.5 * (t[from] + t[to]);
         return touches(cells, one) || touches(cells, other);
     }

@@ -110,8 +110,7 @@ void place(const GltfFile& file, const GltfValue& at, uint64_t count, Elements& 
 uint64_t count_of(const GltfValue& accessor) {
     const uint64_t count = accessor.count("count", 0);
     if (count == 0 || count >= kMaxGltfElements)
-        accessor.fail(
-            fmt::format("{} elements; it has at least 1 and fewer than 2^31", count));
+        accessor.fail(fmt::format("{} elements; it has at least 1 and fewer than 2^31", count));
     return count;
 }
 
