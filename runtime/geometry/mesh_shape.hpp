@@ -20,8 +20,9 @@ inline constexpr double kSharpShare = 0.7;
 /// Small parts of one are lost or shredded below this many.
 inline constexpr double kThinPartVoxels = 1;
 
-/// A mesh of which more of the area lies around thin parts is exact as a whole.
-inline constexpr double kMaxThinShare = 0.5;
+/// A mesh of which more of the area lies around thin parts is exact as a whole. None is exact in
+/// parts yet: where triangles and field overlap, the backs of the triangles shadow single pixels.
+inline constexpr double kMaxThinShare = 0;
 
 /// What is asked of a mesh besides its summary.
 struct MeshShape {

@@ -28,7 +28,7 @@ Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
     const glm::ivec3 size = plan.frame.size - 2 * kModelMargin;
     const double edge = plan.frame.voxel_edge.x;
     SurfaceChoice choice = surface_for(summary, shape, edge);
-    if (choice.may_be_thin && may_have_exact_parts(summary))
+    if (choice.may_be_thin)
         choice = surface_with(choice, summary, summary_of(thin_part_of(mesh, edge).mesh));
     return {{"resolution", resolution},
             {"voxel edge", plan.frame.voxel_edge.x},
