@@ -77,9 +77,9 @@ SurfaceChoice chosen_for_mesh(const Scene& scene, size_t number, AssetStore& mes
     const MeshSummary& mesh = *meshes.summary_of(file);
     file.surface = Surface::smooth;
     file.thin_edge = largest_voxel(scene, number, meshes);
-    const SurfaceChoice choice = surface_for(mesh, meshes.shape_of(file), file.thin_edge);
+    SurfaceChoice choice = surface_for(mesh, meshes.shape_of(file), file.thin_edge);
     if (!choice.may_be_thin) return choice;
-    const SurfaceChoice mixed = surface_with(choice, mesh, *meshes.summary_of(*thin_part_of(file)));
+    SurfaceChoice mixed = surface_with(choice, mesh, *meshes.summary_of(*thin_part_of(file)));
     if (mixed.may_be_thin && !may_be_mixed(scene, number, mesh))
         return {Surface::exact, mixed.reason};
     return mixed;
