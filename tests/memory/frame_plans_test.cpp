@@ -56,18 +56,31 @@ std::vector<int> first_frames(int count) {
     return frames;
 }
 
-// A radius with 2000 keys, so that they aren't planned for their own sake, which is largest in
-// frame 3000 of 6000.
-TEST_F(FramePlans, OfThousandsSomeAreMadeAndTheLargestIsFound) {
+constexpr const char* kBall = R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})";
+
+/// An animation of 6000 frames in which the radius has a key in each frame that `step` divides.
+/// `more` are other tracks.
+template <class Radius>
+std::string keyed_radius(int step, const Radius& radius, const std::string& more = "") {
     std::string keys;
-    for (int frame = 3; frame <= 6000; frame += 3)
+    for (int frame = step; frame <= 6000; frame += step)
         keys += fmt::format("{}{{\"frame\": {}, \"value\": {}}}", keys.empty() ? "" : ", ", frame,
-                            0.1 + 0.25 * std::exp(-std::pow((frame - 3000) / 400.0, 2)));
-    const Scene scene =
-        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 30,
-                 fmt::format(R"("animation": {{"frames": 6000, "tracks": [
-        {{"target": "models.thing.radius", "keys": [{}]}}]}},)",
-                             keys));
+                            radius(frame));
+    return fmt::format(R"("animation": {{"frames": 6000, "tracks": [
+        {{"target": "models.thing.radius", "keys": [{}]}}{}]}},)",
+                       keys, more);
+}
+
+// Of the radius's 2000 keys few are planned for their own sake. It is largest in frame 15, which
+// shows nothing, and of the frames that show the ball in frame 3000.
+TEST_F(FramePlans, OfThousandsSomeAreMadeAndTheLargestIsFound) {
+    const auto radius = [](int frame) {
+        return frame == 15 ? 0.6 : 0.1 + 0.25 * std::exp(-std::pow((frame - 3000) / 400.0, 2));
+    };
+    constexpr const char* kHidden =
+        R"(, {"target": "objects[0].visible", "keys": [{"frame": 1, "value": true},
+            {"frame": 10, "value": false}, {"frame": 20, "value": true}]})";
+    const Scene scene = scene_of(kBall, 1.0 / 30, keyed_radius(3, radius, kHidden));
     AssetStore meshes;
     size_t last = 0;
     const FramePlan maximum =
@@ -102,17 +115,10 @@ TEST_F(FramePlans, OfThousandsTheKeysAreMade) {
 }
 
 TEST_F(FramePlans, OfThousandsOfKeysTheExtremeOnesAreMade) {
-    std::string keys;
-    for (int frame = 1; frame <= 6000; frame += 2)
-        keys += fmt::format("{}{{\"frame\": {}, \"value\": {}}}", keys.empty() ? "" : ", ", frame,
-                            frame == 3333 ? 0.35 : 0.1 + 0.00001 * (frame % 7));
-    const Scene scene =
-        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 30,
-                 fmt::format(R"("animation": {{"frames": 6000, "tracks": [
-        {{"target": "models.thing.radius", "keys": [{}]}}]}},)",
-                             keys));
+    const auto radius = [](int frame) { return frame == 3334 ? 0.35 : 0.1 + 1e-5 * (frame % 7); };
+    const Scene scene = scene_of(kBall, 1.0 / 30, keyed_radius(2, radius));
     AssetStore meshes;
-    EXPECT_EQ(plan_frames(scene, first_frames(6000), meshes, roomy_device()).frame, 3333);
+    EXPECT_EQ(plan_frames(scene, first_frames(6000), meshes, roomy_device()).frame, 3334);
 }
 
 // The observer looks at himself in frame 5001 alone.

@@ -4,13 +4,10 @@
 
 #include <cmath>
 
-#include "runtime/analysis/culling.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/memory/frame_plans.hpp"
-#include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/test_device.hpp"
+#include "tests/support/image_memory.hpp"
 
 namespace voxelume {
 namespace {
@@ -57,19 +54,12 @@ class TexturePromise : public FileTest {
 
 TEST_F(TexturePromise, IsKeptForSmoothCopies) {
     for (const char* placement : {"world", "instance"}) {
-        Scene scene = copies(placement, 2, "slab", "smooth");
-        const Device device = test_device();
-        AssetStore meshes;
-        find_potentially_visible(scene, std::vector<int>{1}, meshes);
-        const FramePlan planned = plan_frames(scene, std::vector<int>{1}, meshes, device.info());
-        const double promise = planned.plan.run_bytes(1, double(device.info().memory));
-        RenderReport report;
-        render(device, scene, report);
-        const auto fact = double(device.counters().peak_bytes);
-        EXPECT_GE(device.counters().allocated_bytes.at("source meshes"), 1024u * 512 * 4);
-        EXPECT_LT(device.counters().allocated_bytes.at("source meshes"), 1.5 * 1024 * 512 * 4);
-        EXPECT_GE(promise, fact) << placement;
-        EXPECT_LE(promise, 1.5 * fact) << placement;
+        const ImageMemoryUse use = memory_of_image(copies(placement, 2, "slab", "smooth"));
+        const uint64_t sources = use.device.counters().allocated_bytes.at("source meshes");
+        EXPECT_GE(sources, 1024u * 512 * 4);
+        EXPECT_LT(sources, 1.5 * 1024 * 512 * 4);
+        EXPECT_GE(use.promise, use.fact) << placement;
+        EXPECT_LE(use.promise, 1.5 * use.fact) << placement;
     }
 }
 
@@ -77,21 +67,12 @@ TEST_F(TexturePromise, IsKeptForCopiesInTheWorldAndAsInstances) {
     for (const char* placement : {"world", "instance"}) {
         double one = 0;
         for (const int count : {1, 4}) {
-            Scene scene = copies(placement, count);
-            const Device device = test_device();
-            AssetStore meshes;
-            find_potentially_visible(scene, std::vector<int>{1}, meshes);
-            const FramePlan planned =
-                plan_frames(scene, std::vector<int>{1}, meshes, device.info());
-            const double promise = planned.plan.run_bytes(1, double(device.info().memory));
-            RenderReport report;
-            render(device, scene, report);
-            const auto fact = double(device.counters().peak_bytes);
-            EXPECT_GE(promise, fact) << placement << count;
-            EXPECT_LE(promise, 1.5 * fact) << placement << count;
-            if (count == 1) one = fact;
+            const ImageMemoryUse use = memory_of_image(copies(placement, count));
+            EXPECT_GE(use.promise, use.fact) << placement << count;
+            EXPECT_LE(use.promise, 1.5 * use.fact) << placement << count;
+            if (count == 1) one = use.fact;
             const double max = placement == std::string("instance") ? 1.3 * one : INFINITY;
-            EXPECT_LT(fact, max) << count;
+            EXPECT_LT(use.fact, max) << count;
         }
     }
 }

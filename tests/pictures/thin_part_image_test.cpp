@@ -4,17 +4,15 @@
 
 #include <cmath>
 
-#include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/scene_choices.hpp"
-#include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/world/world.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/finned_ball.hpp"
+#include "tests/support/image_memory.hpp"
 #include "tests/support/shared_device.hpp"
-#include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {
@@ -134,18 +132,10 @@ TEST_F(ThinPartImage, IsTheSameFromTheCache) {
 
 TEST_F(ThinPartImage, TakesTheMemoryThatIsPromised) {
     for (const char* placement : {"world", "instance"}) {
-        Scene scene = mixed_scene(1 / 110.0, placement);
-        const Device device = test_device();
-        AssetStore meshes;
-        find_potentially_visible(scene, std::vector<int>{1}, meshes);
-        const FramePlan planned = plan_frames(scene, std::vector<int>{1}, meshes, device.info());
-        const double promise = planned.plan.run_bytes(1, double(device.info().memory));
-        RenderReport report;
-        render(device, scene, report);
-        const auto fact = double(device.counters().peak_bytes);
-        EXPECT_LE(planned.plan.min_bytes, fact) << placement;
-        EXPECT_GE(promise, fact) << placement;
-        EXPECT_LE(promise, 1.4 * fact) << placement;
+        const ImageMemoryUse use = memory_of_image(mixed_scene(1 / 110.0, placement));
+        EXPECT_LE(use.min, use.fact) << placement;
+        EXPECT_GE(use.promise, use.fact) << placement;
+        EXPECT_LE(use.promise, 1.4 * use.fact) << placement;
     }
 }
 
