@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/shared/interrupt.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -49,6 +50,12 @@ void outlast_abort(int) {
     for (;;) pause();
 }
 
+/// PoCL tells of kernels that it can't load where their files were removed: nobody is to read it.
+void hush_drivers() {
+    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nothing >= 0) dup2(nothing, STDERR_FILENO);
+}
+
 /// Waits for one of the signals, which are blocked.
 void wait_for_signal(const sigset_t& signals) {
     int number = 0;
@@ -69,6 +76,7 @@ void wait_for_signal(const sigset_t& signals) {
     tell_end();
     ending_thread = gettid();
     std::signal(SIGABRT, outlast_abort);
+    hush_drivers();
     remove_unfinished_files();
     _exit(interrupted_code());
 }

@@ -16,11 +16,13 @@ glm::dvec3 vector_of(const nlohmann::json& json) {
 }
 
 nlohmann::json json_of(const SurfaceArea& area) {
-    return {json_of(area.shadows), area.total};
+    return {json_of(area.shadows), area.total, area.triangles, json_of(area.widths),
+            area.half_edges};
 }
 
 SurfaceArea area_of(const nlohmann::json& json) {
-    return {vector_of(json.at(0)), json.at(1).get<double>()};
+    return {vector_of(json.at(0)), json.at(1).get<double>(), json.at(2).get<double>(),
+            vector_of(json.at(3)), json.at(4).get<double>()};
 }
 
 /// A name consists of the file's bytes, in whatever encoding.

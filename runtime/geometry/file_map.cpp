@@ -20,8 +20,10 @@ Bounds rounded(const FileMap& map, const Bounds& box) {
     return {glm::dvec3(nearest_float(map, box.min)), glm::dvec3(nearest_float(map, box.max))};
 }
 
-SurfaceArea scaled(const SurfaceArea& area, double factor) {
-    return {area.shadows * factor, area.total * factor};
+SurfaceArea scaled(const SurfaceArea& area, double scale) {
+    const double factor = scale * scale;
+    return {area.shadows * factor, area.total * factor, area.triangles, area.widths * scale,
+            area.half_edges * scale};
 }
 
 /// The cells that some part of a surface lies in.
@@ -80,8 +82,8 @@ MeshSummary mapped(const FileMap& map, const MeshSummary& summary) {
     MeshSummary result = summary;
     result.surface = rounded(map, summary.surface);
     result.vertices = rounded(map, summary.vertices);
-    result.area = scaled(summary.area, map.scale * map.scale);
-    result.min_area = scaled(summary.min_area, map.scale * map.scale);
+    result.area = scaled(summary.area, map.scale);
+    result.min_area = scaled(summary.min_area, map.scale);
     result.topology.hole_area *= map.scale * map.scale;
     result.topology.volume *= map.scale * map.scale * map.scale;
     return result;

@@ -14,7 +14,8 @@
 namespace voxelume {
 namespace {
 
-/// A patch's mean shadow per area over all directions, summed over the three axes.
+/// A patch's mean shadow per area over all directions, summed over the three axes; an edge's mean
+/// extent per length is the same.
 constexpr double kMeanShadow = 1.5;
 
 /// The number of bricks that even the smallest surface may lie in.
@@ -102,6 +103,13 @@ void add_triangle(const Mesh& mesh, const glm::uvec3& triangle, SurfaceArea& are
     const glm::dvec3 vector = area_vector(mesh, triangle);
     area.shadows += glm::abs(vector);
     area.total += glm::length(vector);
+    ++area.triangles;
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 edge = glm::dvec3(mesh.positions[triangle[i]]) -
+                                glm::dvec3(mesh.positions[triangle[(i + 1) % 3]]);
+        area.widths += glm::abs(edge) / 2.0;  // an axis' range is passed there and back
+        area.half_edges += glm::length(edge) / 2.0;
+    }
 }
 
 }  // namespace
@@ -187,15 +195,20 @@ SurfaceExtent surface_extent(const SurfaceArea& area, const glm::dmat4& frame_fr
     // Area vectors map by the matrix of cofactors.
     const glm::dmat3 cofactors = std::abs(glm::determinant(voxels_from_surface)) *
                                  glm::transpose(glm::inverse(voxels_from_surface));
-    glm::dvec3 shadows(0);
-    double largest = 0;
+    glm::dvec3 shadows(0), widths(0);
+    double largest = 0, longest = 0;
     for (int column = 0; column < 3; ++column) {
         shadows += glm::abs(cofactors[column]) * area.shadows[column];
         largest = std::max(largest, glm::length(cofactors[column]));
+        widths += glm::abs(voxels_from_surface[column]) * area.widths[column];
+        longest = std::max(longest, glm::length(voxels_from_surface[column]));
     }
     const double mean = kMeanShadow * area.total * largest;
     SurfaceExtent extent;
     extent.voxels = std::min(shadows.x + shadows.y + shadows.z, mean);
+    extent.listed =
+        extent.voxels + area.triangles +
+        std::min(widths.x + widths.y + widths.z, kMeanShadow * area.half_edges * longest);
     const double thickness = kBrickSize + 2 * band / kMeanShadow;
     const glm::ivec3 table = frame.bricks();
     extent.bricks =

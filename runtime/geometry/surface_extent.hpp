@@ -6,6 +6,9 @@
 // the same way, over e²; those within a distance b of the patch are 2 b area / e³ more. Curvature
 // and edges add lower terms, which are left out. For a patch that runs exactly between voxels, the
 // cubes on both sides belong to it; this is left out, too.
+//
+// A triangle alone meets more: of voxels at random places, as many as the Minkowski sum of it and a
+// voxel has volume, which is 1 + the sides of its box + its shadows, in voxels.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +22,21 @@
 
 namespace voxelume {
 
-/// The areas of a surface, m².
+/// The areas of a surface, m², and what its triangles add where each counts, if it has any.
 struct SurfaceArea {
     glm::dvec3 shadows{0};  ///< sums of the patches' |area vectors|, per axis
     double total = 0;
+    double triangles = 0;   ///< their number
+    glm::dvec3 widths{0};   ///< sums of the sides of the triangles' boxes, metres
+    double half_edges = 0;  ///< half of the sum of the triangles' edges, metres
 };
 
 /// What is left of an area without a part of it.
 inline SurfaceArea without(const SurfaceArea& area, const SurfaceArea& part) {
-    return {glm::max(area.shadows - part.shadows, 0.0), std::max(area.total - part.total, 0.0)};
+    return {glm::max(area.shadows - part.shadows, 0.0), std::max(area.total - part.total, 0.0),
+            std::max(area.triangles - part.triangles, 0.0),
+            glm::max(area.widths - part.widths, 0.0),
+            std::max(area.half_edges - part.half_edges, 0.0)};
 }
 
 SurfaceArea mesh_area(const Mesh& mesh);
@@ -53,6 +62,7 @@ double part_inside(const Mesh& mesh, const glm::dmat4& box_from_mesh, const Soli
 struct SurfaceExtent {
     double voxels = 0;
     double bricks = 0;  ///< within `band` of the surface
+    double listed = 0;  ///< pairs of a voxel and a triangle that meets it; voxels without triangles
 };
 
 /// The extent of a surface that `frame_from_surface` maps into the space of `frame`. A turned

@@ -28,9 +28,7 @@ void check_lattice(const Object& object, const Model& model, const glm::ivec3& s
 
 /// The voxels that rays must see of a grid, and the primitives that these list.
 WorldCounts indexed_counts(const GridCounts& grid) {
-    const double solid_or_mesh = grid.triangles > 0 ? kTrianglesPerVoxel : 1;
-    const double each = grid.surface == Surface::exact ? solid_or_mesh : 0;
-    return {grid.bricks, grid.voxels, size_t(each * double(grid.voxels))};
+    return {grid.bricks, grid.voxels, grid.listed};
 }
 
 /// Makes the grid by `make`, and notes what that takes.

@@ -32,6 +32,8 @@ TEST(SurfaceExtent, AFlatPatchTakesItsShadowsVoxels) {
     const SurfaceExtent flat = surface_extent(area, glm::dmat4(1), frame, 0);
     EXPECT_NEAR(flat.voxels, 300 * 100, 1e-6);
     EXPECT_NEAR(flat.bricks, 300 * 100 / 256.0 + 8, 1e-6);
+    // Both triangles have boxes of 300 x 100 voxels.
+    EXPECT_NEAR(flat.listed, 300 * 100 + 2 + 2 * (300 + 100), 1e-6);
     // The rectangle stands upright after y and z are swapped: 3 m / 0.01 times 2 m / 0.05.
     const glm::dmat4 upright(glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, 1, 0}));
     EXPECT_NEAR(surface_extent(area, upright, frame, 0).voxels, 300 * 40, 1e-6);
@@ -44,6 +46,34 @@ TEST(SurfaceExtent, ATurnedPatchCrossesMoreVoxels) {
     const GridFrame frame = frame_of(glm::dvec3(0.01), {300, 200, 200});
     const double voxels = surface_extent(area, turn, frame, 0).voxels;
     EXPECT_NEAR(voxels, std::sqrt(2.0) * 300 * 200, 1e-6);
+}
+
+/// The mean number of unit cells that segments along axes meet, wherever the cells lie.
+double mean_cells(const std::vector<glm::dvec3>& segments) {
+    constexpr int kShifts = 64;
+    double met = 0;
+    for (const glm::dvec3& segment : segments)
+        for (int shift = 0; shift < kShifts; ++shift) {
+            const glm::dvec3 low((shift + 0.5) / kShifts);
+            const glm::dvec3 cells = glm::floor(low + segment) - glm::floor(low) + 1.0;
+            met += cells.x * cells.y * cells.z;
+        }
+    return met / kShifts;
+}
+
+TEST(SurfaceExtent, TrianglesOfNoAreaAreListedByTheCellsThatTheyMeet) {
+    const std::vector<glm::dvec3> segments = {{0.25, 0, 0}, {0, 3.5, 0}, {0, 0, 10.75}, {0, 0, 0}};
+    Mesh mesh;
+    for (const glm::dvec3& segment : segments) {
+        const auto first = uint32_t(mesh.positions.size());
+        mesh.positions.emplace_back(0);
+        mesh.positions.emplace_back(segment);
+        mesh.positions.emplace_back(segment / 2.0);
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    const GridFrame frame = frame_of(glm::dvec3(1), glm::ivec3(16));
+    EXPECT_NEAR(surface_extent(mesh_area(mesh), glm::dmat4(1), frame, 0).listed,
+                mean_cells(segments), 1e-9);
 }
 
 TEST(SurfaceExtent, OnlyThePartInsideTheWorldCounts) {

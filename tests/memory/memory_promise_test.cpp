@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/batch/render_frames.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
@@ -29,6 +30,7 @@ constexpr double kMaxOfFrames = 1.6;
 
 double promised(Scene scene, const std::vector<int>& frames, const Device& device) {
     AssetStore meshes;
+    make_choices(scene, meshes);
     find_potentially_visible(scene, frames, meshes);
     const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
     EXPECT_LE(planned.plan.min_bytes, planned.plan.peak_bytes());

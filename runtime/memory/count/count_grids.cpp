@@ -79,9 +79,8 @@ void count_surface(const Device& device, const GridCounts& counts, BrickGrid& gr
 
 /// Follows list_primitives, keep_triangles, keep_normals and keep_textures.
 void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& grid) {
-    const auto listed = size_t(kTrianglesPerVoxel * double(counts.voxels));
     grid.primitive_first = allocate_list_starts(device, "primitive starts", counts.bricks);
-    grid.primitives = Buffer<uint32_t>(device, "primitives", listed);
+    grid.primitives = Buffer<uint32_t>(device, "primitives", counts.listed);
     grid.triangles =
         Buffer<float>(device, "source triangles", kFloatsPerTriangle * counts.triangles);
     grid.triangle_attributes = Buffer<uint32_t>(device, "source attributes", counts.triangles);

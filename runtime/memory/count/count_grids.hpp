@@ -21,14 +21,12 @@ struct GridCounts {
     bool cube_normals = false;           ///< cubes have them
     size_t bricks = 0;                   ///< stored
     size_t voxels = 0;                   ///< that the surface passes through
+    size_t listed = 0;                   ///< primitives that those of an exact surface list
     size_t vertices = 0, triangles = 0;  ///< of a mesh
     size_t shapes = 0;                   ///< of an analytic solid
     size_t parts = 1;                    ///< ... or of a cut mesh, whose distances are kept apart
     size_t cut_bricks = 0;               ///< of a cut mesh's other parts
 };
-
-/// The number of triangles that a voxel of an exact mesh lists.
-inline constexpr double kTrianglesPerVoxel = 2.5;
 
 /// The grid of a mesh, or of a solid, which has `shapes`. Whatever else is made is freed before it
 /// returns; the device's counters tell the maximum.

@@ -44,11 +44,12 @@ double filled_voxels(const SurfaceExtent& extent, double inside) {
 
 /// The smaller of two counts: areas tell too much of small surfaces, and too little of others.
 SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
-    return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
+    return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks),
+            std::min(a.listed, b.listed)};
 }
 
 SurfaceExtent with_margin(const SurfaceExtent& extent, double voxel_margin = kMargin) {
-    return {voxel_margin * extent.voxels, kMargin * extent.bricks};
+    return {voxel_margin * extent.voxels, kMargin * extent.bricks, voxel_margin * extent.listed};
 }
 
 VoxelBox whole_of(const GridFrame& frame) {
@@ -63,6 +64,12 @@ BrickCount count_model(const Model& model, const glm::dmat4& frame_from_model,
     return count_bricks(SolidField(*model.solid, frame_from_model), frame, box, rule, taken);
 }
 
+/// Primitives that an exact surface's voxels list: the solid, or each triangle that meets one.
+double listed(const Model& model, const SurfaceExtent& extent) {
+    if (model.surface != Surface::exact) return 0;
+    return model.solid ? extent.voxels : extent.listed;
+}
+
 /// `mesh` is null for a model that has none.
 GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFrame& frame,
                      const SurfaceExtent& extent) {
@@ -73,6 +80,7 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     const double all = table.x * table.y * table.z * double(counts.parts);
     counts.bricks = size_t(std::clamp(extent.bricks, 1.0, all));
     counts.voxels = size_t(std::max(extent.voxels, 1.0));
+    counts.listed = size_t(listed(model, extent));
     counts.cube_normals = shows_voxels(model.surface) && model.normals == CubeNormals::surface;
     if (model.solid) counts.shapes = count_nodes(*model.solid);
     if (!mesh) return counts;
@@ -99,11 +107,6 @@ WorldCounts sum_of(const WorldExtent& extent, double primitives, const PartBrick
     counts.field_bricks = size_t(std::ceil(parts.of_fields));
     counts.other_bricks = size_t(std::ceil(std::min(parts.of_others, table)));
     return counts;
-}
-
-/// Primitives that a voxel of an exact surface lists.
-double listed(const Model& model) {
-    return model.surface != Surface::exact ? 0 : model.solid ? 1 : kTrianglesPerVoxel;
 }
 
 }  // namespace
@@ -267,11 +270,11 @@ WorldCounts ObjectCounts::expected_world() {
             of_fields += extent.bricks;
         else
             of_others += kMargin * new_bricks;
-        primitives += extent.voxels * listed(model);
+        primitives += listed(model, extent);
         const SurfaceExtent thin = with_margin(extents_.thin_part(object, kPlacedBand));
         sum.voxels += thin.voxels;  // its voxels that are smooth as well list two records
         of_others += thin.bricks;
-        primitives += thin.voxels * kTrianglesPerVoxel;
+        primitives += thin.listed;
     }
     return sum_of(sum, primitives, {of_fields, of_others}, frame);
 }

@@ -48,7 +48,7 @@ SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_l
     const SurfaceArea area = at_least ? min_area_of(model, meshes_) : area_of(object.model);
     const SurfaceExtent extent = surface_extent(area, map, frame_, band);
     const double inside = part_in_world(object);
-    return {extent.voxels * inside, extent.bricks * inside};
+    return {extent.voxels * inside, extent.bricks * inside, extent.listed * inside};
 }
 
 SurfaceExtent ObjectExtents::minimum(const Object& object, double band) {
