@@ -15,6 +15,7 @@ Usage: ./bootstrap.sh COMMAND
   test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
+  trust   kill, starve, feed with damage and tire the program, for hours; or a share: trust 0.01
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
   watch   hold what compilers for GPUs of NVIDIA, AMD and Intel make of kernels against limits
   farm    try the recipes of scenes/farm with the real Slurm, GNU parallel and OpenJD
@@ -224,6 +225,7 @@ debian_package() {
 case "$*" in
     demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
+    trust | 'trust '[0-9]*) install_packages packages.txt ;;
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;
     watch | 'watch --accept') install_packages packages.txt .ci/watch_packages.txt ;;
     farm) install_packages packages.txt .ci/farm_packages.txt ;;
@@ -252,6 +254,10 @@ case "$1" in
         ;;
     test) run_tests "${2:-}" ;;
     fuzz) run_fuzzers "${2:-60}" ;;
+    trust)
+        build_targets voxelume write_faults
+        tests/trust/all.py "$build/voxelume" "$build/tests/libwrite_faults.so" "${2:-1}"
+        ;;
     drivers)
         build_targets voxelume pictures_tests kernels_tests
         .ci/drivers "$build"

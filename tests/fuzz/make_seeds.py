@@ -182,4 +182,5 @@ def main():
             (folder / name / f"seed{i}").write_bytes(content)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -77,8 +77,9 @@ void remove_leftovers(const fs::path& folder) {
 std::string reason_for(int code, const fs::path& folder) {
     switch (code) {
         case ENOSPC:
-        case EDQUOT:
             return "the disk is full; free some space or write to another folder";
+        case EDQUOT:
+            return "your quota of the disk is used up; free some space or write to another folder";
         case EFBIG:
             return "the file grows beyond the size allowed here; see `ulimit -f`";
         case EROFS:

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// A library that is preloaded into the program. It counts calls that write to files below a folder,
+// and has one of them fail, as a full or broken disk would have it.
+//
+// VXL_WRITE_FAULT=FOLDER:N:ERRNO has the N-th such call (from 1 on) of a process, and all later
+// ones, do nothing and fail with that error; with 0 for N none does. VXL_WRITE_COUNTS=FILE writes
+// the number of the calls to FILE when a process ends that made some.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace {
+
+struct Fault {
+    std::string folder;
+    long number = 0;
+    int code = 0;
+};
+
+/// What VXL_WRITE_FAULT asks for; an unknown form ends the program.
+Fault requested_fault() {
+    const char* const text = std::getenv("VXL_WRITE_FAULT");
+    if (!text) return {};
+    char folder[512];
+    Fault fault;
+    if (std::sscanf(text, "%511[^:]:%ld:%d", folder, &fault.number, &fault.code) != 3) std::abort();
+    fault.folder = std::string(folder) + "/";
+    return fault;
+}
+
+class Calls {
+  public:
+    ~Calls() {
+        const char* const file = std::getenv("VXL_WRITE_COUNTS");
+        if (count_ == 0 || !file) return;
+        if (FILE* const out = std::fopen(file, "w")) {
+            std::fprintf(out, "%ld\n", count_.load());
+            std::fclose(out);
+        }
+    }
+
+    /// Whether the call that writes to the file at `path` is to fail; errno says why, then.
+    bool fails(const char* path) {
+        if (fault_.folder.empty() || std::strncmp(path, fault_.folder.c_str(), fault_.folder.size()))
+            return false;
+        const long number = ++count_;
+        if (fault_.number == 0 || number < fault_.number) return false;
+        errno = fault_.code;
+        return true;
+    }
+
+    bool fails(int file) {
+        if (fault_.folder.empty() || file < 3) return false;
+        char link[64], path[1024];
+        std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+        const ssize_t size = readlink(link, path, sizeof path - 1);
+        if (size <= 0) return false;
+        path[size] = 0;
+        return fails(path);
+    }
+
+  private:
+    const Fault fault_ = requested_fault();
+    std::atomic<long> count_ = 0;
+};
+
+Calls calls;
+
+template <class Function>
+Function* next(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+#define VXL_WRITING_CALL(type, name, parameters, arguments, where)       \
+    extern "C" type name parameters {                                    \
+        static decltype(&name) const real = next<decltype(name)>(#name); \
+        if (calls.fails(where)) return -1;                               \
+        return real arguments;                                           \
+    }
+
+VXL_WRITING_CALL(ssize_t, write, (int file, const void* data, size_t size), (file, data, size),
+                 file)
+VXL_WRITING_CALL(ssize_t, pwrite, (int file, const void* data, size_t size, off_t at),
+                 (file, data, size, at), file)
+VXL_WRITING_CALL(ssize_t, pwrite64, (int file, const void* data, size_t size, off64_t at),
+                 (file, data, size, at), file)
+VXL_WRITING_CALL(ssize_t, writev, (int file, const iovec* parts, int count), (file, parts, count),
+                 file)
+VXL_WRITING_CALL(int, ftruncate, (int file, off_t size) noexcept, (file, size), file)
+VXL_WRITING_CALL(int, fsync, (int file), (file), file)
+VXL_WRITING_CALL(int, fdatasync, (int file), (file), file)
+VXL_WRITING_CALL(int, posix_fallocate, (int file, off_t at, off_t size), (file, at, size), file)
+VXL_WRITING_CALL(int, rename, (const char* from, const char* to) noexcept, (from, to), to)

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Has each call that writes fail, of every format: exit code 5, a sentence with path and cause."""
+import argparse
+import errno
+import os
+import pathlib
+import random
+import shutil
+import tempfile
+
+import outputs
+from runs import Tally, files_below, run, sentence_faults
+
+CAUSES = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "quota", errno.EIO: os.strerror(errno.EIO)}
+
+
+def counted_calls(program, library, arguments, folder):
+    """The number of calls with which a run writes to `out`."""
+    counts = folder / "counts"
+    counts.unlink(missing_ok=True)
+    (folder / "out").mkdir()
+    result = run(program, arguments, folder, environment={
+        "LD_PRELOAD": str(library), "VXL_WRITE_FAULT": f"{folder}/out:0:0",
+        "VXL_WRITE_COUNTS": str(counts)})
+    assert result.code == 0, result
+    shutil.rmtree(folder / "out")
+    return int(counts.read_text())
+
+
+def faults_of(result, folder, error):
+    faults = []
+    if result.hung:
+        return ["it hangs"]
+    if result.code != 5:
+        faults.append(f"exit code {result.code}: {result.err.strip()}")
+    faults += sentence_faults(result)
+    if CAUSES[error] not in result.err:
+        faults.append(f"the cause is missing in {result.err.strip()!r}")
+    if "out/" not in result.err:
+        faults.append(f"the path is missing in {result.err.strip()!r}")
+    left = list(files_below(folder / "out"))
+    # A run that writes several files may have ended some.
+    if [name for name in left if "####" not in name and not name.startswith(("b.", "s.", "v."))]:
+        faults.append(f"it leaves {left}")
+    return faults
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("library", type=pathlib.Path, help="what tests/support/write_faults.cpp makes")
+    parser.add_argument("--calls", type=int, default=64, help="tried of each format, if it has more")
+    parser.add_argument("--seed", type=int, default=25)
+    options = parser.parse_args()
+    chosen, tally = random.Random(options.seed), Tally("broken disks")
+    program, library = options.program.resolve(), options.library.resolve()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        outputs.write_inputs(folder)
+        for arguments in outputs.PREPARATIONS:
+            assert run(program, arguments, folder).code == 0
+        for what, arguments in outputs.commands():
+            calls = counted_calls(program, library, arguments, folder)
+            numbers = range(1, calls + 1)
+            if calls > options.calls:
+                numbers = sorted({1, calls, *chosen.sample(numbers, options.calls - 2)})
+            for number in numbers:
+                error = chosen.choice(list(CAUSES))
+                (folder / "out").mkdir()
+                result = run(program, arguments, folder, environment={
+                    "LD_PRELOAD": str(library), "VXL_WRITE_FAULT": f"{folder}/out:{number}:{error}"})
+                tally.add(f"{what}, call {number} of {calls}, {errno.errorcode[error]}",
+                          faults_of(result, folder, error))
+                shutil.rmtree(folder / "out")
+    return tally.end(f", seed {options.seed}") > 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Kills runs at random moments: files are whole or absent, and the next run leaves nothing else."""
+import argparse
+import pathlib
+import random
+import shutil
+import tempfile
+import time
+
+import outputs
+from runs import Tally, files_below, run
+
+
+def visible(files):
+    return {name: data for name, data in files.items() if not pathlib.Path(name).name.startswith(".")}
+
+
+def strangers(cache):
+    """Files and folders of processes that a run left in a cache."""
+    return [str(path) for path in cache.rglob("*")
+            if path.name.endswith(".tmp") or path.name.startswith("pocl-")]
+
+
+class Kills:
+    def __init__(self, program, folder, seed):
+        self.program, self.folder = program, folder
+        self.random = random.Random(seed)
+        self.out, self.tally = folder / "out", Tally("kills")
+        self.seconds, self.whole = {}, {}
+
+    def prepare(self):
+        outputs.write_inputs(self.folder)
+        for arguments in outputs.PREPARATIONS:
+            assert run(self.program, arguments, self.folder).code == 0
+        for name, arguments in outputs.commands():
+            self.out.mkdir()
+            started = time.monotonic()
+            result = run(self.program, arguments, self.folder)
+            assert result.code == 0, (name, result)
+            self.seconds[name] = time.monotonic() - started
+            self.whole[name] = visible(files_below(self.out))
+            shutil.rmtree(self.out)
+
+    def kill_output(self, name, arguments):
+        """Kills a run that may find what an earlier one left, then lets one end."""
+        self.out.mkdir()
+        faults = []
+        for _ in range(self.random.randint(1, 3)):
+            moment = self.random.uniform(0, 1.1 * self.seconds[name])
+            run(self.program, arguments, self.folder, kill_after=moment)
+            for file, data in visible(files_below(self.out)).items():
+                if "stats.json" not in file and data != self.whole[name].get(file):
+                    faults.append(f"{file} isn't whole after a kill at {moment:.4f} s")
+            self.tally.runs += 1
+        result = run(self.program, arguments, self.folder)
+        if result.code != 0:
+            faults.append(f"the next run ends with {result.code}: {result.err}")
+        left = set(files_below(self.out)) - set(self.whole[name])
+        if left:
+            faults.append(f"the next run leaves {sorted(left)}")
+        shutil.rmtree(self.out)
+        self.tally.add(name, faults)
+
+    def kill_cache(self):
+        """Kills a run that fills a cache of its own."""
+        cache = self.folder / "cache"
+        arguments = ["render", "scene.json", "-q", "-o", "a.png"]
+        environment = {"VOXELUME_CACHE_DIR": str(cache)}
+        moment = self.random.uniform(0, 4)
+        run(self.program, arguments, self.folder, kill_after=moment, environment=environment)
+        result = run(self.program, arguments, self.folder, environment=environment)
+        faults = [] if result.code == 0 else [f"the next run ends with {result.code}: {result.err}"]
+        if left := strangers(cache):
+            faults.append(f"the next run leaves {left} after a kill at {moment:.4f} s")
+        shutil.rmtree(cache, ignore_errors=True)
+        self.tally.add("cache", faults)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=25)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        kills = Kills(options.program.resolve(), pathlib.Path(folder), options.seed)
+        kills.prepare()
+        commands = list(outputs.commands())
+        while kills.tally.runs < options.kills:
+            if kills.random.random() < 0.05:
+                kills.kill_cache()
+            else:
+                kills.kill_output(*kills.random.choice(commands))
+        return kills.tally.end(f", seed {options.seed}") > 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
