@@ -30,7 +30,7 @@ class CliInterruptTest : public SceneProgramTest {
         std::vector<std::string> found;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename();
-            if (name.ends_with(".tmp") || name.starts_with("pocl-")) found.push_back(name);
+            if (name.ends_with(".tmp") || name.starts_with("pocl")) found.push_back(name);
         }
         return found;
     }

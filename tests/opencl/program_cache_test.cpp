@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "runtime/base/files/disk_cache.hpp"
+#include "runtime/base/files/process_tag.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/features.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -241,7 +242,7 @@ TEST_F(ProgramCacheFiles, AFolderThatOthersMayWriteToIsNotUsed) {
         fmt::format("VOXELUME_CACHE_DIR={0}/open TMPDIR={0}/open", folder.string());
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / "open"))
-        EXPECT_FALSE(entry.path().filename().string().starts_with("pocl-")) << entry.path();
+        EXPECT_FALSE(entry.path().filename().string().starts_with("pocl")) << entry.path();
 }
 
 TEST(ProgramCache, WithoutAFolderEveryRunCompiles) {
@@ -255,6 +256,19 @@ TEST_F(ProgramCacheFiles, KernelsServeEveryProgramThatHoldsThem) {
     EXPECT_EQ(compiled_by_processes(1, environment, "JoinsAndRuns"), std::vector<int>{0 + 2})
         << "the second's from the first's";
     EXPECT_EQ(compiled_by_processes(1, environment, "JoinsAndRuns"), std::vector<int>{3 + 2});
+}
+
+/// The number of a killed process may be another's since; when that one started tells.
+TEST_F(ProgramCacheFiles, FoldersOfKilledProcessesAreRemovedAtOnceAndOfLivingOnesNever) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string own = process_tag();
+    const std::string killed = "pocl." + own.substr(0, own.rfind('.')) + ".12345-aBc012";
+    const std::string living = "pocl." + own + "-aBc012";
+    for (const std::string& name : {killed, living})
+        fs::create_directories(folder / name / "AB");
+    compiled_by_processes(1, "VOXELUME_CACHE_DIR=" + folder.string());
+    EXPECT_FALSE(fs::exists(folder / killed));
+    EXPECT_TRUE(fs::exists(folder / living));
 }
 
 TEST_F(ProgramCacheFiles, LeavesNoFolderOfPoclBehind) {

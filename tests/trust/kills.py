@@ -19,7 +19,7 @@ def visible(files):
 def strangers(cache):
     """Files and folders of processes that a run left in a cache."""
     return [str(path) for path in cache.rglob("*")
-            if path.name.endswith(".tmp") or path.name.startswith("pocl-")]
+            if path.name.endswith(".tmp") or path.name.startswith("pocl")]
 
 
 class Kills:

@@ -139,13 +139,18 @@ void read_ply_texture(const fs::path& name, Mesh& mesh) {
     mesh.triangle_colors = {};
 }
 
+/// Whether a line has nothing but blanks before `at`.
+bool begins_line(const std::string& text, size_t at) {
+    while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
+    return at == 0 || text[at - 1] == '\n';
+}
+
 /// The names that statements mtllib of an OBJ file have.
 std::vector<std::string> library_names(const std::string& bytes) {
     constexpr std::string_view kWord = "mtllib";
     std::vector<std::string> names;
     for (size_t at = bytes.find(kWord); at != std::string::npos; at = bytes.find(kWord, at + 1)) {
-        const size_t line = at == 0 ? 0 : bytes.find_last_of('\n', at) + 1;
-        if (bytes.find_first_not_of(" \t", line) != at) continue;
+        if (!begins_line(bytes, at)) continue;
         const size_t begin = bytes.find_first_not_of(" \t", at + kWord.size());
         const size_t end = std::min(bytes.find('\n', at), bytes.size());
         if (begin == std::string::npos || begin >= end || begin == at + kWord.size()) continue;

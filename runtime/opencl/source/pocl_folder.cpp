@@ -11,9 +11,12 @@
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 #include "runtime/base/files/private_folder.hpp"
+#include "runtime/base/files/process_tag.hpp"
 #include "runtime/opencl/source/packed_files.hpp"
 
 namespace voxelume {
@@ -24,19 +27,29 @@ namespace fs = std::filesystem;
 /// The process's folder once it is made, for those who may not make it.
 std::atomic<const PoclFolder*> existing_folder = nullptr;
 
-constexpr const char* kPrefix = "pocl-";
+constexpr const char* kPrefix = "pocl";          // older versions named them pocl-NUMBER-RANDOM
+constexpr std::string_view kRandom = "-XXXXXX";  // the end of a folder's name
 constexpr const char* kLock = "lock";
 
 std::atomic<bool> folder_is_allowed = true;
 
+/// Whether the process that a folder's name tells is known to have ended.
+bool is_of_dead_process(const fs::path& folder) {
+    const std::string name = folder.filename();
+    return name.size() > kRandom.size() &&
+           ends_with_dead_tag(std::string_view(name).substr(0, name.size() - kRandom.size()));
+}
+
 /// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
-/// than a minute old is left, since its process may not have locked it yet; so are other users'.
+/// than a minute old of a process that may live is left, since it may not have locked it yet; so
+/// are other users'.
 void remove_stale_folders(const fs::path& parent) {
     std::error_code error;
     const auto now = fs::file_time_type::clock::now();
     for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
         if (!entry.path().filename().string().starts_with(kPrefix)) continue;
-        if (now - entry.last_write_time(error) < std::chrono::minutes(1) || error) continue;
+        const bool is_new = now - entry.last_write_time(error) < std::chrono::minutes(1);
+        if (error || (is_new && !is_of_dead_process(entry.path()))) continue;
         const PrivateFolder folder = PrivateFolder::open(entry.path());
         if (!folder) continue;
         const int lock = openat(folder.descriptor(), kLock,
@@ -54,7 +67,7 @@ fs::path make_folder(const fs::path& parent) {
     std::error_code error;
     if (!make_safe_parent(parent)) return {};
     if (fs::space(parent, error).available < kRoom || error) return {};
-    std::string name = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
+    std::string name = (parent / fmt::format("{}.{}{}", kPrefix, process_tag(), kRandom)).string();
     return mkdtemp(name.data()) ? fs::path(name) : fs::path();
 }
 
