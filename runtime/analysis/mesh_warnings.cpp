@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <span>
 
 #include "runtime/base/text.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -14,15 +16,29 @@ namespace {
 
 constexpr size_t kMaxNotes = 8;  // warnings of one file
 
+/// The mesh's file, in quotes. Files of one name in different folders are told apart.
+std::string file_of(const Scene& scene, const Model& model) {
+    const std::filesystem::path name = model.mesh.filename();
+    const bool is_one = std::ranges::all_of(scene.models, [&](const Model& other) {
+        return other.mesh == model.mesh || other.mesh.filename() != name;
+    });
+    if (is_one) return quote(name.string());
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::absolute(scene.file, error).parent_path();
+    const std::filesystem::path below = std::filesystem::relative(model.mesh, folder, error);
+    const bool leads_out = error || below.empty() || *below.begin() == "..";
+    return quote((leads_out ? model.mesh : below).string());
+}
+
 bool needs_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     return stores_distances(model.surface) || transmits(scene, object) ||
            (shows_voxels(model.surface) && model.set == VoxelSet::solid);
 }
 
-void add_topology_warnings(const Model& model, const MeshSummary& mesh,
+void add_topology_warnings(const Scene& scene, const Model& model, const MeshSummary& mesh,
                            std::vector<Warning>& warnings) {
-    const std::string file = quote(model.mesh.filename().string());
+    const std::string file = file_of(scene, model);
     if (is_open(mesh)) {
         add_once({WarningKind::open_mesh, model.where,
                   fmt::format("{} is open along {} edges, and its surface needs an inside: close "
@@ -70,6 +86,16 @@ std::string missed_materials(const Object& object, const MeshSummary& mesh) {
     return object.material == 0 ? fmt::format("{} isn't read", library) : "";
 }
 
+/// What is wrong with each library.
+std::string faults_of_libraries(const std::vector<std::string>& faults) {
+    const std::span<const std::string> shown(faults.data(), std::min(faults.size(), kMaxNotes));
+    std::string text = fmt::format("{}", fmt::join(shown, ", "));
+    if (faults.size() > shown.size())
+        text +=
+            fmt::format(", and {} more of its libraries aren't read", faults.size() - shown.size());
+    return text;
+}
+
 /// What to do about what is missed.
 std::string material_advice(const Object& object, const MeshSummary& mesh) {
     if (mesh.group_names.size() < 2) return "give the object a \"material\" of the scene";
@@ -78,32 +104,41 @@ std::string material_advice(const Object& object, const MeshSummary& mesh) {
                        quote(missing.empty() ? mesh.group_names.front() : missing.front()));
 }
 
+/// An object whose file is told of.
+struct ShownFile {
+    const Scene& scene;
+    const Object& object;
+    const Model& model;
+    const MeshSummary& mesh;
+};
+
 /// Adds a sentence on a file, which is told of the first object that shows it. Names in files may
 /// be of any length.
-void add_note(const Object& object, std::string text, std::vector<Warning>& warnings) {
+void add_note(const ShownFile& of, const std::string& sentence, std::vector<Warning>& warnings) {
     constexpr size_t kMaxLength = 600;
+    std::string text = fmt::format("{}: {}", file_of(of.scene, of.model), sentence);
     if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
+    const std::string file = of.model.mesh.string();
     const bool is_known = std::ranges::any_of(warnings, [&](const Warning& warning) {
-        return warning.kind == WarningKind::ignored_materials && warning.text == text;
+        return warning.kind == WarningKind::ignored_materials && warning.file == file &&
+               warning.text == text;
     });
-    if (!is_known) warnings.push_back({WarningKind::ignored_materials, object.where, text});
+    if (!is_known)
+        warnings.push_back({WarningKind::ignored_materials, of.object.where, text, file});
 }
 
-void add_material_warning(const Object& object, const Model& model, const MeshSummary& mesh,
-                          std::vector<Warning>& warnings) {
-    const std::string file = quote(model.mesh.filename().string());
-    const size_t shown = std::min(mesh.notes.size(), kMaxNotes);
-    for (size_t i = 0; i < shown; ++i)
-        add_note(object, fmt::format("{}: {}", file, mesh.notes[i]), warnings);
-    if (mesh.notes.size() > shown)
-        add_note(object,
-                 fmt::format("{}: {} more of what it has isn't shown; `voxelume info` lists it",
-                             file, mesh.notes.size() - shown),
+void add_material_warning(const ShownFile& of, std::vector<Warning>& warnings) {
+    const std::vector<std::string>& notes = of.mesh.notes;
+    const size_t shown = std::min(notes.size(), kMaxNotes);
+    for (size_t i = 0; i < shown; ++i) add_note(of, notes[i], warnings);
+    if (notes.size() > shown)
+        add_note(of,
+                 fmt::format("{} more of what it has isn't shown; `voxelume info` lists it",
+                             notes.size() - shown),
                  warnings);
-    const std::string missed = missed_materials(object, mesh);
+    const std::string missed = missed_materials(of.object, of.mesh);
     if (missed.empty()) return;
-    add_note(object, fmt::format("{}: {}; {}", file, missed, material_advice(object, mesh)),
-             warnings);
+    add_note(of, fmt::format("{}; {}", missed, material_advice(of.object, of.mesh)), warnings);
 }
 
 /// What of the textures a surface doesn't show; empty if it shows all.
@@ -116,30 +151,23 @@ std::string missed_of_textures(const MeshPaint& paint, Surface surface) {
     return alpha ? "the alpha of its textures isn't" : "";
 }
 
-void add_texture_warning(const Model& model, const MeshPaint& paint,
+void add_texture_warning(const Scene& scene, const Model& model, const MeshPaint& paint,
                          std::vector<Warning>& warnings) {
     const std::string missed = missed_of_textures(paint, model.surface);
     if (missed.empty()) return;
     const bool wants_exact = paint.has_alpha;
-    add_once(
-        {WarningKind::ignored_materials, model.where,
-         fmt::format("{}: {} shown on \"{}\": give the model \"surface\": {}",
-                     quote(model.mesh.filename().string()), missed, kind_of(model.surface).name,
-                     wants_exact ? "\"exact\"" : "\"smooth\" or \"exact\"")},
-        warnings);
+    add_once({WarningKind::ignored_materials, model.where,
+              fmt::format("{}: {} shown on \"{}\": give the model \"surface\": {}",
+                          file_of(scene, model), missed, kind_of(model.surface).name,
+                          wants_exact ? "\"exact\"" : "\"smooth\" or \"exact\"")},
+             warnings);
 }
 
 }  // namespace
 
 std::string missing_materials_sentence(const std::vector<std::string>& missing,
                                        const MeshSummary& mesh) {
-    if (!mesh.library_faults.empty()) {
-        const size_t others = mesh.library_faults.size() - 1;
-        return mesh.library_faults.front() +
-               (others == 0   ? ""
-                : others == 1 ? ", and " + mesh.library_faults.back()
-                              : fmt::format(", and {} more of its libraries aren't read", others));
-    }
+    if (!mesh.library_faults.empty()) return faults_of_libraries(mesh.library_faults);
     const bool is_one = missing.size() == 1;
     const std::string its =
         is_one ? fmt::format("its material {}", quote(missing[0]))
@@ -153,9 +181,9 @@ void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& mes
     const Model& model = scene.models[size_t(object.model)];
     if (!object.visible || model.mesh.empty()) return;
     const MeshSummary& mesh = *meshes.summary_of(model);
-    if (needs_inside(scene, object)) add_topology_warnings(model, mesh, warnings);
-    add_material_warning(object, model, mesh, warnings);
-    add_texture_warning(model, mesh.paint, warnings);
+    if (needs_inside(scene, object)) add_topology_warnings(scene, model, mesh, warnings);
+    add_material_warning({scene, object, model, mesh}, warnings);
+    add_texture_warning(scene, model, mesh.paint, warnings);
 }
 
 }  // namespace voxelume

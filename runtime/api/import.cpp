@@ -92,7 +92,10 @@ Scene scene_of_file(const fs::path& file, const ImportOptions& options,
         const fs::path found = find_file(file);
         const std::string text = voxelume::scene_of_file(found, found.filename().string(),
                                                          options_of(options), files.store());
-        return api::read_with_changes(parse_json(text, found.string()), found, files);
+        JsonValue document = parse_json(text, found.string());
+        name_parts(document);
+        // Messages name the file as the caller does.
+        return api::read_with_changes(document, fs::is_symlink(file) ? found : file, files);
     });
 }
 
@@ -103,7 +106,9 @@ Scene scene_of_voxels(const VoxelArray& voxels, const ImportOptions& options,
     return api::read_handle(with_voxels, [&](const api::SceneFiles& files) {
         const std::string text = voxelume::scene_of_voxels(
             files.given.find(voxels.name)->second, voxels.name, options_of(options), files.store());
-        return api::read_with_changes(parse_json(text, voxels.name), voxels.name, files);
+        JsonValue document = parse_json(text, voxels.name);
+        name_parts(document);
+        return api::read_with_changes(document, voxels.name, files);
     });
 }
 

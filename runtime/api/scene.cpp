@@ -18,20 +18,6 @@
 
 namespace voxelume {
 
-namespace {
-
-/// Makes the values stand on no line of a text.
-void forget_places(JsonValue& value) {
-    value.at = {0, 0};
-    for (JsonValue& item : value.items) forget_places(item);
-    for (JsonMember& member : value.members) {
-        member.at = {0, 0};
-        forget_places(member.value);
-    }
-}
-
-}  // namespace
-
 std::optional<AssetStore> api::ReadAssets::take(const v1::CacheOptions& cache) {
     const std::lock_guard lock(mutex_);
     const bool is_same = cache.enabled == cache_.enabled && cache.folder == cache_.folder &&

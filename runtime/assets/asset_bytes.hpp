@@ -24,9 +24,9 @@ inline uint64_t mesh_bytes(const Mesh& mesh) {
 }
 
 inline uint64_t voxel_bytes(const VoxelModel& voxels) {
-    return mesh_bytes(voxels.mesh) + bytes_in(voxels.slots, voxels.coordinates, voxels.occupancy,
-                                              voxels.distance, voxels.attributes, voxels.colors,
-                                              voxels.normals);
+    return voxels.color_codes.size() + mesh_bytes(voxels.mesh) +
+           bytes_in(voxels.slots, voxels.coordinates, voxels.occupancy, voxels.distance,
+                    voxels.attributes, voxels.colors, voxels.normals);
 }
 
 }  // namespace voxelume

@@ -41,7 +41,7 @@ VoxelModel AssetStore::read_voxels(const Model& model) {
     ++meshes_read_;
     return model.part > 0 && is_vox_file(model.voxels)
                ? read_vox_model(vox_file(model.voxels), model.surface, model.part)
-               : read_voxel_model(model.voxels, model.surface, model.part, model.values);
+               : read_coded_model(model.voxels, model.surface, model.part, model.values);
 }
 
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {

@@ -163,6 +163,13 @@ std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& path)
 
 VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, int part,
                             const VoxelValues& values) {
+    VoxelModel model = read_coded_model(path, surface, part, values);
+    model.widen_colors();
+    return model;
+}
+
+VoxelModel read_coded_model(const std::filesystem::path& path, Surface surface, int part,
+                            const VoxelValues& values) {
     const InputFile file(path);
     const std::string start = start_of(file);
     if (part == 0)

@@ -22,10 +22,14 @@ namespace voxelume {
 VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface, int part = 0,
                             const VoxelValues& values = {});
 
+/// Reads it likewise, with colours as codes where its file has them so.
+VoxelModel read_coded_model(const std::filesystem::path& file, Surface surface, int part = 0,
+                            const VoxelValues& values = {});
+
 /// True if a file begins as those of MagicaVoxel do.
 bool is_vox_file(const std::filesystem::path& file);
 
-/// The part of a .vox file whose structure has been read.
+/// The part of a .vox file whose structure has been read, with codes as colours.
 VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part);
 
 /// The surface that a .vxm says it has; none for other files. Throws Error::input for a missing or

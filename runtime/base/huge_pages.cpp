@@ -25,13 +25,4 @@ void advise_huge_pages(void* data, size_t bytes) {
     advise(data, bytes, MADV_HUGEPAGE);
 }
 
-void populate_pages(void* data, size_t bytes) {
-#ifdef MADV_POPULATE_WRITE
-    advise(data, bytes, MADV_POPULATE_WRITE);
-#else
-    static_cast<void>(data);
-    static_cast<void>(bytes);
-#endif
-}
-
 }  // namespace voxelume

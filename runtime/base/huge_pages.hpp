@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace voxelume {
@@ -11,12 +14,30 @@ namespace voxelume {
 /// 0.5 µs when it is first touched, which is as long as filling it takes.
 void advise_huge_pages(void* data, size_t bytes);
 
-/// Takes the memory of whole pages at once, where the system can: what is stored there stays.
-void populate_pages(void* data, size_t bytes);
+/// Leaves elements of an array undefined where it grows, so that whoever fills it touches its
+/// memory first, in as many threads as he likes.
+template <class Element>
+struct UnfilledMemory : std::allocator<Element> {
+    template <class Other>
+    struct rebind {  // NOLINT(readability-identifier-naming): as the standard has it
+        using other = UnfilledMemory<Other>;
+    };
+    template <class Other>
+    void construct(Other* place) noexcept {
+        ::new (static_cast<void*>(place)) Other;
+    }
+    template <class Other, class... Values>
+    void construct(Other* place, Values&&... values) {
+        ::new (static_cast<void*>(place)) Other(std::forward<Values>(values)...);
+    }
+};
+
+template <class Element>
+using UnfilledVector = std::vector<Element, UnfilledMemory<Element>>;
 
 /// Reserves memory for `count` elements, in large pages where there are any.
-template <class Element>
-void reserve_in_huge_pages(std::vector<Element>& elements, size_t count) {
+template <class Element, class Memory>
+void reserve_in_huge_pages(std::vector<Element, Memory>& elements, size_t count) {
     elements.reserve(count);
     advise_huge_pages(elements.data(), elements.capacity() * sizeof(Element));
 }

@@ -39,6 +39,7 @@ struct Warning {
     WarningKind kind = WarningKind::outside_world;
     SourcePlace where;
     std::string text;
+    std::string file = {};  ///< that it is about, where files of other folders may have its text
 };
 
 /// Whether both are about the same, whatever numbers their texts have.

@@ -38,15 +38,22 @@ struct DirectedEdge {
     uint64_t hash;  ///< of both places
 };
 
+/// By position. A place has a hash once, not for each of the six triangles that meet there.
+std::vector<uint64_t> place_hashes(const Mesh& mesh) {
+    std::vector<uint64_t> hashes(mesh.positions.size());
+    for (size_t i = 0; i < hashes.size(); ++i) hashes[i] = hash_of(bits_of(mesh.positions[i]));
+    return hashes;
+}
+
 /// Calls `visit` with each edge that has a length.
 template <class Visit>
-void for_each_edge(const Mesh& mesh, const Visit& visit) {
+void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_places, const Visit& visit) {
     for (const glm::uvec3& triangle : mesh.triangles) {
         std::array<PointBits, 3> points;
         std::array<uint64_t, 3> hashes{};
         for (int i = 0; i < 3; ++i) {
             points[size_t(i)] = bits_of(mesh.positions[triangle[i]]);
-            hashes[size_t(i)] = hash_of(points[size_t(i)]);
+            hashes[size_t(i)] = of_places[triangle[i]];
         }
         for (size_t i = 0; i < 3; ++i) {
             const size_t j = (i + 1) % 3;
@@ -70,13 +77,14 @@ struct OpenEdge {
 };
 
 std::vector<OpenEdge> open_edges_of(const Mesh& mesh) {
+    const std::vector<uint64_t> hashes = place_hashes(mesh);
     std::vector<uint64_t> sums(kBuckets);
-    for_each_edge(mesh, [&](const DirectedEdge& edge) {
+    for_each_edge(mesh, hashes, [&](const DirectedEdge& edge) {
         sums[edge.hash % kBuckets] += edge.hash * uint64_t(int64_t(edge.direction));
     });
     std::vector<DirectedEdge> doubtful;
     if (std::ranges::any_of(sums, [](uint64_t sum) { return sum != 0; }))
-        for_each_edge(mesh, [&](const DirectedEdge& edge) {
+        for_each_edge(mesh, hashes, [&](const DirectedEdge& edge) {
             if (sums[edge.hash % kBuckets] != 0) doubtful.push_back(edge);
         });
     const auto ends = [](const DirectedEdge& edge) { return std::pair(edge.low, edge.high); };

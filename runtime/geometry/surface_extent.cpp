@@ -85,18 +85,18 @@ glm::dvec3 min_shadows(const Solid& solid, const glm::dmat4& map) {
     return shadows;
 }
 
+uint64_t place_hash(const glm::vec3& position) {
+    const glm::vec3 p = position + 0.0f;  // -0 is 0
+    uint64_t hash = std::bit_cast<uint32_t>(p.x);
+    for (const float value : {p.y, p.z})
+        hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + std::bit_cast<uint32_t>(value);
+    hash = (hash ^ hash >> 32) * 0xD6E8FEB86659FD93u;
+    return hash ^ hash >> 32;
+}
+
 /// A hash of a triangle's corners. It is equal for triangles of equal corners in any order.
-uint64_t corner_hash(const Mesh& mesh, const glm::uvec3& triangle) {
-    uint64_t sum = 0;
-    for (int corner = 0; corner < 3; ++corner) {
-        const glm::vec3 p = mesh.positions[triangle[corner]] + 0.0f;  // -0 is 0
-        uint64_t hash = std::bit_cast<uint32_t>(p.x);
-        for (const float value : {p.y, p.z})
-            hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + std::bit_cast<uint32_t>(value);
-        hash = (hash ^ hash >> 32) * 0xD6E8FEB86659FD93u;
-        sum += hash ^ hash >> 32;
-    }
-    return sum * 0x9E3779B97F4A7C15u;
+uint64_t corner_hash(const std::vector<uint64_t>& places, const glm::uvec3& triangle) {
+    return (places[triangle.x] + places[triangle.y] + places[triangle.z]) * 0x9E3779B97F4A7C15u;
 }
 
 void add_triangle(const Mesh& mesh, const glm::uvec3& triangle, SurfaceArea& area) {
@@ -127,9 +127,11 @@ SurfaceArea min_mesh_area(const Mesh& mesh) {
         std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
     const int shift = 64 - std::countr_zero(places);
     std::vector<bool> seen(places);
+    std::vector<uint64_t> hashes(mesh.positions.size());  // of each place once
+    std::ranges::transform(mesh.positions, hashes.begin(), place_hash);
     SurfaceArea area;
     for (const glm::uvec3& triangle : mesh.triangles) {
-        auto place = seen[corner_hash(mesh, triangle) >> shift];
+        auto place = seen[corner_hash(hashes, triangle) >> shift];
         if (!place) add_triangle(mesh, triangle, area);
         place = true;
     }

@@ -3,6 +3,9 @@
 
 #include <bit>
 #include <cstdlib>
+#include <span>
+
+#include "runtime/base/ranges.hpp"
 
 namespace voxelume {
 
@@ -18,6 +21,29 @@ size_t VoxelModel::voxels() const {
     return count;
 }
 
+void VoxelModel::widen_colors() {
+    if (color_codes.empty()) return;
+    reserve_in_huge_pages(colors, color_codes.size());
+    for (const uint8_t code : color_codes) colors.push_back(palette[code]);
+    color_codes = {};
+}
+
+namespace {
+
+/// The colours that codes stand for, written where kernels read them.
+Buffer<uint32_t> widened(const Device& device, const VoxelModel& model) {
+    Buffer<uint32_t> colors(device, "model colors", model.color_codes.size());
+    colors.write_in_place([&](std::span<uint32_t> words) {
+        for_ranges(int(model.coordinates.size()), [&](int first, int end) {
+            const size_t from = size_t(first) * kVoxelsPerBrick, to = size_t(end) * kVoxelsPerBrick;
+            for (size_t i = from; i < to; ++i) words[i] = model.palette[model.color_codes[i]];
+        });
+    });
+    return colors;
+}
+
+}  // namespace
+
 BrickGrid VoxelModel::upload(const Device& device) const {
     BrickGrid grid;
     grid.frame = frame;
@@ -27,7 +53,10 @@ BrickGrid VoxelModel::upload(const Device& device) const {
     grid.occupancy = {device, "model occupancy", occupancy};
     grid.distance = {device, "model distances", distance};
     grid.attributes = {device, "model attributes", attributes};
-    grid.colors = {device, "model colors", colors};
+    if (color_codes.empty())
+        grid.colors = {device, "model colors", colors};
+    else
+        grid.colors = widened(device, *this);
     grid.normals = {device, "model normals", normals};
     grid.transparent = transparent;
     return grid;

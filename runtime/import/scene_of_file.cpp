@@ -191,7 +191,10 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
 }  // namespace
 
 bool is_model_file(const std::filesystem::path& file) {
-    return reader_of(file) != nullptr && !is_volume_nrrd(file);
+    if (reader_of(file) == nullptr || is_volume_nrrd(file)) return false;
+    // Radiance's pictures are named as scans are.
+    return ending_of(file) != ".hdr" || !std::filesystem::is_regular_file(file) ||
+           voxel_file_format(file) != nullptr;
 }
 
 std::string scene_of_file(const std::filesystem::path& file, const std::string& name,

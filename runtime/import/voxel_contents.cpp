@@ -36,7 +36,9 @@ std::string choose_values(const CellArray& array, Model& model) {
     const auto refuse = [&](const char* why) {
         InputFile(array.data).refuse(fmt::format("has no voxels to show: {}", why));
     };
-    if (summary.labels.size() > 1) {
+    // Values far below 0, as Hounsfield's, are measured.
+    const bool are_labels = summary.labels.size() > 1 && summary.labels.begin()->first >= -1;
+    if (are_labels) {
         model.values.each_label = true;
         return ", \"label\": \"each\"";
     }
@@ -98,7 +100,7 @@ Contents contents_of(const Model& model, const std::string& chosen, const Import
     contents.lattice = scale * voxels.frame.origin + shift;
     contents.materials.push_back(
         fmt::format("{}: {{\"color\": {}}}", json_text(name),
-                    voxels.colors.empty() ? "[0.72, 0.7, 0.68]" : "[1, 1, 1]"));
+                    voxels.has_colors() ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
     contents.models.push_back(fmt::format(
         "{}: {{\"voxels\": {}, \"surface\": \"{}\"{}{}}}", json_text(name), json_text(file.name),
         kind_of(model.surface).name, chosen, fit_member(file.options)));

@@ -13,7 +13,11 @@ namespace {
 constexpr std::array<VoxelFileFormat, 9> kVoxelFiles = {{
     {"numpy array", {".npy"}, "\x93NUMPY", read_npy_header, nullptr},
     {"NRRD array", {".nrrd", ".nhdr"}, "NRRD000", read_nrrd_header, nullptr},
-    {"NIfTI scan", {".nii", ".nii.gz"}, "", read_nifti_header, nullptr},
+    {"NIfTI scan",
+     {".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz"},
+     "",
+     read_nifti_header,
+     nullptr},
     {"stack of PNG slices", {".png"}, "", read_png_stack_header, nullptr, true},
     {"Qubicle file", {".qb"}, "", nullptr, read_qb},
     {"KV6 voxel model", {".kv6"}, "Kvxl", nullptr, read_kv6},
@@ -33,9 +37,10 @@ bool is_named(const VoxelFileFormat& format, const std::filesystem::path& path) 
     });
 }
 
-/// What files begin with that others read: OpenVDB, MagicaVoxel, and this program's models.
-constexpr std::array<std::string_view, 3> kMarksOfOthers = {
-    {{" BDV\0\0\0\0", 8}, "VOX ", "\x89VXM\r\n\x1a\n"}};
+/// What files begin with that others read: OpenVDB, MagicaVoxel, this program's models, and
+/// Radiance's pictures, whose names end in .hdr, too.
+constexpr std::array<std::string_view, 4> kMarksOfOthers = {
+    {{" BDV\0\0\0\0", 8}, "VOX ", "\x89VXM\r\n\x1a\n", "#?"}};
 
 }  // namespace
 
@@ -53,7 +58,7 @@ const VoxelFileFormat* voxel_file_format(const std::filesystem::path& path) {
     const VoxelFileFormat* const named = voxel_format_named(path);
     const bool is_of_others = std::ranges::any_of(
         kMarksOfOthers, [&](std::string_view mark) { return start.starts_with(mark); });
-    return named && (named->mark.empty() || !is_of_others) ? named : nullptr;
+    return is_of_others ? nullptr : named;
 }
 
 const VoxelFileFormat* voxel_format_named(const std::filesystem::path& name) {

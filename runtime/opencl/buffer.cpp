@@ -144,6 +144,7 @@ void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
 }
 
 void BufferStorage::write_in_place(size_t bytes, const std::function<void(void*)>& fill) {
+    if (device_.is_counting()) return;
     try {
         const DeviceCall call(device_.info(), "writing the ", name_, " buffer");
         cl::CommandQueue& queue = device_.queue();

@@ -126,7 +126,7 @@ class PathWalker {
         if (is_list && !is_at_end() && steps_[next_].key.empty()) {
             target_.value = &item(all, section);
             target_.number = size_t(target_.value - all.items.data());
-            target_.path = fmt::format("{}[{}]", section, target_.number);
+            target_.path = section + item_step(all, target_.number);
             return;
         }
         const Names names = is_list ? names_of_items(all) : names_of_members(all);
@@ -141,7 +141,7 @@ class PathWalker {
         target_.name = name;
         target_.value = is_list ? &all.items[target_.number] : &all.members[target_.number].value;
         target_.path =
-            is_list ? fmt::format("{}[{}]", section, target_.number)
+            is_list ? section + item_step(all, target_.number)
                     : fmt::format("{}.{}", section,
                                   name.find_first_of(".[") == name.npos ? name : quote(name));
     }

@@ -166,6 +166,35 @@ TEST_F(MeshWarnings, NameEachMissingMaterialAndTextureOnce) {
     EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials, Kind::ignored_materials));
 }
 
+TEST_F(MeshWarnings, NameEachMissingLibrary) {
+    const auto file = folder / "m.obj";
+    const std::string body = std::string(kTetrahedron) + "f 2 3 4\nf 3 1 4\n";
+    put_bytes(folder / "here.mtl", "newmtl b\n");
+    put_bytes(file, "mtllib a.mtl\nmtllib here.mtl\nmtllib b.mtl here.mtl c.mtl\n" + body);
+    EXPECT_THAT(sentences_on(file),
+                ElementsAre("\"m.obj\": its material libraries \"a.mtl\", \"b.mtl\" and "
+                            "\"c.mtl\" aren't in its folder; give the object a \"material\" of "
+                            "the scene"));
+    std::string many;
+    for (int i = 0; i < 20; ++i) many += fmt::format("mtllib {}.mtl\n", i);
+    put_bytes(file, many + body);
+    EXPECT_THAT(sentences_on(file), ElementsAre(HasSubstr("\"6.mtl\" and 13 more aren't in its")));
+}
+
+TEST_F(MeshWarnings, TellFilesOfOneNameApart) {
+    for (const char* const name : {"one", "two"}) {
+        std::filesystem::create_directory(folder / name);
+        put_bytes(folder / name / "m.obj", std::string("mtllib a.mtl\n") + kTetrahedron);
+        json["models"][name] = {{"mesh", std::string(name) + "/m.obj"}, {"surface", "exact"}};
+    }
+    json["objects"] = {{{"model", "one"}}, {{"model", "two"}}, {{"model", "one"}}};
+    std::vector<std::string> found;
+    for (const Warning& warning : warnings())
+        found.push_back(warning.where.key + ": " + warning.text.substr(0, 29));
+    EXPECT_THAT(found, ElementsAre("objects[0]: \"one/m.obj\": its material lib",
+                                   "objects[1]: \"two/m.obj\": its material lib"));
+}
+
 TEST_F(MeshWarnings, AreAtMostNineOfAFile) {
     std::string mesh = std::string("mtllib a.mtl\n") + kTetrahedron, library;
     for (int i = 0; i < 20; ++i) {

@@ -50,6 +50,14 @@ TEST_F(ApiArrayChoice, LabelsHaveAColourEachAndOneAloneHasNone) {
               R"("voxels": "a.npy", "surface": "cubes", "label": -5)");
 }
 
+TEST_F(ApiArrayChoice, WholeNumbersFarBelow0AreMeasured) {
+    // Air, water and bone in Hounsfield's units.
+    EXPECT_THAT(model_of<int16_t>("<i2", {-1000, -1000, 40, 40, 1200}),
+                testing::StartsWith(R"("voxels": "a.npy", "surface": "smooth", "iso": )"));
+    EXPECT_EQ(model_of<int16_t>("<i2", {-1, 3, 7}),
+              R"("voxels": "a.npy", "surface": "cubes", "label": "each")");
+}
+
 TEST_F(ApiArrayChoice, FractionsHaveASmoothSurfaceBetweenTheirTwoSets) {
     const std::string text = model_of<float>("<f4", {0.25f, 0.25f, 0.5f, 3.5f, 3.75f, NAN});
     EXPECT_THAT(text, testing::StartsWith(R"("voxels": "a.npy", "surface": "smooth", "iso": )"));

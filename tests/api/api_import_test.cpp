@@ -211,6 +211,27 @@ TEST_F(ApiImport, WhatCantBeShownIsRefusedWithASentence) {
     EXPECT_THAT(message(folder / "short.vxm"), HasSubstr("short.vxm"));
 }
 
+TEST_F(ApiImport, MessagesNameTheFileAndItsPartsButNoLineThatNobodyWrote) {
+    const auto message = [&](const std::string& path, const std::string& value) -> std::string {
+        try {
+            (void)scene_of_file(folder / "block.obj", {},
+                                {.cache = no_cache, .changes = {{path, value, ""}}});
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "nothing was refused";
+    };
+    EXPECT_THAT(message("objects.block.material", "oak"),
+                HasSubstr("objects.block.material: no material named \"oak\""));
+    const Scene open =
+        scene_of_file(folder / "block.obj", {},
+                      {.cache = no_cache, .changes = {{"models.block.surface", "smooth", ""}}});
+    for (const Warning& warning :
+         plan(open, (*device)[0], {.channels = {}, .cache = no_cache}).warnings)
+        EXPECT_THAT(warning.where,
+                    testing::MatchesRegex(".*/block\\.obj: (objects|models)\\.block"));
+}
+
 TEST_F(ApiImport, MapsOfAMeshWithoutPlacesForThemChangeNoMaterial) {
     put_bytes(folder / "a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Ke a.png\nmap_Pm a.png\n");
     put_bytes(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");

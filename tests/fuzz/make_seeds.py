@@ -10,8 +10,8 @@ import struct
 import zlib
 
 
-def npy(version=1):
-    header = "{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3, 4), }\n"
+def npy(version=1, descr="<u2"):
+    header = "{'descr': '%s', 'fortran_order': False, 'shape': (2, 3, 4), }\n" % descr
     length = struct.pack("<H" if version == 1 else "<I", len(header))
     return b"\x93NUMPY" + bytes([version, 0]) + length + header.encode() + bytes(range(48))
 
@@ -162,7 +162,8 @@ MESHOPT = ["00a0013c000000080800013c000000080800013c000000080800013c000000080800
            "05d000040400000000"]
 
 SEEDS = {
-    "npy": [npy(), npy(2)], "nrrd": [nrrd("raw"), nrrd("gzip"), nrrd("bzip2"), nrrd("text")],
+    "npy": [npy(), npy(2), npy(1, ">f2"), npy(1, "|u1")],
+    "nrrd": [nrrd("raw"), nrrd("gzip"), nrrd("bzip2"), nrrd("text")],
     "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
     "draco": [bytes.fromhex(text) for text in DRACO],

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the voxels of NIfTI, NRRD, numpy and .vox files against what other readers make of them.
+"""Holds the voxels of NIfTI, NRRD, numpy and .vox files, and the colours of JPEG textures of inks,
+against what other readers make of them.
 
 Arrays with all 48 orders and directions of axes are written by nibabel and pynrrd. The program
 converts them to NRRD, which pynrrd reads: each voxel lies where nibabel's or pynrrd's own map has
@@ -22,6 +23,10 @@ try:
     from midvoxio.voxio import get_vox, vox_to_arr
 except ImportError:
     sys.exit(77)
+try:
+    from PIL import Image
+except ImportError:
+    Image = None
 
 # Left, up and front of right-anterior-superior and of left-posterior-superior coordinates.
 FROM_RAS = numpy.array([[-1, 0, 0], [0, 0, 1], [0, 1, 0]])
@@ -69,6 +74,40 @@ def check_materials(program, folder):
         assert float(found[kind][key]) == value, (kind, key, found[kind])
 
 
+def check_halves(convert, folder, rng):
+    """Voxels of float16, whose bytes lie in either order."""
+    values = rng.random((6, 5, 4)).astype(numpy.float16)
+    for order in "<>":
+        numpy.save(folder / "h.npy", values.astype(order + "f2"))
+        read = numpy.load(convert(folder / "h.npy", folder / "i.npy"))
+        found = set(map(tuple, numpy.argwhere(read)))
+        expected = numpy.argwhere(values >= 0.5)
+        assert found == set(map(tuple, expected - expected.min(0))), order
+
+
+def check_inks(program, folder):
+    """The colours that PIL makes of a CMYK JPEG, with which a box is painted."""
+    if Image is None:
+        return
+    inks = numpy.zeros((16, 16, 4), numpy.uint8)
+    inks[:] = (30, 180, 90, 40)
+    picture = Image.fromarray(inks, "CMYK")
+    picture.save(folder / "inks.jpg", quality=100)
+    expected = Image.open(folder / "inks.jpg").convert("RGB").getpixel((8, 8))
+    (folder / "inks.mtl").write_text("newmtl ink\nKd 1 1 1\nmap_Kd inks.jpg\n")
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    faces = "1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"
+    text = "mtllib inks.mtl\nvt 0.5 0.5\nusemtl ink\n"
+    text += "".join("v %d %d %d\n" % corner for corner in corners)
+    text += "".join("f " + " ".join(n + "/1" for n in face.split()) + "\n" for face in faces)
+    (folder / "inks.obj").write_text(text)
+    subprocess.run([program, "voxelize", folder / "inks.obj", "-o", folder / "inks.npy",
+                    "--resolution", "8"], check=True, capture_output=True)
+    read = numpy.load(folder / "inks.npy")
+    found = read[read[..., 3] > 0][:, :3].astype(int)
+    assert len(found) > 0 and abs(found - expected).max() <= 2, (found[0], expected)
+
+
 def main():
     program = sys.argv[1]
     rng = numpy.random.default_rng(5)
@@ -84,12 +123,16 @@ def main():
             affine = numpy.eye(4)
             affine[:3, :3] = rows
             affine[:3, 3] = origin
-            image = (nibabel.Nifti2Image if i % 2 else nibabel.Nifti1Image)(values, affine)
+            is_pair = i % 4 > 1
+            kinds = ((nibabel.Nifti1Image, nibabel.Nifti2Image),
+                     (nibabel.Nifti1Pair, nibabel.Nifti2Pair))
+            image = kinds[is_pair][i % 2](values, affine)
             image.header.set_xyzt_units("mm")
             if i % 3 == 0:  # the quaternion alone
                 image.set_sform(None, code=0)
                 image.set_qform(affine, code=1)
-            source = folder / ("a.nii.gz" if i % 5 else "a.nii")
+            names = ("a.hdr", "b.img.gz") if is_pair else ("a.nii", "a.nii.gz")
+            source = folder / names[i % 5 > 0]
             nibabel.save(image, source)
             found = written_places(convert(source, folder / "a.nrrd"))
             loaded = nibabel.load(source).affine
@@ -103,6 +146,8 @@ def main():
             assert found == places(values, FROM_LPS @ rows, FROM_LPS @ origin), f"NRRD {i}"
 
         check_materials(program, folder)
+        check_halves(convert, folder, rng)
+        check_inks(program, folder)
         colors = rng.integers(0, 256, (6, 5, 4, 3), dtype=numpy.uint8)
         colors[0, 0, 0] = colors[5, 4, 3] = (1, 2, 3)
         for order in "CF":

@@ -39,6 +39,8 @@ inline VoxelCells cells_of(const VoxelModel& model) {
                         model.frame.origin + glm::dvec3(corner) + glm::dvec3(x, y, z);
                     ShownVoxel shown;
                     if (!model.colors.empty()) shown.color = model.colors[place];
+                    if (!model.color_codes.empty())
+                        shown.color = model.palette[model.color_codes[place]];
                     if (!model.groups.empty())
                         shown.group = model.groups[model.attributes[place] >> 16 & 0x3FFF];
                     cells[{int(std::lround(at.x)), int(std::lround(at.y)),

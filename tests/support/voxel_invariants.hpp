@@ -36,6 +36,8 @@ inline std::string broken_invariant(const VoxelModel& model) {
         return "it has another number of distances";
     if (!model.colors.empty() && model.colors.size() != stored * kVoxelsPerBrick)
         return "it has another number of colours";
+    if (!model.color_codes.empty() && model.color_codes.size() != stored * kVoxelsPerBrick)
+        return "it has another number of codes of colours";
     if (!smooth && model.voxels() == 0) return "it has no voxels";
     return {};
 }

@@ -2,13 +2,17 @@
 // Which values of an array are voxels.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
+#include <string>
 #include <type_traits>
 
+#include <fmt/format.h>
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
 
@@ -57,6 +61,34 @@ void choose(const Value* row, size_t count, const CellArray& array, const VoxelV
     } else {
         for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept != 0;
     }
+}
+
+/// A channel of a colour in 8 bits: of a share of 1, or of such a number.
+inline uint32_t code_of(double value, bool is_fraction) {
+    const double v = is_fraction ? 255 * value : value;
+    return uint32_t(std::lround(std::clamp(std::isnan(v) ? 0.0 : v, 0.0, 255.0)));
+}
+
+/// One bit a cell of a row, 16 a word, of bytes that are 0 or 1.
+inline void pack_row(const uint8_t* chosen, size_t count, uint16_t* words) {
+    for (size_t word = 0; word < count; ++word) {
+        uint64_t low = 0, high = 0;
+        std::memcpy(&low, chosen + 16 * word, 8);
+        std::memcpy(&high, chosen + 16 * word + 8, 8);
+        // The product brings byte i to bit 56 + i.
+        constexpr uint64_t kGather = 0x0102040810204080;
+        words[word] = uint16_t((low * kGather >> 56) | (high * kGather >> 56 << 8));
+    }
+}
+
+/// Why no cell is a voxel, for people.
+inline std::string reason_for_none(const CellArray& array, const VoxelValues& values) {
+    if (array.is_color()) return "has no voxel: all of its colours are black or clear";
+    if (values.label) return fmt::format("no cell has the value {}", *values.label);
+    if (values.iso) return fmt::format("no cell has the value {} or more", *values.iso);
+    if (values.each_label) return "has no voxel: no value is a whole number but 0";
+    return is_float(array.type) ? "no cell has the value 0.5 or more: give an \"iso\""
+                                : "has no voxel: all of its values are 0";
 }
 
 }  // namespace voxelume

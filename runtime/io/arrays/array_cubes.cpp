@@ -11,6 +11,7 @@
 #include "runtime/base/huge_pages.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_choice.hpp"
+#include "runtime/io/arrays/array_codes.hpp"
 #include "runtime/io/arrays/array_layout.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
@@ -20,11 +21,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kClear = 255u << VXL_TRANSPARENCY_SHIFT;  // the colour of no voxel
-
-uint32_t code_of(double value, bool is_fraction) {
-    const double v = is_fraction ? 255 * value : value;
-    return uint32_t(std::lround(std::clamp(std::isnan(v) ? 0.0 : v, 0.0, 255.0)));
-}
+constexpr uint32_t kWhite = 0xFFFFFF;
 
 class ArrayCubes {
   public:
@@ -55,7 +52,7 @@ class ArrayCubes {
 
     VoxelModel read() {
         read_bits();
-        if (found_.found.empty()) file_.refuse(fault());
+        if (found_.found.empty()) file_.refuse(reason_for_none(array_, values_));
         VoxelModel model;
         model.surface = Surface::cubes;
         model.frame = layout_.frame;
@@ -82,15 +79,6 @@ class ArrayCubes {
         std::vector<uint64_t> bits;  ///< by number
     };
 
-    std::string fault() const {
-        if (array_.is_color()) return "has no voxel: all of its colours are black or clear";
-        if (values_.label) return fmt::format("no cell has the value {}", *values_.label);
-        if (values_.iso) return fmt::format("no cell has the value {} or more", *values_.iso);
-        if (values_.each_label) return "has no voxel: no value is a whole number but 0";
-        return is_float(array_.type) ? "no cell has the value 0.5 or more: give an \"iso\""
-                                     : "has no voxel: all of its values are 0";
-    }
-
     /// Where four bits of a row along the file's first axis go in a leaf.
     void make_spread(int axis) {
         for (size_t four = 0; four < 16; ++four)
@@ -98,18 +86,6 @@ class ArrayCubes {
                 const size_t at = layout_.maps[0].is_mirrored ? 3 - i : i;
                 if (four >> i & 1) spread_[four] |= uint64_t{1} << (at << 2 * axis);
             }
-    }
-
-    /// One bit a cell of a layer's row, 16 a word.
-    void pack_row(const uint8_t* chosen, uint16_t* words) const {
-        for (size_t word = 0; word < rows_x_; ++word) {
-            uint64_t low = 0, high = 0;
-            std::memcpy(&low, chosen + 16 * word, 8);
-            std::memcpy(&high, chosen + 16 * word + 8, 8);
-            // Bytes 0 or 1: the product brings byte i to bit 56 + i.
-            constexpr uint64_t kGather = 0x0102040810204080;
-            words[word] = uint16_t((low * kGather >> 56) | (high * kGather >> 56 << 8));
-        }
     }
 
     void choose_row(const ArraySlabs& slabs, size_t first, uint8_t* chosen) const {
@@ -153,7 +129,7 @@ class ArrayCubes {
         for (int layers = slabs.next(); layers > 0; layers = slabs.next()) {
             for (size_t row = 0; row < size_t(layers) * height; ++row) {
                 choose_row(slabs, row * width, chosen.data());
-                pack_row(chosen.data(), words.data() + row * rows_x_);
+                pack_row(chosen.data(), rows_x_, words.data() + row * rows_x_);
             }
             for (int y = 0; y < layout_.maps[1].bricks; ++y)
                 for (int x = 0; x < layout_.maps[0].bricks; ++x)
@@ -193,14 +169,24 @@ class ArrayCubes {
             for (int byte = 0; byte < 256; ++byte)
                 byte_colors_[size_t(byte)] =
                     label_color_of(array_.type == CellType::i8 ? int8_t(byte) : byte);
-        reserve_in_huge_pages(model.colors, model.coordinates.size() * kVoxelsPerBrick);
-        model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFF);
+        if (has_codes()) {
+            for (size_t byte = 0; byte < 256; ++byte)
+                model.palette[byte] = byte_colors_[byte] >= kClear ? kWhite : byte_colors_[byte];
+            reserve_in_huge_pages(model.color_codes, model.coordinates.size() * kVoxelsPerBrick);
+            model.color_codes.resize(model.coordinates.size() * kVoxelsPerBrick);
+        } else {
+            reserve_in_huge_pages(model.colors, model.coordinates.size() * kVoxelsPerBrick);
+            model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, kWhite);
+        }
         std::atomic<bool> transparent = false;
         for_layer_ranges(array_, kBrickSize, [&](int first, int end) {
             if (read_colors(first, end, model)) transparent = true;
         });
         model.transparent = transparent;
     }
+
+    /// Whether the model has the file's bytes, as codes of colours.
+    bool has_codes() const { return !array_.is_color() && bytes_in_memory(array_.type) == 1; }
 
     /// Whether a voxel lets light through.
     bool read_colors(int first, int end, VoxelModel& model) const {
@@ -212,9 +198,24 @@ class ArrayCubes {
                     const glm::ivec3 brick(x, y, slabs.first() / kBrickSize);
                     const uint32_t slot = model.slots[size_t(number_of(brick))];
                     if (slot == kBrickOutside) continue;
-                    transparent |= color_brick(slabs, brick, layers, slot, model);
+                    if (has_codes())
+                        code_brick(slabs, brick, layers,
+                                   model.color_codes.data() + size_t(slot) * kVoxelsPerBrick);
+                    else
+                        transparent |= color_brick(slabs, brick, layers, slot, model);
                 }
         return transparent;
+    }
+
+    void code_brick(const ArraySlabs& slabs, const glm::ivec3& brick, int layers,
+                    uint8_t* codes) const {
+        const glm::ivec3 low = brick * kBrickSize;
+        glm::ivec3 count = glm::min(array_.counts - low, kBrickSize);
+        count.z = layers;
+        const size_t width = size_t(array_.counts.x), height = size_t(array_.counts.y);
+        const auto* const first = reinterpret_cast<const uint8_t*>(slabs.values()) +
+                                  size_t(low.y) * width + size_t(low.x);
+        write_codes({first, width, width * height, count}, place_, codes);
     }
 
     bool color_brick(const ArraySlabs& slabs, const glm::ivec3& brick, int layers, uint32_t slot,

@@ -19,7 +19,8 @@ CellArray read_nrrd_header(const std::filesystem::path& path);
 /// True for a NRRD file with a volumetric image of ours, which is shown as such.
 bool is_volume_nrrd(const std::filesystem::path& path);
 
-/// A NIfTI 1 or 2 file (.nii, .nii.gz), turned likewise. Of several volumes it is the first.
+/// A NIfTI 1 or 2 file (.nii, .nii.gz), or a pair of which either file is named (.hdr and .img,
+/// each also with .gz behind it), turned likewise. Of several volumes it is the first.
 CellArray read_nifti_header(const std::filesystem::path& path);
 
 /// A stack of PNG slices, whose names have consecutive numbers: that of the file and those of its

@@ -72,7 +72,8 @@ float steepest_in(const CellArray& array, const InputFile& file, StepMeter meter
     const int before = std::max(first - 1, 0);
     ArraySlabs slabs(array, file, 1, before, end);
     std::vector<std::byte> last;  // layer
-    const size_t bytes = size_t(array.counts.x) * size_t(array.counts.y) * bytes_of(array.type);
+    const size_t bytes =
+        size_t(array.counts.x) * size_t(array.counts.y) * bytes_in_memory(array.type);
     while (slabs.next() > 0) {
         const int z = slabs.first();
         with_type(array.type, slabs.values(), [&](const auto* layer) {

@@ -2,6 +2,7 @@
 #include "runtime/io/arrays/array_stream.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "runtime/io/image/png_values.hpp"
 
@@ -10,6 +11,17 @@ namespace {
 
 void swap_bytes(std::byte* data, size_t size, size_t each) {
     for (size_t i = 0; i < size; i += each) std::reverse(data + i, data + i + each);
+}
+
+/// The value of a number of 16 bits, exactly.
+float float_of_half(uint16_t half) {
+    // s eeeee mmmmmmmmmm: moved to a float's places, the exponent lacks 127 - 15. Multiplying by a
+    // power of 2 adds that, and gives subnormal numbers their exponent.
+    uint32_t bits = uint32_t(half & 0x7fff) << 13;
+    const bool is_finite = (half & 0x7c00) != 0x7c00;
+    const float magnitude = is_finite ? std::bit_cast<float>(bits) * 0x1p112f
+                                      : std::bit_cast<float>(bits |= 0x7f800000);
+    return (half & 0x8000) != 0 ? -magnitude : magnitude;
 }
 
 /// Bytes from the start of the data to a layer of cells, whose channels lie together.
@@ -66,7 +78,18 @@ int ArraySlabs::next() {
         stream_.read(bytes_.data(), plane_);
     }
     if (array_.is_swapped) swap_bytes(bytes_.data(), bytes_.size(), each);
+    if (array_.type == CellType::f16) widen_halves();
     return layers_;
+}
+
+void ArraySlabs::widen_halves() {
+    halves_.swap(bytes_);
+    const size_t count = halves_.size() / sizeof(uint16_t);
+    bytes_.resize(count * sizeof(float));
+    const auto* const from = reinterpret_cast<const uint16_t*>(halves_.data());
+    auto* const to = reinterpret_cast<float*>(bytes_.data());
+    for (size_t i = 0; i < count; ++i) to[i] = float_of_half(from[i]);
+    plane_ *= sizeof(float) / sizeof(uint16_t);
 }
 
 void ArraySlabs::read_slices() {

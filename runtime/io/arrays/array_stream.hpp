@@ -44,12 +44,13 @@ class ArraySlabs {
     /// Reads the next slab. Returns how many layers it has; 0 after the last.
     int next();
     int first() const { return first_; }  ///< number of its first layer
-    /// The bytes of channel `c`, of cells in the file's order; of interleaved channels, all of them
-    /// together.
+    /// The values of channel `c`, of cells in the file's order; of interleaved channels, all of
+    /// them together. Those of float16 are float32.
     const std::byte* values(int c = 0) const { return bytes_.data() + size_t(c) * plane_; }
 
   private:
     void read_slices();
+    void widen_halves();
 
     const CellArray& array_;
     const InputFile& file_;
@@ -58,7 +59,7 @@ class ArraySlabs {
     int first_, end_;
     int layers_ = 0;
     size_t plane_ = 0;  ///< bytes of a slab, or of one of its channels where they are apart
-    std::vector<std::byte> bytes_;
+    std::vector<std::byte> bytes_, halves_;
 };
 
 /// Whether a layer can be read without those before it.
@@ -99,6 +100,7 @@ void with_type(CellType type, const std::byte* values, const Use& use) {
             return as(static_cast<const uint64_t*>(nullptr));
         case CellType::i64:
             return as(static_cast<const int64_t*>(nullptr));
+        case CellType::f16:  // as slabs have it
         case CellType::f32:
             return as(static_cast<const float*>(nullptr));
         case CellType::f64:

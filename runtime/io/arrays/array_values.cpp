@@ -162,7 +162,7 @@ void for_each_code(const CellArray& array, const std::vector<uint64_t>& counts, 
 
 ArraySummary summary_of_array(const CellArray& array) {
     if (array.is_color()) InputFile(array.data).refuse("it holds colours, which have no values");
-    if (bytes_of(array.type) <= 2) {
+    if (bytes_in_memory(array.type) <= 2) {
         const std::vector<uint64_t> counts = count_codes(array);
         return summary_of([&](const auto& use) { for_each_code(array, counts, use); });
     }

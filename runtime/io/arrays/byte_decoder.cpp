@@ -201,6 +201,8 @@ class TextValues : public ByteDecoder {
                 return parse<int64_t>(word, value);
             case CellType::f32:
                 return parse<float>(word, value);
+            case CellType::f16:  // no format has it as text
+                refuse(word);
             case CellType::f64:
                 break;
         }

@@ -16,7 +16,7 @@ struct TypeRow {
     size_t bytes;
 };
 
-constexpr std::array<TypeRow, 11> kTypes = {{{"bool", 1},
+constexpr std::array<TypeRow, 12> kTypes = {{{"bool", 1},
                                              {"uint8", 1},
                                              {"int8", 1},
                                              {"uint16", 2},
@@ -26,7 +26,8 @@ constexpr std::array<TypeRow, 11> kTypes = {{{"bool", 1},
                                              {"uint64", 8},
                                              {"int64", 8},
                                              {"float32", 4},
-                                             {"float64", 8}}};
+                                             {"float64", 8},
+                                             {"float16", 2}}};
 
 constexpr uint64_t kMaxDeflated = 1032;  // bytes that a byte of gzip becomes, at most
 constexpr uint64_t kMaxSkip = uint64_t{1} << 28;
@@ -59,12 +60,16 @@ size_t bytes_of(CellType type) {
     return kTypes[size_t(type)].bytes;
 }
 
+size_t bytes_in_memory(CellType type) {
+    return type == CellType::f16 ? sizeof(float) : bytes_of(type);
+}
+
 std::string_view name_of(CellType type) {
     return kTypes[size_t(type)].name;
 }
 
 bool is_float(CellType type) {
-    return type == CellType::f32 || type == CellType::f64;
+    return type == CellType::f32 || type == CellType::f64 || type == CellType::f16;
 }
 
 void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellArray& array) {

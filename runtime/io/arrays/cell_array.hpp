@@ -15,9 +15,12 @@ namespace voxelume {
 
 class InputFile;
 
-enum class CellType : uint8_t { boolean, u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
+enum class CellType : uint8_t { boolean, u8, i8, u16, i16, u32, i32, u64, i64, f32, f64, f16 };
 
+/// Bytes of a value in a file.
 size_t bytes_of(CellType type);
+/// Bytes of a value in memory, where float16 is float32.
+size_t bytes_in_memory(CellType type);
 std::string_view name_of(CellType type);
 bool is_float(CellType type);
 

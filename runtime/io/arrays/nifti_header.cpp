@@ -8,9 +8,13 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <string>
 
+#include "runtime/base/text.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
+#include "runtime/io/mesh/companion_file.hpp"
 
 namespace voxelume {
 namespace {
@@ -38,13 +42,20 @@ class NiftiHeader {
             file.refuse("not a NIfTI file");
         const char* magic =
             reinterpret_cast<const char*>(bytes_.data()) + (places_->is_wide ? 4 : 344);
-        if (std::memcmp(magic, "ni1", 3) == 0 || std::memcmp(magic, "ni2", 3) == 0)
-            file.refuse("its data are in another file (.img); join them to one .nii");
+        has_data_elsewhere_ =
+            std::memcmp(magic, "ni1", 3) == 0 || std::memcmp(magic, "ni2", 3) == 0;
+        if (has_data_elsewhere_) return;
+        if (std::all_of(magic, magic + 4, [](char c) { return c == 0; }))
+            file.refuse(
+                "has the header of Analyze 7.5, which says too little of orientation; save "
+                "it as NIfTI");
         if (std::memcmp(magic, "n+1", 3) != 0 && std::memcmp(magic, "n+2", 3) != 0)
             file.refuse("not a NIfTI file");
     }
 
     bool is_swapped() const { return is_swapped_; }
+    /// The data are in a file of their own, of the header's name but for the ending .img.
+    bool has_data_elsewhere() const { return has_data_elsewhere_; }
     const Places& places() const { return *places_; }
 
     template <class Number>
@@ -81,8 +92,63 @@ class NiftiHeader {
 
     std::array<unsigned char, 540> bytes_{};
     const Places* places_ = nullptr;
-    bool is_swapped_ = false;
+    bool is_swapped_ = false, has_data_elsewhere_ = false;
 };
+
+bool is_gzip(const InputFile& file) {
+    std::array<unsigned char, 2> mark{};
+    if (file.size() < 2) return false;
+    file.read(0, mark.data(), 2);
+    return mark[0] == 0x1f && mark[1] == 0x8b;
+}
+
+/// The other file of a pair: of a name that differs in the ending alone, as it is or with ".gz",
+/// in small letters or, where `path` has some, in capitals. Nothing where there is none.
+std::optional<std::filesystem::path> partner_of(const std::filesystem::path& path,
+                                                std::string_view ending) {
+    std::filesystem::path stem = path.filename();
+    if (ending_of(stem) == ".gz") stem = stem.stem();
+    const std::string own = stem.extension().string();
+    std::string wanted(ending);
+    if (own.size() > 1 && own[1] >= 'A' && own[1] <= 'Z')
+        for (char& c : wanted) c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+    const std::string name = stem.stem().string() + wanted;
+    for (const char* const packed : {"", ".gz", ".GZ"})
+        if (auto found = companion_file(path, name + packed)) return found;
+    return {};
+}
+
+/// The file with the header: the path itself, or that of a pair of which it has the data.
+std::filesystem::path header_file(const std::filesystem::path& path) {
+    std::filesystem::path plain = path.filename();
+    if (ending_of(plain) == ".gz") plain = plain.stem();
+    if (ending_of(plain) != ".img") return path;
+    if (const auto header = partner_of(path, ".hdr")) return *header;
+    InputFile(path).refuse(
+        "has the data of a scan, whose header, a file of its name that ends in "
+        ".hdr, isn't in its folder");
+}
+
+/// Finds the bytes of the values.
+void set_data(const NiftiHeader& header, const InputFile& file, CellArray& array) {
+    const Places& places = header.places();
+    const double offset = places.is_wide ? double(header.at<int64_t>(places.vox_offset))
+                                         : header.real(places.vox_offset);
+    if (!(offset >= 0 && offset <= 1e15))
+        file.refuse("its header gives no place where its data begin; it is damaged");
+    uint64_t start = std::max(uint64_t(offset), uint64_t(places.header));
+    if (header.has_data_elsewhere()) {
+        const auto data = partner_of(file.path(), ".img");
+        if (!data)
+            file.refuse(
+                "its data are in a file of its name that ends in .img, which isn't in its "
+                "folder");
+        array.data = *data;
+        array.encoding = is_gzip(InputFile(*data)) ? DataEncoding::gzip : DataEncoding::raw;
+        start = uint64_t(offset);
+    }
+    (array.is_compressed() ? array.skip : array.start) = start;
+}
 
 void set_type(const NiftiHeader& header, const InputFile& file, CellArray& array) {
     struct Row {
@@ -171,13 +237,11 @@ double metres_per_unit(const NiftiHeader& header, CellArray& array) {
 }  // namespace
 
 CellArray read_nifti_header(const std::filesystem::path& path) {
-    const InputFile file(path);
-    std::array<unsigned char, 2> mark{};
+    const InputFile file(header_file(path));
     if (file.size() < 2) file.refuse("too short for a NIfTI file");
-    file.read(0, mark.data(), 2);
     CellArray array;
-    array.data = path;
-    if (mark[0] == 0x1f && mark[1] == 0x8b) array.encoding = DataEncoding::gzip;
+    array.data = file.path();
+    if (is_gzip(file)) array.encoding = DataEncoding::gzip;
     const NiftiHeader header(file, array.encoding);
     const Places& places = header.places();
     array.is_swapped = header.is_swapped();
@@ -195,12 +259,7 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
             volumes = std::min<int64_t>(volumes * n, 1 << 20);
     }
     if (volumes > 1) array.notes.push_back(fmt::format("the first of {} volumes", volumes));
-    const double offset = places.is_wide ? double(header.at<int64_t>(places.vox_offset))
-                                         : header.real(places.vox_offset);
-    if (!(offset >= 0 && offset <= 1e15))
-        file.refuse("its header gives no place where its data begin; it is damaged");
-    (array.is_compressed() ? array.skip : array.start) =
-        std::max(uint64_t(offset), uint64_t(places.header));
+    set_data(header, file, array);
     const double slope = header.real(places.slope);
     if (slope != 0 && !array.is_color()) {
         array.slope = slope;
@@ -214,7 +273,7 @@ CellArray read_nifti_header(const std::filesystem::path& path) {
         map[i] = {-v.x * metres, v.z * metres, v.y * metres, i == 3};
     }
     array.orientation = "the head is up, the face in front";
-    check_array(array, file);
+    check_array(array, InputFile(array.data));
     set_place(map, file, array);
     return array;
 }

@@ -36,7 +36,7 @@ CellType npy_type(std::string_view text, const InputFile& file) {
         std::string_view code;
         CellType type;
     };
-    constexpr std::array<Row, 11> kCodes = {{{"b1", CellType::boolean},
+    constexpr std::array<Row, 12> kCodes = {{{"b1", CellType::boolean},
                                              {"u1", CellType::u8},
                                              {"i1", CellType::i8},
                                              {"u2", CellType::u16},
@@ -45,6 +45,7 @@ CellType npy_type(std::string_view text, const InputFile& file) {
                                              {"i4", CellType::i32},
                                              {"u8", CellType::u64},
                                              {"i8", CellType::i64},
+                                             {"f2", CellType::f16},
                                              {"f4", CellType::f32},
                                              {"f8", CellType::f64}}};
     if (text.starts_with('[')) file.refuse("its values are records; save one field of them");
@@ -54,7 +55,7 @@ CellType npy_type(std::string_view text, const InputFile& file) {
         if (code.size() == 3 && code.substr(1) == row.code) return row.type;
     file.refuse(
         fmt::format("its values are of the type {}, which isn't read: save them as bool, "
-                    "uint8, uint16, another integer, float32 or float64",
+                    "uint8, uint16, another integer, float16, float32 or float64",
                     quote(code)));
 }
 

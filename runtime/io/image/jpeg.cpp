@@ -2,7 +2,10 @@
 // JPEG -> 8-bit picture, by libjpeg-turbo.
 #include <turbojpeg.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <string_view>
 
 #include "runtime/base/error.hpp"
 #include "runtime/io/image/picture.hpp"
@@ -13,6 +16,38 @@ namespace {
 struct CloseDecoder {
     void operator()(void* decoder) const { tjDestroy(decoder); }
 };
+
+/// Whether a JPEG has the marker of Adobe's programs, which save inks as what they leave white.
+bool has_adobe_marker(std::span<const uint8_t> bytes) {
+    constexpr uint8_t kApp14 = 0xEE, kStartOfScan = 0xDA;
+    constexpr std::string_view kName = "Adobe";
+    // Segments are FF, a kind, and their length with its own two bytes.
+    for (size_t at = 2; at + 4 <= bytes.size() && bytes[at] == 0xFF;) {
+        const uint8_t kind = bytes[at + 1];
+        if (kind == 0xFF) {  // a byte that fills up
+            ++at;
+            continue;
+        }
+        if (kind == kStartOfScan) return false;
+        const size_t length = size_t(bytes[at + 2]) << 8 | bytes[at + 3];
+        const bool is_whole = length >= 2 + kName.size() && at + 2 + length <= bytes.size();
+        if (kind == kApp14 && is_whole &&
+            std::equal(kName.begin(), kName.end(), bytes.begin() + long(at) + 4))
+            return true;
+        at += 2 + length;
+    }
+    return false;
+}
+
+/// What white light keeps of its colours where inks of cyan, magenta and yellow lie over black.
+void light_of_inks(Picture& picture, bool is_inverted) {
+    for (auto& pixel : picture.pixels) {
+        std::array<unsigned, 4> left{};  // white, of 255
+        for (size_t i = 0; i < 4; ++i) left[i] = is_inverted ? pixel[i] : 255u - pixel[i];
+        for (size_t i = 0; i < 3; ++i) pixel[i] = uint8_t((left[i] * left[3] + 127) / 255);
+        pixel[3] = 255;
+    }
+}
 
 }  // namespace
 
@@ -30,13 +65,14 @@ Picture parse_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& 
                               &space));
     if (width <= 0 || height <= 0 || uint64_t(width) * uint64_t(height) > kMaxTexturePixels)
         refuse(fmt::format("a JPEG of {} x {} pixels; at most 2^26 are read", width, height));
-    if (space == TJCS_CMYK || space == TJCS_YCCK)
-        refuse("a JPEG of printing inks (CMYK); save it as RGB");
+    const bool has_inks = space == TJCS_CMYK || space == TJCS_YCCK;
     Picture picture{width, height, {}};
     picture.pixels.resize(size_t(width) * size_t(height));
     // A file of very many scans would take hours for few bytes.
     check(tjDecompress2(decoder.get(), bytes.data(), bytes.size(), picture.pixels.data()->data(),
-                        width, 0, height, TJPF_RGBA, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS));
+                        width, 0, height, has_inks ? TJPF_CMYK : TJPF_RGBA,
+                        TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS));
+    if (has_inks) light_of_inks(picture, has_adobe_marker(bytes));
     return picture;
 }
 

@@ -175,6 +175,18 @@ std::vector<NamedLibrary> find_libraries(const std::filesystem::path& mesh,
     return found;
 }
 
+/// Says which libraries, whose names are in quotes, aren't there. At least one isn't.
+std::string missing_sentence(std::vector<std::string> names) {
+    if (names.size() == 1)
+        return fmt::format("its material library {} isn't in its folder", names[0]);
+    constexpr size_t kMaxNames = 8;
+    std::string last = names.back();
+    if (names.size() > kMaxNames) last = fmt::format("{} more", names.size() - kMaxNames + 1);
+    names.resize(std::min(names.size(), kMaxNames) - 1);
+    return fmt::format("its material libraries {} and {} aren't in its folder",
+                       fmt::join(names, ", "), last);
+}
+
 }  // namespace
 
 std::vector<MtlMaterial> parse_material_library(std::string_view text) {
@@ -212,20 +224,23 @@ std::vector<MtlMaterial> read_material_libraries(const std::filesystem::path& me
                                                  const std::vector<std::string>& names,
                                                  std::vector<std::string>& faults) {
     std::vector<MtlMaterial> materials;
+    std::vector<std::string> missing;
     for (const NamedLibrary& library : find_libraries(mesh, names)) {
-        const std::string its = fmt::format("its material library {}", quote(library.name));
         if (!library.file) {
-            faults.push_back(its + " isn't in its folder");
+            missing.push_back(quote(library.name));
             continue;
         }
         const InputFile file(*library.file);
         if (file.size() > kMaxBytes) {
-            faults.push_back(its + " isn't read: it has more than 64 MiB");
+            faults.push_back(
+                fmt::format("its material library {} isn't read: it has more than 64 MiB",
+                            quote(library.name)));
             continue;
         }
         const std::vector<MtlMaterial> more = parse_material_library(bytes_of(file));
         materials.insert(materials.end(), more.begin(), more.end());
     }
+    if (!missing.empty()) faults.insert(faults.begin(), missing_sentence(std::move(missing)));
     return materials;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <future>
 #include <glm/common.hpp>
 
 #include "runtime/base/files/input_file.hpp"
@@ -111,15 +110,7 @@ void VoxCells::add_box(const CellBox& box) {
 
 void VoxCells::allocate() {
     reserve_in_huge_pages(cells_, size_t(count_) * kVoxelsPerBrick);
-    cells_.resize(size_t(count_) * kVoxelsPerBrick);
-}
-
-std::future<void> VoxCells::take_memory(uint64_t voxels, VoxelModel& model) const {
-    if (voxels < cells_.size() / 2) return {};
-    reserve_in_huge_pages(model.colors, cells_.size());
-    return std::async([&colors = model.colors] {
-        populate_pages(colors.data(), colors.capacity() * sizeof(uint32_t));
-    });
+    cells_.resize(size_t(count_) * kVoxelsPerBrick, 0);
 }
 
 /// Each row of the place depends on one coordinate alone.
@@ -201,33 +192,35 @@ std::array<bool, 256> VoxCells::used() const {
     return used;
 }
 
-void VoxCells::fill(const std::array<uint32_t, 256>& colors,
-                    const std::array<uint32_t, 256>& groups, bool has_groups,
-                    VoxelModel& model) const {
+void VoxCells::fill(const std::array<uint32_t, 256>& groups, bool has_groups,
+                    VoxelModel& model) && {
     model.frame = frame_;
     model.slots.assign(numbers_.size(), kBrickOutside);
     std::vector<const uint8_t*> bricks;  // by slot
+    bool is_in_order = true;
     for (size_t brick = 0; brick < numbers_.size(); ++brick) {
         if (numbers_[brick] == kNoBrick) continue;
         const uint8_t* cells = cells_.data() + size_t(numbers_[brick]) * kVoxelsPerBrick;
         if (is_empty(cells)) continue;
+        is_in_order &= numbers_[brick] == bricks.size();
         model.slots[brick] = uint32_t(bricks.size());
         model.coordinates.push_back(uint32_t(brick));
         bricks.push_back(cells);
     }
-    // Runs while the colours are read, which wait for memory.
-    auto marked = std::async([&] {
-        model.occupancy.assign(bricks.size() * kLeavesPerBrick, 0);
-        for (size_t slot = 0; slot < bricks.size(); ++slot)
-            mark_voxels(bricks[slot], model.occupancy.data() + slot * kLeavesPerBrick);
-        if (!has_groups) return;
-        reserve_in_huge_pages(model.attributes, bricks.size() * kVoxelsPerBrick);
-        for (const uint8_t* cells : bricks) append_values(groups, cells, model.attributes);
-    });
-    if (model.colors.capacity() == 0)
-        reserve_in_huge_pages(model.colors, bricks.size() * kVoxelsPerBrick);
-    for (const uint8_t* cells : bricks) append_values(colors, cells, model.colors);
-    marked.get();
+    model.occupancy.assign(bricks.size() * kLeavesPerBrick, 0);
+    if (has_groups) reserve_in_huge_pages(model.attributes, bricks.size() * kVoxelsPerBrick);
+    for (size_t slot = 0; slot < bricks.size(); ++slot) {
+        mark_voxels(bricks[slot], model.occupancy.data() + slot * kLeavesPerBrick);
+        if (has_groups) append_values(groups, bricks[slot], model.attributes);
+    }
+    if (!is_in_order) {
+        reserve_in_huge_pages(model.color_codes, bricks.size() * kVoxelsPerBrick);
+        for (const uint8_t* cells : bricks)
+            model.color_codes.insert(model.color_codes.end(), cells, cells + kVoxelsPerBrick);
+        return;
+    }
+    cells_.resize(bricks.size() * kVoxelsPerBrick);
+    model.color_codes = std::move(cells_);
 }
 
 }  // namespace voxelume

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <future>
 #include <glm/common.hpp>
 
 #include "kernels/shared/voxel.h"
@@ -30,12 +29,6 @@ std::vector<VoxStanding> standing_in(const VoxFile& vox, int part, const InputFi
     return all;
 }
 
-uint64_t voxels_of(const std::vector<VoxStanding>& all) {
-    uint64_t voxels = 0;
-    for (const VoxStanding& standing : all) voxels += standing.model->voxels;
-    return voxels;
-}
-
 }  // namespace
 
 VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
@@ -55,7 +48,6 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
     for (const VoxStanding& standing : all) cells.add_box(box_of(standing));
     cells.allocate();
     VoxelModel model;
-    std::future<void> memory = cells.take_memory(voxels_of(all), model);
     // Where objects overlap, the earlier one is seen, as in scenes.
     for (auto standing = all.rbegin(); standing != all.rend(); ++standing)
         cells.add_voxels(*standing);
@@ -76,8 +68,8 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
             model.groups.push_back(std::move(name));
         }
     }
-    if (memory.valid()) memory.get();
-    cells.fill(colors, groups, !model.groups.empty(), model);
+    model.palette = colors;
+    std::move(cells).fill(groups, !model.groups.empty(), model);
     if (model.coordinates.empty()) file.refuse("has no voxels to show");
     return model;
 }

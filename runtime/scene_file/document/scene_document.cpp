@@ -2,6 +2,7 @@
 // JSON text -> a tree of values that know their line and column.
 #include "runtime/scene_file/document/scene_document.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
@@ -194,6 +195,30 @@ JsonValue parse_json(std::string_view text, const std::string& file) {
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder,
                               nlohmann::json::input_format_t::json, true, true);
     return builder.take_root();
+}
+
+void forget_places(JsonValue& value) {
+    value.at = {0, 0};
+    for (JsonValue& item : value.items) forget_places(item);
+    for (JsonMember& member : value.members) {
+        member.at = {0, 0};
+        forget_places(member.value);
+    }
+}
+
+void name_parts(JsonValue& document) {
+    forget_places(document);
+    for (JsonMember& member : document.members)
+        member.value.names_items = member.value.type == JsonType::array;
+}
+
+std::string item_step(const JsonValue& list, size_t place) {
+    const auto& members = list.items[place].members;
+    const auto name = std::ranges::find(members, "name", &JsonMember::key);
+    if (!list.names_items || name == members.end() || name->value.text.empty())
+        return fmt::format("[{}]", place);
+    const std::string& text = name->value.text;
+    return "." + (text.find_first_of(".[") == text.npos ? text : quote(text));
 }
 
 }  // namespace voxelume

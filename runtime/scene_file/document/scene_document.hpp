@@ -19,6 +19,7 @@ struct JsonMember;
 struct JsonValue {
     JsonType type = JsonType::null;
     bool boolean = false;
+    bool names_items = false;  ///< messages call a list's items by their names, not their places
     TextPosition at;
     double number = 0;
     std::string text;
@@ -48,5 +49,15 @@ inline constexpr int kMaxJsonValues = 2'000'000;
 /// Throws Error::scene, "file:line:column: sentence", for text that is not JSON, a key that stands
 /// twice in one object, and more levels or values than the limits above.
 JsonValue parse_json(std::string_view text, const std::string& file);
+
+/// Makes a value and all in it stand on no line of a text.
+void forget_places(JsonValue& value);
+
+/// Makes a document stand for a file that isn't a scene's text: messages have no lines, and call
+/// objects and lights by their names, as in "objects.ball".
+void name_parts(JsonValue& document);
+
+/// How the path of a list's item goes on behind the list's: "[2]", or ".ball" by its name.
+std::string item_step(const JsonValue& list, size_t place);
 
 }  // namespace voxelume

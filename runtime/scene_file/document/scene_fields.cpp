@@ -83,7 +83,7 @@ std::vector<SceneValue> SceneValue::items() const {
     std::vector<SceneValue> items;
     items.reserve(value_->items.size());
     for (const JsonValue& item : value_->items) {
-        items.emplace_back(item, fmt::format("{}[{}]", path_, items.size()), *file_);
+        items.emplace_back(item, path_ + item_step(*value_, items.size()), *file_);
     }
     return items;
 }

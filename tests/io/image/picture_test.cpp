@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -44,7 +45,71 @@ std::string refusal(const std::vector<uint8_t>& bytes) {
     return error_of([&] { parse_picture(bytes, "a.jpg"); }).what();
 }
 
+/// A JPEG whose four components are coded as those of TurboJPEG's CMYK, which is YCCK with Adobe's
+/// marker.
+std::vector<uint8_t> ink_jpeg(const std::vector<uint8_t>& inks, int width, int height) {
+    tjhandle encoder = tjInitCompress();
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    EXPECT_EQ(tjCompress2(encoder, inks.data(), width, 0, height, TJPF_CMYK, &bytes, &size,
+                          TJSAMP_444, 100, TJFLAG_ACCURATEDCT),
+              0);
+    std::vector<uint8_t> out(bytes, bytes + size);
+    tjFree(bytes);
+    tjDestroy(encoder);
+    return out;
+}
+
+/// Inks as YCCK stores them.
+std::array<double, 4> ycck_of(const std::array<uint8_t, 4>& ink) {
+    const double r = 255 - ink[0], g = 255 - ink[1], b = 255 - ink[2];
+    return {0.299 * r + 0.587 * g + 0.114 * b, 128 - 0.168736 * r - 0.331264 * g + 0.5 * b,
+            128 + 0.5 * r - 0.418688 * g - 0.081312 * b, double(ink[3])};
+}
+
 }  // namespace
+
+TEST(Pictures, OfInksAreTheLightThatTheyLeave) {
+    // Three areas of 8 x 8 pixels each.
+    const std::array<std::array<uint8_t, 4>, 3> stored = {
+        {{0, 204, 255, 255}, {255, 153, 51, 204}, {225, 255, 120, 0}}};
+    std::vector<uint8_t> inks;
+    for (int i = 0; i < 24 * 8; ++i)
+        inks.insert(inks.end(), stored[size_t(i % 24 / 8)].begin(),
+                    stored[size_t(i % 24 / 8)].end());
+    const std::vector<uint8_t> ycck = ink_jpeg(inks, 24, 8);
+    const auto expect = [](const std::vector<uint8_t>& bytes, const auto& left) {
+        const Picture read = parse_picture(bytes, "a.jpg");
+        ASSERT_EQ(read.width, 24);
+        ASSERT_EQ(read.height, 8);
+        for (size_t x = 0; x < 24; ++x) {
+            const std::array<double, 4> white = left(x / 8);  // what each ink leaves of it
+            for (size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(read.pixels[72 + x][c], white[c] * white[3] / 255, 3) << x << " " << c;
+            EXPECT_EQ(read.pixels[72 + x][3], 255);
+        }
+    };
+    expect(ycck, [&](size_t i) {
+        const auto& s = stored[i];
+        return std::array<double, 4>{double(s[0]), double(s[1]), double(s[2]), double(s[3])};
+    });
+    // The marker's last byte tells YCCK from CMYK.
+    const std::string_view name = "Adobe";
+    const auto marker = std::search(ycck.begin(), ycck.end(), name.begin(), name.end());
+    ASSERT_NE(marker, ycck.end());
+    std::vector<uint8_t> cmyk = ycck;
+    cmyk[size_t(marker - ycck.begin()) + 11] = 0;
+    expect(cmyk, [&](size_t i) { return ycck_of(stored[i]); });
+    // Without the marker inks aren't inverted.
+    std::vector<uint8_t> plain = ycck;
+    const auto start = plain.begin() + (marker - ycck.begin()) - 4;
+    plain.erase(start, start + 16);
+    expect(plain, [&](size_t i) {
+        std::array<double, 4> left = ycck_of(stored[i]);
+        for (double& l : left) l = 255 - l;
+        return left;
+    });
+}
 
 TEST(Pictures, OfJpegAreWhatWasCompressed) {
     const Picture picture = ramp(61, 43);

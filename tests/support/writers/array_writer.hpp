@@ -70,6 +70,7 @@ struct NiftiSample {
     int16_t qform = 0, sform = 0;
     std::array<float, 6> quatern{};  ///< b, c, d and the offset
     std::array<float, 12> srow{};
+    bool is_pair = false;  ///< `data` are in another file
 };
 
 inline std::string nifti_bytes(const NiftiSample& sample, const std::string& data,
@@ -84,7 +85,7 @@ inline std::string nifti_bytes(const NiftiSample& sample, const std::string& dat
     append_value(bytes, sample.bits, is_big);
     fill_to(76);
     for (const float p : sample.pixdim) append_value(bytes, p, is_big);
-    append_value(bytes, 352.0f, is_big);
+    append_value(bytes, sample.is_pair ? 0.0f : 352.0f, is_big);
     append_value(bytes, sample.slope, is_big);
     append_value(bytes, sample.intercept, is_big);
     fill_to(123);
@@ -95,7 +96,7 @@ inline std::string nifti_bytes(const NiftiSample& sample, const std::string& dat
     for (const float q : sample.quatern) append_value(bytes, q, is_big);
     for (const float s : sample.srow) append_value(bytes, s, is_big);
     fill_to(344);
-    bytes += "n+1";
+    bytes += sample.is_pair ? "ni1" : "n+1";
     fill_to(352);
     return bytes + data;
 }

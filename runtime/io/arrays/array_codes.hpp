@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// bytes of an array -> the bytes of a brick, in the model's order
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace voxelume {
+
+/// The cells of a brick among those of an array of bytes.
+struct ByteBrick {
+    const uint8_t* first;
+    size_t row, layer;  ///< bytes from a row and a layer to the next
+    glm::ivec3 count;   ///< cells along the file's axes, 16 at most
+};
+
+/// By the file's axis and the cell along it: its share of the place in a brick.
+using PlacesInBrick = std::array<std::array<uint32_t, 16>, 3>;
+
+/// Writes 4096 bytes, those without a cell as 0. Bricks of one value, as most of labels are, take a
+/// third of the time of others.
+void write_codes(const ByteBrick& brick, const PlacesInBrick& places, uint8_t* codes);
+
+}  // namespace voxelume
