@@ -58,8 +58,8 @@ bool is_open(const MeshSummary& mesh) {
 }
 
 MeshSummary summary_of(const Mesh& mesh) {
-    // Each walks over all triangles: 4.5 million take some tenths of a second. Where no more threads
-    // are allowed, `async | deferred` does without.
+    // Each walks over all triangles: 4.5 million take some tenths of a second. Where no more
+    // threads are allowed, `async | deferred` does without.
     constexpr size_t kManyTriangles = 1 << 16;
     const auto how = mesh.triangles.size() < kManyTriangles
                          ? std::launch::deferred
