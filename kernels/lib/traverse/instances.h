@@ -118,6 +118,16 @@ static inline RayState ray_state_in(const RayState* ray_state, lane_uint number,
     t.within_source &= own;
     t.source = LANES_SELECT(own, t.source, (lane_uint)VXL_NO_PRIMITIVE);
     t.unsure = begins & (~t.on_surface | t.guesses);
+    if (VXL_MIXED) {
+        const lane_int elsewhere = LANE_MASK(number != VXL_NO_INSTANCE);
+        const lane_uint none = (lane_uint)VXL_NO_OBJECT;
+        const lane_uint own_field =
+            LANES_SELECT(LANE_MASK(t.field_of == object), (lane_uint)0, none);
+        const lane_uint own_triangle =
+            LANES_SELECT(LANE_MASK(t.triangle_of == object), (lane_uint)0, none);
+        t.field_of = LANES_SELECT(elsewhere, own_field, t.field_of);
+        t.triangle_of = LANES_SELECT(elsewhere, own_triangle, t.triangle_of);
+    }
     if (VXL_TRANSMISSION) {
         const lane_int ahead = ray_state->goes_on &
                                LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(ray_state->instance));

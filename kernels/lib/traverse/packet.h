@@ -131,6 +131,7 @@ static inline RayState sight_ray_state(void) {
     r.media = empty_medium_set();
     r.body = (lane_uint)VXL_NO_MEDIUM;
     r.instance = (lane_uint)VXL_NO_INSTANCE;
+    r.field_of = r.triangle_of = (lane_uint)VXL_NO_OBJECT;
     return r;
 }
 
@@ -209,7 +210,8 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
 }
 
 /// Sets the rays that the lanes hold, of the batch's first `count`, on their way.
-static inline void set_out(const PyramidView* p, const RayBatch* batch, uint count, Packet* f) {
+static inline void set_out(const WorldView* world, const RayBatch* batch, uint count, Packet* f) {
+    const PyramidView* p = &world->pyramid;
     global const uint* paths = batch->paths;
     const uint stride = batch->stride;
     f->walk = walk_of(batch->rays, stride, f->ray, VXL_PATHS);
@@ -218,6 +220,7 @@ static inline void set_out(const PyramidView* p, const RayBatch* batch, uint cou
     if (VXL_PATHS) {
         flags = LANES_GATHER_UINT(paths + VXL_PATH_FLAGS * stride, f->ray);
         f->ray_state = load_ray_state(batch, count, f->ray, flags);
+        if (VXL_MIXED) find_mixed_mesh(world, &f->ray_state);
     }
     enter_world(p, &f->walk, ~f->ray_state.on_surface);
     f->ray_state.unsure = ~f->ray_state.on_surface & LANE_MASK(f->walk.axis == 3);

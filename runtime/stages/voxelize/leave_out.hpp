@@ -10,7 +10,7 @@
 namespace voxelume {
 
 /// Within so many voxels of the points along each axis, a field has no surface.
-inline constexpr int kLeftOut = 2;
+inline constexpr int kLeftOut = 5;
 
 /// Makes the distances around points outside, as if nothing were there, unless the field's voxels
 /// are larger than those of `voxel_edge` by more than a third. Where the field is cut, its body
