@@ -15,13 +15,14 @@
 #include "lib/traverse/world.h"
 #include "shared/voxel.h"
 
-/// Finds the objects on whose field or triangles rays begin, by their source and instance.
-static inline void find_mixed_mesh(const WorldView* world, RayState* ray_state) {
+/// Finds the objects on whose field or triangles the `sent` rays begin, by their source and
+/// instance.
+static inline void find_mixed_mesh(const WorldView* world, lane_int sent, RayState* ray_state) {
     const lane_uint source = ray_state->source;
-    const lane_int on_field = LANE_MASK((source >> 30) == 1u);
-    const lane_int on_triangle = LANE_MASK((source >> 30) == 0u);
+    const lane_int on_field = sent & LANE_MASK((source >> 30) == 1u);
+    const lane_int on_triangle = sent & LANE_MASK((source >> 30) == 0u);
     const lane_uint number = source & ~VXL_FIELD_SOURCE;
-    const lane_int of_world = LANE_MASK(ray_state->instance == VXL_NO_INSTANCE);
+    const lane_int of_world = LANE_MASK(ray_state->instance == VXL_NO_INSTANCE) | ~sent;
     const lane_int listed = VXL_INSTANCES ? of_world : (lane_int)-1;
     lane_uint object = (lane_uint)world->surface.constant_attribute;
     if (VXL_ATTRIBUTES)

@@ -220,7 +220,6 @@ static inline void set_out(const WorldView* world, const RayBatch* batch, uint c
     if (VXL_PATHS) {
         flags = LANES_GATHER_UINT(paths + VXL_PATH_FLAGS * stride, f->ray);
         f->ray_state = load_ray_state(batch, count, f->ray, flags);
-        if (VXL_MIXED) find_mixed_mesh(world, &f->ray_state);
     }
     enter_world(p, &f->walk, ~f->ray_state.on_surface);
     f->ray_state.unsure = ~f->ray_state.on_surface & LANE_MASK(f->walk.axis == 3);
@@ -230,6 +229,9 @@ static inline void set_out(const WorldView* world, const RayBatch* batch, uint c
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL * stride, f->ray),
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
     f->t_end = VXL_RAY_FLOATS(batch->rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
+    if (VXL_MIXED)
+        find_mixed_mesh(world, LANE_MASK(f->ray < count) & LANE_MASK(f->t_end >= 0.0f),
+                        &f->ray_state);
     f->found = no_hit_yet();
 }
 
