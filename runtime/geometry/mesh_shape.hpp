@@ -20,8 +20,8 @@ inline constexpr double kSharpShare = 0.7;
 /// Small parts of one are lost or shredded below this many.
 inline constexpr double kThinPartVoxels = 1;
 
-/// A mesh of which more of the area lies around thin parts is exact as a whole. Where nearly half
-/// does, pictures take more time than those of triangles alone, and where an eighth does, less.
+/// A mesh of which more of the area lies around thin parts is exact as a whole. Where a third does,
+/// pictures take less time than those of triangles alone, and where half does, more.
 inline constexpr double kMaxThinShare = 0.35;
 
 /// What is asked of a mesh besides its summary.

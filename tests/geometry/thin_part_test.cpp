@@ -24,7 +24,7 @@ double reach_of(const Mesh& mesh, const glm::uvec3& t) {
     return reach;
 }
 
-TEST(ThinPart, IsAFinWithFourVoxelsOfTheBodyAround) {
+TEST(ThinPart, IsAFinWithFiveVoxelsOfTheBodyAround) {
     const Mesh ball = finned_ball(0.4 * kVoxel, 0.7, 400);
     const ThinPart part = thin_part_of(ball, kVoxel);
     size_t around = 0;

@@ -93,7 +93,7 @@ TEST_F(ThinPartImage, HasNoHolesWhereTheSurfacesMeet) {
         for (const char* placement : {"world", "instance"}) {
             SCOPED_TRACE(fmt::format("{} in voxels of {} m", placement, voxel));
             expect_alike(picture(mixed_scene(voxel, placement)),
-                         picture(scene_of(voxel, placement, "exact")), voxel, 6);
+                         picture(scene_of(voxel, placement, "exact")), voxel, 10);
         }
 }
 
