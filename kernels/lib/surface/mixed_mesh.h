@@ -45,6 +45,17 @@ static inline void find_mixed_mesh(const WorldView* world, lane_int sent, RaySta
     ray_state->triangle_of = LANES_SELECT(on_triangle, object, (lane_uint)VXL_NO_OBJECT);
 }
 
+/// Turns the objects to those that surfaces have in the space of instance `number`, which shows
+/// `object`: there all are of object 0. In the world they stay.
+static inline void enter_mixed_mesh(RayState* ray_state, lane_uint number, uint object) {
+    const lane_int of_instance = LANE_MASK(number != VXL_NO_INSTANCE);
+    const lane_uint none = (lane_uint)VXL_NO_OBJECT, own = (lane_uint)0;
+    const lane_uint field = LANES_SELECT(LANE_MASK(ray_state->field_of == object), own, none);
+    const lane_uint triangle = LANES_SELECT(LANE_MASK(ray_state->triangle_of == object), own, none);
+    ray_state->field_of = LANES_SELECT(of_instance, field, ray_state->field_of);
+    ray_state->triangle_of = LANES_SELECT(of_instance, triangle, ray_state->triangle_of);
+}
+
 /// Mask: surfaces of these packed attributes are of `object`.
 static inline lane_int is_of_object(lane_uint object, lane_uint packed) {
     return LANE_MASK((packed & VXL_OBJECT_MASK) == object);
