@@ -15,10 +15,10 @@ kernel void trace_closest(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count
     const WorldView world = VXL_WORLD;
     const SightRays q = {VXL_BATCH, count};
     Packet f;
-    bool sent = send_packet(&world.pyramid, &q, first, &f);
+    bool sent = send_packet(&world, &q, first, &f);
     if (VXL_PACKETS_INTERLEAVED > 1) {
         Packet g;
-        const bool also = send_packet(&world.pyramid, &q, first + VXL_LANES, &g);
+        const bool also = send_packet(&world, &q, first + VXL_LANES, &g);
         if (sent && also) {
             find_interleaved(&world.pyramid, &world.surface, &f, are_rays(&q, &f), &g,
                              are_rays(&q, &g));
@@ -49,9 +49,9 @@ kernel void trace_scattered(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint cou
         {VXL_BATCH, count},
         first,
         min(first + VXL_LANES * VXL_PACKETS(VXL_LANES), (count + VXL_LANES - 1u) & -VXL_LANES)};
-    LaneRefill a = begin_refill(p, &q);
+    LaneRefill a = begin_refill(&world, &q);
     if (VXL_LANES > 1 && q.next < q.end) {
-        LaneRefill b = begin_refill(p, &q);
+        LaneRefill b = begin_refill(&world, &q);
         while (lanes_any(a.held) && lanes_any(b.held)) {
             const int minimum = min_walking(&q);
             bool on_a = walks(&a, minimum), on_b = walks(&b, minimum);
@@ -61,15 +61,15 @@ kernel void trace_scattered(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint cou
                 on_a = walks(&a, minimum);
                 on_b = walks(&b, minimum);
             }
-            if (!on_a) serve(p, &world.surface, &q, &a);
-            if (!on_b) serve(p, &world.surface, &q, &b);
+            if (!on_a) serve(&world, &q, &a);
+            if (!on_b) serve(&world, &q, &b);
         }
         if (lanes_any(b.held)) a = b;
     }
     while (lanes_any(a.held)) {
         const int minimum = min_walking(&q);
         while (walks(&a, minimum)) step_refill(p, &a);
-        serve(p, &world.surface, &q, &a);
+        serve(&world, &q, &a);
     }
 }
 #endif
@@ -90,7 +90,7 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
     const RayBatch batch = VXL_BATCH;
     Packet f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(&world.pyramid, &batch, count, &f);
+    set_out(&world, &batch, count, &f);
     MediumSet in = f.ray_state.media;
     const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
     const MediumSet began =

@@ -26,7 +26,7 @@ std::vector<KnownPicture> known_pictures();
 /// A file that scenes of known pictures name.
 struct KnownFile {
     std::string_view name;
-    std::string_view text;
+    std::string text;
 };
 
 std::vector<KnownFile> known_files();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scenes of the known pictures: together they launch every kernel that images take.
+#include <fmt/format.h>
+
 #include <initializer_list>
+#include <iterator>
 #include <utility>
 
 #include "cli/devices/doctor_pictures.hpp"
@@ -102,6 +105,20 @@ constexpr const char* kMeshes = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [28, 18], "samples": 2}})";
 
+// Meshes whose tips alone are triangles: rays from one surface pass the other's back.
+constexpr const char* kMixed = R"({"voxelume": 1,
+"world": {"voxel_size": 0.05, "bounds": {"min": [-0.9, -0.6, -0.5], "max": [0.9, 1, 0.5]},
+          "ambient": [0.2, 0.2, 0.3]},
+"materials": {"clay": {"color": [0.8, 0.6, 0.4], "diffuse": 0.8, "reflection": 0.2}},
+"models": {"drop": {"mesh": "drop.obj", "voxel_size": 0.05}},
+"objects": [{"model": "drop", "material": "clay", "position": [-0.45, 0, 0.1]},
+            {"model": "drop", "material": "clay", "position": [0.45, 0.3, 0], "turn": [20, 10, 70],
+             "placement": "instance"}],
+"lights": [{"type": "directional", "direction": [1, -0.4, 1]}],
+"observer": {"position": [0.1, 0.9, -3], "look_at": [0, 0.2, 0],
+             "display": {"shape": "pyramid", "angle": 36}},
+"render": {"size": [36, 28], "depth": 1}})";
+
 // A block that leaves the bricks in which it was.
 constexpr const char* kMotion = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.6, -1, -1], "max": [4.8, 1, 1]}},
@@ -151,6 +168,31 @@ f 1 2 4
 f 2 3 4
 )";
 
+/// A drop with its tip upwards. Its text is the same wherever it is made.
+std::string drop() {
+    constexpr int kAround = 12;
+    constexpr double kHalf = 0.5, kLong = 0.866025,
+                     kTurns[] = {1,  kLong,  kHalf,  0, -kHalf, -kLong,
+                                 -1, -kLong, -kHalf, 0, kHalf,  kLong};
+    constexpr double kRings[][2] = {{0.15, -0.36}, {0.26, -0.25}, {0.3, -0.1},
+                                    {0.225, 0.15}, {0.15, 0.4},   {0.075, 0.65}};
+    constexpr int kLast = int(std::size(kRings)) - 1;
+    std::string text = "v 0 -0.4 0\nv 0 0.9 0\n";
+    for (const auto& [radius, y] : kRings)
+        for (int i = 0; i < kAround; ++i)
+            text += fmt::format("v {:.5f} {:.5f} {:.5f}\n", radius * kTurns[i], y,
+                                radius * kTurns[(i + 9) % kAround]);
+    const auto at = [](int ring, int i) { return 3 + ring * kAround + i % kAround; };
+    for (int i = 0; i < kAround; ++i) {
+        text += fmt::format("f 1 {} {}\n", at(0, i), at(0, i + 1));
+        for (int ring = 0; ring < kLast; ++ring)
+            text += fmt::format("f {} {} {} {}\n", at(ring, i), at(ring + 1, i),
+                                at(ring + 1, i + 1), at(ring, i + 1));
+        text += fmt::format("f 2 {} {}\n", at(kLast, i + 1), at(kLast, i));
+    }
+    return text;
+}
+
 std::string with(std::string text,
                  std::initializer_list<std::pair<const char*, const char*>> words) {
     for (const auto& [word, value] : words)
@@ -168,7 +210,7 @@ std::string lattice(const char* material, const char* layout, const char* visibi
 }  // namespace
 
 std::vector<KnownFile> known_files() {
-    return {{"textured.gltf", kTextured}, {"open.obj", kOpen}};
+    return {{"textured.gltf", kTextured}, {"open.obj", kOpen}, {"drop.obj", drop()}};
 }
 
 std::vector<KnownPicture> known_pictures() {
@@ -179,6 +221,7 @@ std::vector<KnownPicture> known_pictures() {
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
          false, "a5b9f7b087340160"},
         {"meshes", kMeshes, false, "ae7d5428b2dd3899"},
+        {"mixed meshes", kMixed, false, "f6d1535b966da34f"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},
         {"clear rays", lattice("default", "rays", "observer", ""), true, "10c69d6634bd4439"},

@@ -115,6 +115,13 @@ bool lights_surfaces(const Scene& scene, const Pyramid& world) {
             has_sky_samples(scene) || has_emissive_samples(scene, world));
 }
 
+/// True if some mesh may be smooth in one part and exact in another.
+bool shows_mixed_mesh(const Scene& scene, const Pyramid& world) {
+    return std::ranges::any_of(shown_objects(scene, world), [&](const Object* object) {
+        return thin_part_of(scene.models[size_t(object->model)]).has_value();
+    });
+}
+
 /// Adds the features of a sky.
 void add_sky(const Sky& sky, const Scene& scene, const Pyramid& world, Features& features) {
     features.sky = sky_feature(sky);
@@ -141,6 +148,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
+    features.mixed = (features.shadows || features.paths) && shows_mixed_mesh(scene, world);
     const auto sky = outside_of(scene).sky;
     if (sky && (sky->visible || features.paths || has_sky_samples(scene)))
         add_sky(*sky, scene, world, features);

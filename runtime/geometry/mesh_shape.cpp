@@ -29,8 +29,10 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
     const double thickness = shape.thickness.body / voxel_edge,
                  part = shape.thickness.part / voxel_edge;
     if (thickness < kThinVoxels || part < kThinPartVoxels)
-        return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick",
-                                            thickness < kThinVoxels ? thickness : part)};
+        return {Surface::exact,
+                fmt::format("parts of it are only {:.2g} voxels thick",
+                            thickness < kThinVoxels ? thickness : part),
+                true};
     return {Surface::smooth,
             fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",
                         mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed",

@@ -20,9 +20,9 @@ inline constexpr double kSharpShare = 0.7;
 /// Small parts of one are lost or shredded below this many.
 inline constexpr double kThinPartVoxels = 1;
 
-/// A mesh of which more of the area lies around thin parts is exact as a whole. None is exact in
-/// parts yet: where triangles and field overlap, the backs of the triangles shadow single pixels.
-inline constexpr double kMaxThinShare = 0;
+/// A mesh of which more of the area lies around thin parts is exact as a whole. Where a third does,
+/// pictures take less time than those of triangles alone, and where half does, more.
+inline constexpr double kMaxThinShare = 0.35;
 
 /// What is asked of a mesh besides its summary.
 struct MeshShape {
@@ -39,8 +39,8 @@ bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
 struct SurfaceChoice {
     Surface surface = Surface::smooth;
     std::string reason;
-    bool may_be_thin = false;  ///< smooth, and small parts may be too thin, for surface_with; what
-                               ///< that returns has such parts, which are exact
+    bool may_be_thin = false;  ///< parts may be too thin for `smooth`, for surface_with; what that
+                               ///< returns is smooth and has such parts, which are exact
 };
 
 /// `smooth` for a mesh with an inside and without sharp edges that is at least kThinVoxels thick,
@@ -52,8 +52,9 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
 /// voxels have neither colours nor groups in the world.
 bool may_have_exact_parts(const MeshSummary& mesh);
 
-/// What becomes of a choice of `smooth` whose parts may be too thin. `part` is the mesh around
-/// them: it is exact where it has at most kMaxThinShare of the area, else all is.
+/// What becomes of a choice for a mesh whose parts may be too thin. `part` is the mesh around the
+/// thin walls: it alone is exact if it has at most kMaxThinShare of the area, else all is. Without
+/// such walls the choice stays.
 SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
                            const MeshSummary& part);
 

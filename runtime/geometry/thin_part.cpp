@@ -21,7 +21,7 @@ constexpr double kMaxVoxels = 2048;
 
 /// The edge of the cells that walls are noted in, in voxels: triangles in cells around those count,
 /// too.
-constexpr double kCell = 4;
+constexpr double kCell = 5;
 
 /// The chords that a wall must have to count, with others in cells that touch its own.
 constexpr size_t kMinChords = 12;

@@ -18,7 +18,7 @@ struct ThinPart {
     std::vector<glm::vec3> points;  ///< within the walls, two a voxel along each axis
 };
 
-/// The triangles of a closed mesh within at least four voxels of walls that are thinner than
+/// The triangles of a closed mesh within at least five voxels of walls that are thinner than
 /// kThinVoxels. `voxel_edge` is in metres. Walls are found on lines along the axes, two for each
 /// voxel; those of a voxel or two all around, as folds of scanned meshes are, don't count. Empty
 /// for a mesh without thin walls, of more than 2048 voxels along an axis, or with so many layers

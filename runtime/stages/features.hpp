@@ -18,6 +18,7 @@ struct Features {
     bool field_lists = false;   ///< some voxel lists the distance fields in it
     bool field_chains = false;  ///< ... and some of them are of a solid's parts
     int chain_depth = 0;        ///< ... in so many brackets within each other
+    bool mixed = false;         ///< some mesh has a field and triangles, and rays begin on it
     bool attributes = false;    ///< voxels differ in object, material or kind
     bool colors = false;        ///< voxels have colours of their own
     bool worn_triangles = false;  ///< some exact triangle wears a texture
@@ -93,6 +94,7 @@ struct Features {
                 {"VXL_FIELD_CHAINS", field_chains},
                 {"VXL_CHAIN_DEPTH", chain_depth},
                 {"VXL_SOURCES", sources()},
+                {"VXL_MIXED", mixed},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
                 {"VXL_TEXTURES", textures()},

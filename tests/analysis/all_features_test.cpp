@@ -16,6 +16,7 @@
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/finned_ball.hpp"
 #include "tests/support/shared_device.hpp"
 #include "tests/support/writers/gltf_writer.hpp"
 
@@ -56,6 +57,7 @@ std::string scene_text(const std::string& light) {
                {"shape": "difference", "position": [0.3, 0.2, 0.1], "parts": [
                    {"shape": "sphere", "radius": 0.3},
                    {"shape": "sphere", "radius": 0.2, "position": [0.2, 0.1, -0.1]}]}]},
+           "finned": {"mesh": "fin.obj", "surface": "smooth"},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(
@@ -68,6 +70,7 @@ std::string scene_text(const std::string& light) {
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
             {"model": "slick", "material": "glow", "position": [-0.6, 0.6, 0.4]},
             {"model": "nut", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
+            {"model": "finned", "material": "clay", "position": [-0.2, -0.6, 0.9]},
             {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
 "lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
             "intensity": 9, "spots": 2}],
@@ -118,7 +121,11 @@ class AllFeatures : public FileTest, public testing::WithParamInterface<const ch
         write_fog(folder / "fog.vdb");
         put_bytes(folder / "around.hdr",
                   "#?RADIANCE\n\n-Y 1 +X 2\n\x40\x50\x60\x80\x20\x20\x20\x80");
-        return parse_scene(scene_text(GetParam()), folder / "s.json", {});
+        write_obj(folder / "fin.obj", finned_ball(0.02, 0.6, 24));
+        Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});
+        const auto finned = std::ranges::find(scene.models, "finned", &Model::name);
+        finned->thin_edge = 0.1;  // its fin is exact
+        return scene;
     }
 };
 

@@ -124,21 +124,24 @@ TEST_F(SceneChoices, LeaveWhatTheSceneSays) {
         }
 }
 
-TEST_F(SceneChoices, MakeAMeshWithASmallThinPartExact) {
+TEST_F(SceneChoices, MakeOnlyThinPartsExact) {
     const std::string blade = R"("mesh": "blade.obj", "fit": 0.8)";
     const Model model = chosen(blade);
-    EXPECT_EQ(model.surface, Surface::exact);
-    EXPECT_THAT(model.surface_reason, testing::HasSubstr("parts thinner than 2 voxels"));
-    EXPECT_EQ(chosen(blade + R"(, "surface": "smooth")").surface, Surface::smooth);
-    EXPECT_EQ(chosen(R"("mesh": "ring.obj")").surface, Surface::smooth);
-    Model mixed = model;
-    mixed.surface = Surface::smooth;
-    mixed.thin_edge = 0.02;
-    ASSERT_TRUE(thin_part_of(mixed));
-    EXPECT_EQ(thin_part_of(mixed)->surface, Surface::exact);
-    EXPECT_FALSE(thin_part_of(*thin_part_of(mixed)));
-    mixed.surface = Surface::cubes;
-    EXPECT_FALSE(thin_part_of(mixed)) << "as a scene that is voxelized";
+    EXPECT_EQ(model.surface, Surface::smooth);
+    EXPECT_DOUBLE_EQ(model.thin_edge, 0.02);
+    EXPECT_THAT(model.surface_reason, testing::HasSubstr("and is exact"));
+    ASSERT_TRUE(thin_part_of(model));
+    EXPECT_EQ(thin_part_of(model)->surface, Surface::exact);
+    EXPECT_FALSE(thin_part_of(*thin_part_of(model)));
+    Model cubes = model;
+    cubes.surface = Surface::cubes;
+    EXPECT_FALSE(thin_part_of(cubes)) << "as a scene that is voxelized";
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj")").thin_edge, 0);
+    EXPECT_EQ(chosen(blade + R"(, "surface": "smooth")").thin_edge, 0);
+    const char* const kMoves =
+        R"({"target": "objects[0].position", "keys": [{"frame": 1, "value": [0, 0, 0]}, {"frame": 4, "value": [0.1, 0, 0]}]})";
+    EXPECT_EQ(chosen(blade, "", kMoves).thin_edge, 0);
+    EXPECT_EQ(chosen(R"("mesh": "fin.obj", "fit": 0.8)").surface, Surface::exact) << "a large part";
 }
 
 // Where the two surfaces overlap, they would be seen one behind the other.

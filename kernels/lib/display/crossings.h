@@ -232,7 +232,7 @@ static inline void scan_primitives(const WorldView* world, const PyramidView* p,
             lane_float t = t_exit;
             const lane_int crossed = hit_triangle(p, t_first, (lane_int)-1, s->triangles,
                                                   primitive & LANES_AS_UINT(triangle), w, &shear,
-                                                  (lane_int)0, triangle, &t);
+                                                  (lane_int)0, (lane_int)0, triangle, &t);
             lane_float inward = (lane_float)0.0f;
             if (r->covers || VXL_TRANSMISSION)
                 inward = triangle_inward(s->triangles, primitive & LANES_AS_UINT(triangle), w);

@@ -7,6 +7,8 @@
 #include "lib/surface/cube_behind.h"
 #include "shared/trace.h"
 
+#define VXL_NO_OBJECT 0xFFFFFFFFu
+
 /// How a packet's rays set out.
 typedef struct {
     lane_int on_surface;     // mask: begins on a surface
@@ -25,6 +27,8 @@ typedef struct {
                          // instances, elsewhere on_surface tells
     lane_int guesses;    // mask: fields' signs tell on which side it is, even where it begins on
                          // them; of scenes with instances
+    lane_uint field_of, triangle_of;  // the object on whose field or triangles it begins,
+                                      // VXL_NO_OBJECT for none; see mixed_mesh.h
 } RayState;
 
 /// What a packet has found so far.

@@ -6,6 +6,7 @@
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field_chain.h"
+#include "lib/surface/mixed_mesh.h"
 #include "lib/surface/surface_hit.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
@@ -117,12 +118,14 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle)) {
                 const lane_uint number = primitive & LANES_AS_UINT(triangle);
-                lane_int within = (lane_int)0;
-                if (VXL_TRANSMISSION)
-                    within = medium_set_holds(&ray_state->media,
-                                              LANES_GATHER_UINT(s->triangle_attributes, number));
+                lane_int within = (lane_int)0, outside = (lane_int)0;
+                if (VXL_TRANSMISSION || VXL_MIXED) {
+                    const lane_uint packed = LANES_GATHER_UINT(s->triangle_attributes, number);
+                    if (VXL_TRANSMISSION) within = medium_set_holds(&ray_state->media, packed);
+                    if (VXL_MIXED) outside = is_of_object(ray_state->field_of, packed);
+                }
                 closer |= hit_triangle(p, t_min, at_least, s->triangles, number, w, &shear, within,
-                                       triangle, &found->t);
+                                       outside, triangle, &found->t);
             }
         }
         if (VXL_SOLIDS) {  // one test of a solid covers the whole ray
@@ -156,8 +159,13 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
         from.here = beginning & ~from.beginning;
     }
     lane_uint packed = (lane_uint)s->constant_attribute;
-    if (VXL_ATTRIBUTES && (any_unsure || VXL_TRANSMISSION))
+    if (VXL_ATTRIBUTES && (any_unsure || VXL_TRANSMISSION || VXL_MIXED))
         packed = LANES_GATHER_UINT(s->attributes, number);
+    if (VXL_MIXED) {  // what is above the ray's origin isn't above the ray's object
+        const lane_int own = is_of_object(ray_state->triangle_of, packed);
+        from.here |= own;
+        from.unsure &= ~own;
+    }
     if (VXL_TRANSMISSION) from.within = medium_set_holds(&ray_state->media, packed);
     if (any_unsure)
         from.within |= from.unsure & (is_medium(found->inside, packed) |

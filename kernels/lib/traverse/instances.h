@@ -103,8 +103,7 @@ static inline PyramidView instance_pyramid(const PyramidView* world,
 // The object of instances' surfaces, in their own attributes.
 #define VXL_OWN_OBJECT (VXL_KIND_SMOOTH << VXL_KIND_SHIFT)
 
-/// The state with which rays begin in the space of instance `number`, which shows `object`, or of
-/// the world.
+/// The state with which rays begin in the space of instance `number`, of `object`, or of the world.
 ///
 /// A ray that goes on from a surface at t_first has yet to meet surfaces at this very t in the
 /// spaces that come after that surface's: the world's is the first, then those of instances by
@@ -118,6 +117,7 @@ static inline RayState ray_state_in(const RayState* ray_state, lane_uint number,
     t.within_source &= own;
     t.source = LANES_SELECT(own, t.source, (lane_uint)VXL_NO_PRIMITIVE);
     t.unsure = begins & (~t.on_surface | t.guesses);
+    if (VXL_MIXED) enter_mixed_mesh(&t, number, object);
     if (VXL_TRANSMISSION) {
         const lane_int ahead = ray_state->goes_on &
                                LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(ray_state->instance));

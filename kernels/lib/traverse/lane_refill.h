@@ -48,40 +48,40 @@ static inline void step_refill(const PyramidView* p, LaneRefill* r) {
 }
 
 /// Gives the lanes that hold no ray the next ones.
-static inline void take_on(const PyramidView* p, ScatteredRays* q, LaneRefill* r) {
+static inline void take_on(const WorldView* world, ScatteredRays* q, LaneRefill* r) {
     const SightRays* s = &q->rays;
     Packet* f = &r->packet;
     const Progress before = progress_of(f);
     const lane_int fresh = take_rays(~r->held, q->end, &q->next, &f->ray);
-    set_out(p, &s->batch, s->count, f);
+    set_out(world, &s->batch, s->count, f);
     keep_progress(&before, fresh, f);
     r->held |= fresh;
-    r->walking |= fresh & are_rays(s, f) & in_grid(p, &f->walk);
+    r->walking |= fresh & are_rays(s, f) & in_grid(&world->pyramid, &f->walk);
 }
 
-static inline LaneRefill begin_refill(const PyramidView* p, ScatteredRays* q) {
+static inline LaneRefill begin_refill(const WorldView* world, ScatteredRays* q) {
     LaneRefill r;
     const SightRays* s = &q->rays;
     Packet* f = &r.packet;
     f->ray = (lane_uint)(q->end - 1u);
     r.held = take_rays((lane_int)-1, q->end, &q->next, &f->ray);
-    set_out(p, &s->batch, s->count, f);
-    r.walking = r.held & are_rays(s, f) & in_grid(p, &f->walk);
+    set_out(world, &s->batch, s->count, f);
+    r.walking = r.held & are_rays(s, f) & in_grid(&world->pyramid, &f->walk);
     r.waiting = (lane_int)0;
     return r;
 }
 
 /// Tests the surfaces that lanes wait at. If too few lanes walk on, stores what the others have met
 /// and gives them further rays.
-static inline void serve(const PyramidView* p, const SurfaceView* s, ScatteredRays* q,
-                         LaneRefill* r) {
+static inline void serve(const WorldView* world, ScatteredRays* q, LaneRefill* r) {
     Packet* f = &r->packet;
     if (lanes_any(r->waiting))
-        meet_surfaces(p, s, &f->walk, f->t_end, &f->ray_state, &f->found, &r->walking, &r->waiting);
+        meet_surfaces(&world->pyramid, &world->surface, &f->walk, f->t_end, &f->ray_state,
+                      &f->found, &r->walking, &r->waiting);
     if (lanes_count(r->walking) > min_walking(q)) return;
     store_hits(f, r->held & ~r->walking, &q->rays.batch);
     r->held &= r->walking;
-    if (q->next < q->end) take_on(p, q, r);
+    if (q->next < q->end) take_on(world, q, r);
 }
 
 #endif

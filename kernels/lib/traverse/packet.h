@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of rays on their way to the first surface: how they begin, step from cell to cell and
-// end.
+// Packets of rays on their way to the first surface: their beginning, steps and end.
 //
 // A packet carries VXL_LANES rays. Lanes that reach an occupied voxel wait for others; then the
 // surfaces inside those voxels are tested together, and lanes that missed them walk on.
@@ -109,8 +108,7 @@ static inline SurfaceHit find_first(const PyramidView* p, const SurfaceView* s, 
     return found;
 }
 
-/// The walks of the rays that a packet's lanes hold; `one_by_one` is true if the lanes were given
-/// their rays one by one.
+/// The walks of the lanes' rays; `one_by_one` is true if they were given their rays one by one.
 static inline Walk walk_of(global const float* restrict rays, uint stride, lane_uint ray,
                            bool one_by_one) {
     return begin_walk(VXL_RAY_FLOATS(rays + VXL_RAY_OX * stride, ray, one_by_one),
@@ -127,6 +125,7 @@ static inline RayState sight_ray_state(void) {
     r.on_surface = r.goes_on = r.refracted = r.within_source = r.asks_side = (lane_int)0;
     r.on_cube = r.joined = r.unsure = r.guesses = (lane_int)0;
     r.source = (lane_uint)VXL_NO_PRIMITIVE;
+    r.field_of = r.triangle_of = (lane_uint)VXL_NO_OBJECT;
     r.t_first = (lane_float)0.0f;
     r.media = empty_medium_set();
     r.body = (lane_uint)VXL_NO_MEDIUM;
@@ -173,10 +172,9 @@ static inline lane_float entry_time(const Walk* w) {
                 fmax(LANES_SELECT(w->my, ty, none), LANES_SELECT(w->mz, tz, none)));
 }
 
-/// Moves the `resuming` walks to the cell where their rays begin or go on.
+/// Moves the walks of the lanes `on` to the cell where their rays begin or go on.
 static inline void resume_walk(Walk* w, const RayState* ray_state, lane_uint cell_xy,
-                               lane_uint cell_z, lane_int resuming) {
-    const lane_int on = resuming;
+                               lane_uint cell_z, lane_int on) {
     w->x = LANES_SELECT(on, LANES_AS_INT(cell_xy & 0xFFFFu), w->x);
     w->y = LANES_SELECT(on, LANES_AS_INT(cell_xy >> 16), w->y);
     w->z = LANES_SELECT(on, LANES_AS_INT(cell_z & 0xFFFFu), w->z);
@@ -209,7 +207,7 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
 }
 
 /// Sets the rays that the lanes hold, of the batch's first `count`, on their way.
-static inline void set_out(const PyramidView* p, const RayBatch* batch, uint count, Packet* f) {
+static inline void set_out(const WorldView* world, const RayBatch* batch, uint count, Packet* f) {
     global const uint* paths = batch->paths;
     const uint stride = batch->stride;
     f->walk = walk_of(batch->rays, stride, f->ray, VXL_PATHS);
@@ -219,7 +217,7 @@ static inline void set_out(const PyramidView* p, const RayBatch* batch, uint cou
         flags = LANES_GATHER_UINT(paths + VXL_PATH_FLAGS * stride, f->ray);
         f->ray_state = load_ray_state(batch, count, f->ray, flags);
     }
-    enter_world(p, &f->walk, ~f->ray_state.on_surface);
+    enter_world(&world->pyramid, &f->walk, ~f->ray_state.on_surface);
     f->ray_state.unsure = ~f->ray_state.on_surface & LANE_MASK(f->walk.axis == 3);
     const lane_int resuming = has_flag(flags, VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL);
     if (VXL_TRANSMISSION && lanes_any(resuming))
@@ -227,6 +225,8 @@ static inline void set_out(const PyramidView* p, const RayBatch* batch, uint cou
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL * stride, f->ray),
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
     f->t_end = VXL_RAY_FLOATS(batch->rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
+    const lane_int sent = LANE_MASK(f->ray < count) & LANE_MASK(f->t_end >= 0.0f);
+    if (VXL_MIXED) find_mixed_mesh(world, sent, &f->ray_state);
     f->found = no_hit_yet();
 }
 

@@ -53,6 +53,7 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
         ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
     if (VXL_INSTANCES)
         ray_state->instance = LANES_GATHER_UINT(batch->hits + VXL_HIT_INSTANCE * stride, target);
+    if (VXL_MIXED) find_mixed_mesh(world, LANE_MASK(packet->ray < *q->count), ray_state);
     if (VXL_SOLIDS) {
         const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
         const lane_int solid = LANE_MASK((ray_state->source & VXL_SOLID_PRIMITIVE) != 0u) &

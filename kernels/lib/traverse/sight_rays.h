@@ -75,14 +75,14 @@ typedef struct {
 
 /// Begins the packet of rays from `first` on. Returns false if there is none, or if its beam is
 /// clear; then its misses are stored.
-static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Packet* f) {
+static inline bool send_packet(const WorldView* world, const SightRays* q, uint first, Packet* f) {
     if (first >= q->count) return false;
     if (q->batch.beams && beam_is_clear(&q->batch, first)) {
         store_misses(&q->batch, first);
         return false;
     }
     f->ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(p, &q->batch, q->count, f);
+    set_out(world, &q->batch, q->count, f);
     if (q->batch.beams) ride_beam(&q->batch, first, &f->walk);
     return true;
 }

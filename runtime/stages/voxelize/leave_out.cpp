@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 #include "runtime/scene/parts/scene_affine.hpp"
@@ -12,45 +13,62 @@
 namespace voxelume {
 namespace {
 
-constexpr int16_t kOutside = 32767;
+/// What is added to distances that are 0, 1, 2 .. nodes from the nearest point, in distance units:
+/// 1.5 voxels, of which walls thinner than two have none, and beyond the walls less from node to
+/// node. The interpolated field bulges outwards beside a rise, by up to a sixteenth of it; where
+/// each rise is a fifth of the next, it sinks all the same.
+constexpr std::array<int, kLeftOut + 1> kRise = {12288, 12288, 12288, 2458, 492, 98};
 
 /// How many times as large the field's voxels may be.
 constexpr double kLargest = 4.0 / 3;
 
-/// The distances of a grid, in main memory.
+/// The distances of a grid, in main memory, and how near they are to points.
 class Nodes {
   public:
     explicit Nodes(const BrickGrid& grid)
         : size_(grid.frame.size),
           bricks_(grid.frame.bricks()),
           slots_(grid.slots.read()),
-          distances_(grid.distance.read()) {}
+          distances_(grid.distance.read()),
+          is_near_(distances_.size()) {}
 
-    void leave_out(const glm::ivec3& node) {
-        const glm::ivec3 low = glm::max(node - kLeftOut, 0);
-        const glm::ivec3 high = glm::min(node + kLeftOut, size_ - 1);
-        for (int z = low.z; z <= high.z; ++z)
-            for (int y = low.y; y <= high.y; ++y)
-                for (int x = low.x; x <= high.x; ++x) set({x, y, z});
+    /// Raises a node that no earlier call has raised. Returns whether it did.
+    bool raise(const glm::ivec3& node, int rise) {
+        if (glm::any(glm::lessThan(node, glm::ivec3(0))) ||
+            glm::any(glm::greaterThanEqual(node, size_)))
+            return false;
+        const glm::ivec3 brick = node / kBrickSize, in = node % kBrickSize;
+        const uint32_t slot =
+            slots_[size_t(brick.x) +
+                   size_t(bricks_.x) * (size_t(brick.y) + size_t(bricks_.y) * size_t(brick.z))];
+        if (slot >= kBrickInside) return false;
+        const size_t place =
+            slot * kVoxelsPerBrick + size_t(in.x + kBrickSize * (in.y + kBrickSize * in.z));
+        if (is_near_[place]) return false;
+        is_near_[place] = true;
+        distances_[place] = int16_t(std::min(distances_[place] + rise, 32767));
+        return true;
     }
 
     const std::vector<int16_t>& distances() const { return distances_; }
 
   private:
-    void set(const glm::ivec3& node) {
-        const glm::ivec3 brick = node / kBrickSize, in = node % kBrickSize;
-        const uint32_t slot =
-            slots_[size_t(brick.x) +
-                   size_t(bricks_.x) * (size_t(brick.y) + size_t(bricks_.y) * size_t(brick.z))];
-        if (slot >= kBrickInside) return;
-        distances_[slot * kVoxelsPerBrick +
-                   size_t(in.x + kBrickSize * (in.y + kBrickSize * in.z))] = kOutside;
-    }
-
     glm::ivec3 size_, bricks_;
     std::vector<uint32_t> slots_;
     std::vector<int16_t> distances_;
+    std::vector<bool> is_near_;
 };
+
+/// The nodes around `from` that no earlier call has raised, which this one does.
+std::vector<glm::ivec3> raise_around(const std::vector<glm::ivec3>& from, int rise, Nodes& nodes) {
+    std::vector<glm::ivec3> raised;
+    for (const glm::ivec3& node : from)
+        for (int i = 0; i < 27; ++i) {
+            const glm::ivec3 beside = node + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+            if (nodes.raise(beside, rise)) raised.push_back(beside);
+        }
+    return raised;
+}
 
 }  // namespace
 
@@ -60,15 +78,13 @@ void leave_out(std::span<const glm::vec3> points, double voxel_edge,
     const double own =
         std::max({edge.x, edge.y, edge.z}) / stretch_of(glm::dmat3(frame_from_mesh)).min;
     if (field.brick_count == 0 || points.empty() || own > kLargest * voxel_edge) return;
-    std::vector<std::array<int, 3>> nearest;
+    Nodes nodes(field);
+    std::vector<glm::ivec3> reached;
     for (const glm::vec3& p : points) {
         const glm::ivec3 node(glm::round(to_voxels(p, frame_from_mesh, field.frame)));
-        nearest.push_back({node.x, node.y, node.z});
+        if (nodes.raise(node, kRise[0])) reached.push_back(node);
     }
-    std::ranges::sort(nearest);
-    nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
-    Nodes nodes(field);
-    for (const auto& [x, y, z] : nearest) nodes.leave_out({x, y, z});
+    for (int i = 1; i <= kLeftOut; ++i) reached = raise_around(reached, kRise[size_t(i)], nodes);
     field.distance.write(nodes.distances());
 }
 

@@ -9,13 +9,13 @@
 
 namespace voxelume {
 
-/// Within so many voxels of the points along each axis, a field has no surface.
-inline constexpr int kLeftOut = 2;
+/// Within so many voxels of the points along each axis, a field lies behind its mesh.
+inline constexpr int kLeftOut = 5;
 
-/// Makes the distances around points outside, as if nothing were there, unless the field's voxels
-/// are larger than those of `voxel_edge` by more than a third. Where the field is cut, its body
-/// ends in a wall within four such voxels of the points, which must lie in a body that is shown
-/// otherwise. Points and edge are in the mesh's space.
+/// Raises the distances around points, unless the field's voxels are larger than those of
+/// `voxel_edge` by more than a third. Walls below two voxels around the points have no surface
+/// then, and towards them the body's surface sinks, from nothing at kLeftOut voxels on, below that
+/// of its mesh, which must be shown otherwise there. Points and edge are in the mesh's space.
 void leave_out(std::span<const glm::vec3> points, double voxel_edge,
                const glm::dmat4& frame_from_mesh, BrickGrid& field);
 
