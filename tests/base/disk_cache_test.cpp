@@ -38,7 +38,9 @@ TEST_F(DiskCacheFiles, SaysWhyItCannotBeWrittenWithoutWriting) {
     std::ofstream(folder / "file") << "no folder";
     EXPECT_EQ(DiskCache(folder / "file", 1000).refusal(), "Not a directory");
     EXPECT_EQ(DiskCache(folder / "file" / "deep", 1000).refusal(), "Not a directory");
-    if (geteuid() == 0) return;  // for whom everything can be written
+    EXPECT_EQ(DiskCache(folder, 1000).refusal(), "");
+    EXPECT_NE(DiskCache("/proc/cache", 1000).refusal(), "");
+    if (geteuid() == 0) return;  // for whom all else can be written
     fs::create_directory(folder / "locked");
     fs::permissions(folder / "locked", fs::perms::owner_read);
     EXPECT_EQ(DiskCache(folder / "locked" / "deep", 1000).refusal(), "Permission denied");

@@ -88,6 +88,21 @@ bool is_temporary(const std::string& name) {
     return name.starts_with('.');
 }
 
+/// Why nothing can be made in a folder; nothing is left there. Permissions alone don't tell: root
+/// has all of them for /proc, where nobody can make anything.
+std::string refusal_of_new_entries(const fs::path& folder) {
+    const int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    if (file >= 0) {
+        close(file);
+        return {};
+    }
+    if (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL) return std::strerror(errno);
+    std::string name = folder / ".voxelume-XXXXXX";  // the file system has no nameless files
+    if (!mkdtemp(name.data())) return std::strerror(errno);
+    rmdir(name.c_str());
+    return {};
+}
+
 fs::path environment_path(const char* name) {
     const char* value = std::getenv(name);
     return value ? fs::path(value) : fs::path();
@@ -193,7 +208,7 @@ std::string DiskCache::refusal() const {
         existing = existing.parent_path();
     if (error) return error.message();
     if (!fs::is_directory(existing, error)) return std::strerror(ENOTDIR);
-    return access(existing.c_str(), W_OK | X_OK) == 0 ? "" : std::strerror(errno);
+    return refusal_of_new_entries(existing);
 }
 
 void DiskCache::trim(const PrivateFolder& folder) const {

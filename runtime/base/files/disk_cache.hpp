@@ -51,7 +51,7 @@ class DiskCache {
     void write(const std::string& key, std::string_view bytes) const noexcept;
 
     /// Why nothing can be written, in the words of the system: "Permission denied". Empty if
-    /// something can be, and for a cache that keeps nothing. Writes nothing.
+    /// something can be, and for a cache that keeps nothing. Leaves nothing there.
     std::string refusal() const;
     const std::filesystem::path& folder() const { return folder_; }
 
