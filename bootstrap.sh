@@ -15,7 +15,8 @@ Usage: ./bootstrap.sh COMMAND
   test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
-  trust   kill, starve, feed with damage and tire the program, for hours; or a share: trust 0.01
+  trust   kill the program, break its disk, damage its files and tire it, for hours or for a share of
+          them: trust 0.01
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
   watch   hold what compilers for GPUs of NVIDIA, AMD and Intel make of kernels against limits
   farm    try the recipes of scenes/farm with the real Slurm, GNU parallel and OpenJD

@@ -9,7 +9,10 @@
 #include <chrono>
 #include <csignal>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -50,10 +53,16 @@ void outlast_abort(int) {
     for (;;) pause();
 }
 
-/// PoCL tells of kernels that it can't load where their files were removed: nobody is to read it.
+/// PoCL, and the linkers that it starts, tell of kernels whose files were removed: nobody is to
+/// read that.
 void hush_drivers() {
     const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nothing >= 0) dup2(nothing, STDERR_FILENO);
+    std::error_code error;
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        std::ifstream children(thread.path() / "children");
+        for (pid_t child = 0; children >> child;) kill(child, SIGKILL);
+    }
 }
 
 /// Waits for one of the signals, which are blocked.

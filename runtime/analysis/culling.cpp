@@ -221,11 +221,21 @@ void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetSt
         scene.objects[i].potentially_visible = potentially_visible[i];
 }
 
+namespace {
+
+/// Whether a model has that surface, be it in a part alone.
+bool shows_surface(const Model& model, Surface surface) {
+    return model.surface == surface ||
+           (surface == Surface::exact && thin_part_of(model).has_value());
+}
+
+}  // namespace
+
 void leave_out_culled(const Scene& scene, Pyramid& world) {
     const auto has = [&](Surface surface) {
         return std::ranges::any_of(scene.objects, [&](const Object& object) {
             return is_potentially_visible(scene, object) && !is_instanced(scene, object) &&
-                   scene.models[size_t(object.model)].surface == surface;
+                   shows_surface(scene.models[size_t(object.model)], surface);
         });
     };
     if (!has(Surface::smooth)) world.fields = {};

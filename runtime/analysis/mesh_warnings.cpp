@@ -38,19 +38,18 @@ bool needs_inside(const Scene& scene, const Object& object) {
 
 void add_topology_warnings(const Scene& scene, const Model& model, const MeshSummary& mesh,
                            std::vector<Warning>& warnings) {
-    const std::string file = file_of(scene, model);
     if (is_open(mesh)) {
         add_once({WarningKind::open_mesh, model.where,
                   fmt::format("{} is open along {} edges, and its surface needs an inside: close "
                               "its holes, or give the model \"surface\": \"exact\"{}",
-                              file, mesh.topology.open_edges,
+                              file_of(scene, model), mesh.topology.open_edges,
                               lists_primitives(model.surface) ? " and an opaque material" : "")},
                  warnings);
     } else if (mesh.topology.volume < 0) {
         add_once({WarningKind::inside_out_mesh, model.where,
                   fmt::format("{} is inside out: its faces turn inwards, so nothing of it is "
                               "inside; turn them in the program that made it",
-                              file)},
+                              file_of(scene, model))},
                  warnings);
     }
 }
@@ -83,12 +82,16 @@ std::string missed_materials(const Object& object, const MeshSummary& mesh) {
     const std::string library = libraries_of(mesh);
     if (mesh.group_names.size() > 1)
         return fmt::format("the {} materials of {} aren't read", mesh.group_names.size(), library);
-    return object.material == 0 ? fmt::format("{} isn't read", library) : "";
+    const char* const verb = mesh.material_libraries.size() > 1 ? "aren't" : "isn't";
+    return object.material == 0 ? fmt::format("{} {} read", library, verb) : "";
 }
 
 /// What is wrong with each library.
 std::string faults_of_libraries(const std::vector<std::string>& faults) {
     const std::span<const std::string> shown(faults.data(), std::min(faults.size(), kMaxNotes));
+    if (faults.size() == shown.size() && shown.size() > 1)
+        return fmt::format("{}, and {}", fmt::join(shown.first(shown.size() - 1), ", "),
+                           shown.back());
     std::string text = fmt::format("{}", fmt::join(shown, ", "));
     if (faults.size() > shown.size())
         text +=

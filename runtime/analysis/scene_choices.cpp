@@ -58,16 +58,19 @@ bool is_within_world(const Scene& scene, const Object& object, const MeshSummary
     return true;
 }
 
-/// True if a mesh may be smooth in one part and exact in another, which overlap: only opaque
-/// surfaces that don't shine and are seen from outside alone hide that.
-bool may_be_mixed(const Scene& scene, size_t number, const MeshSummary& mesh) {
-    const Model& model = scene.models[number];
-    if (model.morph || !may_have_exact_parts(mesh) || may_change(scene, number)) return false;
-    if (scene.observer.display.visibility == Visibility::all) return false;
-    return std::ranges::none_of(scene.objects, [&](const Object& object) {
-        return size_t(object.model) == number &&
-               !(is_plain(scene, object) && is_within_world(scene, object, mesh));
-    });
+/// Why a mesh may not be smooth in one part and exact in another, which overlap; empty if it may.
+/// Only opaque surfaces that don't shine and are seen from outside alone hide the overlap.
+std::string refusal_of_parts(const Scene& scene, size_t number, const MeshSummary& mesh) {
+    if (std::string refusal = voxelume::refusal_of_parts(mesh); !refusal.empty()) return refusal;
+    if (scene.models[number].morph || may_change(scene, number)) return "it changes or moves";
+    if (scene.observer.display.visibility == Visibility::all)
+        return "the display shows what lies inside";
+    for (const Object& object : scene.objects) {
+        if (size_t(object.model) != number) continue;
+        if (!is_plain(scene, object)) return "light goes through it or comes from it";
+        if (!is_within_world(scene, object, mesh)) return "it reaches out of the world";
+    }
+    return {};
 }
 
 /// Chooses the surface of a mesh, and whether parts of it are exact.
@@ -79,10 +82,8 @@ SurfaceChoice chosen_for_mesh(const Scene& scene, size_t number, AssetStore& mes
     file.thin_edge = largest_voxel(scene, number, meshes);
     SurfaceChoice choice = surface_for(mesh, meshes.shape_of(file), file.thin_edge);
     if (!choice.may_be_thin) return choice;
-    SurfaceChoice mixed = surface_with(choice, mesh, *meshes.summary_of(*thin_part_of(file)));
-    if (mixed.may_be_thin && !may_be_mixed(scene, number, mesh))
-        return {Surface::exact, mixed.reason};
-    return mixed;
+    return surface_with(choice, mesh, *meshes.summary_of(*thin_part_of(file)),
+                        refusal_of_parts(scene, number, mesh));
 }
 
 SurfaceChoice chosen_surface(const Scene& scene, size_t number, AssetStore& meshes) {
@@ -132,16 +133,16 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
 /// of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;
 
-/// The number of plain objects that show each model as `exact` meshes; 0 where cubes are in the
-/// world, which hide what shares their voxels.
+/// The number of plain objects that show each model as meshes that are `exact`, if in parts; 0
+/// where cubes are in the world, which hide what shares their voxels.
 std::vector<uint32_t> count_copies(const Scene& scene) {
     std::vector<uint32_t> copies(scene.models.size());
     for (const Object& object : scene.objects) {
         const Model& model = scene.models[size_t(object.model)];
         if (!object.visible) continue;
         if (shows_voxels(model.surface)) return std::vector<uint32_t>(scene.models.size());
-        copies[size_t(object.model)] +=
-            !model.mesh.empty() && lists_primitives(model.surface) && is_plain(scene, object);
+        copies[size_t(object.model)] += !model.mesh.empty() && is_plain(scene, object) &&
+                                        (lists_primitives(model.surface) || thin_part_of(model));
     }
     return copies;
 }

@@ -148,7 +148,8 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
-    features.mixed = (features.shadows || features.paths) && shows_mixed_mesh(scene, world);
+    features.mixed = features.triangles && features.smooth &&
+                     (features.shadows || features.paths) && shows_mixed_mesh(scene, world);
     const auto sky = outside_of(scene).sky;
     if (sky && (sky->visible || features.paths || has_sky_samples(scene)))
         add_sky(*sky, scene, world, features);

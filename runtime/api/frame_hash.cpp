@@ -65,7 +65,8 @@ std::string read_voxels_hash(const std::filesystem::path& file) {
         const VoxelFileFormat* format = voxel_file_format(file);
         if (!format || !format->array) return hash;
         const CellArray array = format->array(file);
-        if (array.data != file) hash += hash_of_file(array.data);
+        for (const std::filesystem::path& other : {array.header, array.data})
+            if (!other.empty() && other != file) hash += hash_of_file(other);
         for (size_t slice = 1; slice < array.slices.size(); ++slice)
             hash += hash_of_file(array.slices[slice]);
     } catch (const Error&) {

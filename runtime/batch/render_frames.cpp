@@ -186,7 +186,12 @@ class Batch {
         const auto steps = uint64_t(part * kSteps);
         if (!options_.progress || steps <= done_[n]) return;
         sum_ += steps - std::exchange(done_[n], steps);
-        options_.progress(double(sum_) / (kSteps * double(done_.size())), options_.frames[n]);
+        try {
+            options_.progress(double(sum_) / (kSteps * double(done_.size())), options_.frames[n]);
+        } catch (...) {
+            options_.progress = nullptr;  // other devices may end tiles before they are stopped
+            throw;
+        }
     }
 
     OutputStep output_of(size_t n, FrameResult result) {

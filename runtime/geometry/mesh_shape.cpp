@@ -6,6 +6,13 @@
 #include <cmath>
 
 namespace voxelume {
+namespace {
+
+const char* closed_words(const MeshSummary& mesh) {
+    return mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed";
+}
+
+}  // namespace
 
 MeshShape shape_of(const Mesh& mesh) {
     return {sharp_length_of(mesh), thickness_of(mesh)};
@@ -35,17 +42,17 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
                 true};
     return {Surface::smooth,
             fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",
-                        mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed",
-                        thickness),
+                        closed_words(mesh), thickness),
             shape.thickness.hint < kThinVoxels * voxel_edge};
 }
 
-bool may_have_exact_parts(const MeshSummary& mesh) {
-    return !mesh.paint.is_there() && mesh.group_names.size() < 2;
+std::string refusal_of_parts(const MeshSummary& mesh) {
+    if (mesh.paint.is_there()) return "it has colours or textures";
+    return mesh.group_names.size() > 1 ? "it has groups" : "";
 }
 
 SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
-                           const MeshSummary& part) {
+                           const MeshSummary& part, const std::string& refusal) {
     const double share = part.triangles > 0 ? part.area.total / mesh.area.total : 0;
     if (share == 0) return {choice.surface, choice.reason};
     const std::string thin = fmt::format(
@@ -53,8 +60,11 @@ SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
         share < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share),
         kThinVoxels);
     if (share > kMaxThinShare) return {Surface::exact, thin};
-    return {Surface::smooth,
-            fmt::format("it is closed and without sharp edges; {}, and is exact", thin), true};
+    if (!refusal.empty()) return {Surface::exact, fmt::format("{}, and {}", thin, refusal)};
+    return {
+        Surface::smooth,
+        fmt::format("it is {} and without sharp edges; {}, and is exact", closed_words(mesh), thin),
+        true};
 }
 
 }  // namespace voxelume

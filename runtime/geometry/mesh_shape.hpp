@@ -48,14 +48,14 @@ struct SurfaceChoice {
 /// its distances, metres in the space of the mesh.
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
-/// True if parts of a mesh may be exact beside a field: where that is left out, its outermost
-/// voxels have neither colours nor groups in the world.
-bool may_have_exact_parts(const MeshSummary& mesh);
+/// Why parts of a mesh may not be exact beside a field, where that is left out: its outermost
+/// voxels have neither colours nor groups in the world. Empty if they may.
+std::string refusal_of_parts(const MeshSummary& mesh);
 
 /// What becomes of a choice for a mesh whose parts may be too thin. `part` is the mesh around the
-/// thin walls: it alone is exact if it has at most kMaxThinShare of the area, else all is. Without
-/// such walls the choice stays.
+/// thin walls: it alone is exact if it has at most kMaxThinShare of the area and no `refusal` says
+/// why not, else all is. Without such walls the choice stays.
 SurfaceChoice surface_with(const SurfaceChoice& choice, const MeshSummary& mesh,
-                           const MeshSummary& part);
+                           const MeshSummary& part, const std::string& refusal);
 
 }  // namespace voxelume

@@ -4,6 +4,7 @@
 #include "runtime/world/world_source.hpp"
 #include "tests/analysis/culling_scene.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/finned_ball.hpp"
 
 namespace voxelume {
 namespace {
@@ -57,6 +58,29 @@ TEST_F(CullingFiles, DecidesWhatIsMadeOfAWiderWorldInTheCache) {
     EXPECT_TRUE(taken.world.is_from_cache);
     EXPECT_EQ(taken.voxels, world.voxel_count);
     EXPECT_LT(taken.voxels, wide.voxels);
+}
+
+TEST_F(CullingFiles, LeavesTrianglesOfMeshesThatAreExactInPartsInAWiderWorld) {
+    write_obj(folder / "fin.obj", finned_ball(0.012, 0.6, 48));
+    Scene scene = scene_of(R"({"type": "point", "position": [0, 3, -3]})");
+    scene.models[0].solid.reset();
+    scene.models[0].mesh = folder / "fin.obj";
+    scene.models[0].thin_edge = 0.05;
+    for (size_t i : {1, 2, 4}) scene.objects[i].visible = false;
+    ASSERT_TRUE(thin_part_of(scene.models[0]));
+    const uint64_t expected = hash_of_all(scene);
+    const ModelCache cache = ModelCache(folder / "models", 64 << 20, 0).with_worlds();
+    for (const bool finds_visible : {false, true}) {
+        AssetStore meshes(cache);
+        const Scene shown = finds_visible ? with_culling(scene, meshes) : scene;
+        RenderReport report;
+        const BuiltWorld world =
+            WorldBuilder(shared_device(), false, std::move(meshes)).build(shown, report.world);
+        EXPECT_EQ(report.world.is_from_cache, finds_visible);
+        EXPECT_FALSE(world.pyramid.triangles.empty());
+        const Image image = Renderer(shared_device(), false).new_image(shown, world, report);
+        EXPECT_EQ(oracle::image_hash(image), expected);
+    }
 }
 
 TEST_F(CullingFiles, WithADamagedWiderWorldANarrowOneIsMadeAndKept) {

@@ -141,6 +141,7 @@ TEST_F(SceneChoices, MakeOnlyThinPartsExact) {
     const char* const kMoves =
         R"({"target": "objects[0].position", "keys": [{"frame": 1, "value": [0, 0, 0]}, {"frame": 4, "value": [0.1, 0, 0]}]})";
     EXPECT_EQ(chosen(blade, "", kMoves).thin_edge, 0);
+    EXPECT_EQ(chosen(blade, R"(, "position": [0.4, 0, 0])").surface, Surface::exact) << "cut off";
     EXPECT_EQ(chosen(R"("mesh": "fin.obj", "fit": 0.8)").surface, Surface::exact) << "a large part";
 }
 
@@ -164,7 +165,9 @@ TEST_F(SceneChoices, MakeNoPartsExactWhereSurfacesCantOverlap) {
     std::string colored, line;
     while (std::getline(plain, line)) colored += line + (line[0] == 'v' ? " 1 0.5 0\n" : "\n");
     put_bytes(folder / "colored.obj", colored);
-    EXPECT_EQ(chosen(R"("mesh": "colored.obj", "fit": 0.8)").thin_edge, 0);
+    const Model in_colors = chosen(R"("mesh": "colored.obj", "fit": 0.8)");
+    EXPECT_EQ(in_colors.thin_edge, 0);
+    EXPECT_THAT(in_colors.surface_reason, testing::HasSubstr("voxels, and it has colours"));
     EXPECT_EQ(
         chosen(blade + R"(, "morph": {"center": [0, 0, 0], "radius": 0.3, "amount": 0})").thin_edge,
         0);

@@ -95,7 +95,7 @@ TEST(SurfaceFor, ASmallThinPartIsExactAlone) {
         const MeshSummary whole = summary_of(mesh);
         const SurfaceChoice first = surface_for(whole, shape_of(mesh), voxel);
         return first.may_be_thin
-                   ? surface_with(first, whole, summary_of(thin_part_of(mesh, voxel).mesh))
+                   ? surface_with(first, whole, summary_of(thin_part_of(mesh, voxel).mesh), {})
                    : first;
     };
     const Mesh bladed = bladed_ball(0.008);

@@ -259,16 +259,24 @@ TEST_F(ProgramCacheFiles, KernelsServeEveryProgramThatHoldsThem) {
 }
 
 /// The number of a killed process may be another's since; when that one started tells.
-TEST_F(ProgramCacheFiles, FoldersOfKilledProcessesAreRemovedAtOnceAndOfLivingOnesNever) {
+TEST_F(ProgramCacheFiles, FoldersOfKilledProcessesAreRemovedAndNoOthers) {
     if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
     const std::string own = process_tag();
     const std::string killed = "pocl." + own.substr(0, own.rfind('.')) + ".12345-aBc012";
     const std::string living = "pocl." + own + "-aBc012";
-    for (const std::string& name : {killed, living})
-        fs::create_directories(folder / name / "AB");
+    const std::array<std::string, 5> others = {"pocl", "pocl-src", "pocl.git", "pocl-1-abc",
+                                               "poclwork.1.2-abcdef"};
+    fs::create_directories(folder / killed / "AB");
+    fs::create_directories(folder / living / "AB");
+    for (const std::string& name : others) {
+        fs::create_directory(folder / name);
+        fs::last_write_time(folder / name,
+                            fs::file_time_type::clock::now() - std::chrono::hours(2));
+    }
     compiled_by_processes(1, "VOXELUME_CACHE_DIR=" + folder.string());
     EXPECT_FALSE(fs::exists(folder / killed));
-    EXPECT_TRUE(fs::exists(folder / living));
+    EXPECT_TRUE(fs::exists(folder / living)) << "it is new";
+    for (const std::string& name : others) EXPECT_TRUE(fs::exists(folder / name)) << name;
 }
 
 TEST_F(ProgramCacheFiles, LeavesNoFolderOfPoclBehind) {

@@ -48,10 +48,10 @@ class Calls {
         }
     }
 
-    /// Whether the call that writes to the file at `path` is to fail; errno says why, then.
+    /// Whether the call that writes to the file or folder at `path` is to fail; errno says why,
+    /// then.
     bool fails(const char* path) {
-        if (fault_.folder.empty() || std::strncmp(path, fault_.folder.c_str(), fault_.folder.size()))
-            return false;
+        if (fault_.folder.empty() || !is_below_folder(path)) return false;
         const long number = ++count_;
         if (fault_.number == 0 || number < fault_.number) return false;
         errno = fault_.code;
@@ -69,6 +69,13 @@ class Calls {
     }
 
   private:
+    bool is_below_folder(const char* path) const {
+        std::string whole = path;
+        if (char here[1024]; *path != '/' && getcwd(here, sizeof here))
+            whole = here + ("/" + whole);
+        return (whole + "/").starts_with(fault_.folder);
+    }
+
     const Fault fault_ = requested_fault();
     std::atomic<long> count_ = 0;
 };
@@ -100,5 +107,4 @@ VXL_WRITING_CALL(ssize_t, writev, (int file, const iovec* parts, int count), (fi
 VXL_WRITING_CALL(int, ftruncate, (int file, off_t size) noexcept, (file, size), file)
 VXL_WRITING_CALL(int, fsync, (int file), (file), file)
 VXL_WRITING_CALL(int, fdatasync, (int file), (file), file)
-VXL_WRITING_CALL(int, posix_fallocate, (int file, off_t at, off_t size), (file, at, size), file)
 VXL_WRITING_CALL(int, rename, (const char* from, const char* to) noexcept, (from, to), to)

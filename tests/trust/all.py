@@ -13,7 +13,8 @@ MIN_FRAMES = 100  # fewer tell nothing of growth
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("library", type=pathlib.Path, help="what tests/support/write_faults.cpp makes")
+    parser.add_argument("library", type=pathlib.Path,
+                        help="what tests/support/write_faults.cpp makes")
     parser.add_argument("share", type=float, nargs="?", default=1.0)
     options = parser.parse_args()
     program, library = str(options.program.resolve()), str(options.library.resolve())

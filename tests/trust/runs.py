@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the program with limits, and says what is wrong with how it ended."""
+"""Runs the program, and says what is wrong with how it ended."""
 import dataclasses
 import os
 import pathlib
@@ -24,21 +24,16 @@ class Run:
     hung: bool = False
 
 
-def run(program, arguments, folder, kill_after=None, environment=None, peak_limit=0):
-    """Runs `program arguments` in `folder`; kills it after some seconds if those are given.
-
-    peak_limit: bytes of address space beyond which allocations fail; 0 for no limit.
-    """
-    def limit():
+def run(program, arguments, folder, kill_after=None, environment=None):
+    """Runs `program arguments` in `folder`; kills it after some seconds if those are given."""
+    def leave_no_core():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        if peak_limit:
-            resource.setrlimit(resource.RLIMIT_AS, (peak_limit, peak_limit))
 
     started = time.monotonic()
     with tempfile.TemporaryFile() as err:
-        process = subprocess.Popen([str(program), *arguments], cwd=folder, stdout=subprocess.DEVNULL,
-                                   stderr=err, stdin=subprocess.DEVNULL, preexec_fn=limit,
-                                   start_new_session=True,
+        process = subprocess.Popen([str(program), *arguments], cwd=folder, start_new_session=True,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=err, preexec_fn=leave_no_core,
                                    env={**os.environ, **(environment or {})})
         hung = False
         deadline = kill_after if kill_after is not None else HANG_SECONDS

@@ -28,11 +28,12 @@ static inline void find_mixed_mesh(const WorldView* world, lane_int sent, RaySta
     if (VXL_ATTRIBUTES)
         object =
             LANES_GATHER_UINT(world->surface.attributes, number & LANES_AS_UINT(on_field & listed));
-    object = LANES_SELECT(on_triangle,
-                          LANES_GATHER_UINT(world->surface.triangle_attributes,
-                                            number & LANES_AS_UINT(on_triangle & listed)),
-                          object) &
-             VXL_OBJECT_MASK;
+    if (VXL_TRIANGLES)
+        object = LANES_SELECT(on_triangle,
+                              LANES_GATHER_UINT(world->surface.triangle_attributes,
+                                                number & LANES_AS_UINT(on_triangle & listed)),
+                              object);
+    object &= VXL_OBJECT_MASK;
     if (VXL_INSTANCES && lanes_any(~of_world)) {
         const lane_uint record =
             (ray_state->instance & LANES_AS_UINT(~of_world)) * VXL_INSTANCE_WORDS +

@@ -29,7 +29,8 @@ Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
     const double edge = plan.frame.voxel_edge.x;
     SurfaceChoice choice = surface_for(summary, shape, edge);
     if (choice.may_be_thin)
-        choice = surface_with(choice, summary, summary_of(thin_part_of(mesh, edge).mesh));
+        choice = surface_with(choice, summary, summary_of(thin_part_of(mesh, edge).mesh),
+                              refusal_of_parts(summary));
     return {{"resolution", resolution},
             {"voxel edge", plan.frame.voxel_edge.x},
             {"voxels", fmt::format("{}x{}x{}", size.x, size.y, size.z)},

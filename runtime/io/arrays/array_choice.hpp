@@ -2,6 +2,8 @@
 // Which values of an array are voxels.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,7 +14,6 @@
 #include <string>
 #include <type_traits>
 
-#include <fmt/format.h>
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
 
@@ -69,7 +70,7 @@ inline uint32_t code_of(double value, bool is_fraction) {
     return uint32_t(std::lround(std::clamp(std::isnan(v) ? 0.0 : v, 0.0, 255.0)));
 }
 
-/// One bit a cell of a row, 16 a word, of bytes that are 0 or 1.
+/// One bit a cell of a row of `count` words of 16, from bytes that are 0 or 1.
 inline void pack_row(const uint8_t* chosen, size_t count, uint16_t* words) {
     for (size_t word = 0; word < count; ++word) {
         uint64_t low = 0, high = 0;

@@ -30,7 +30,8 @@ enum class DataEncoding : uint8_t { raw, gzip, bzip2, text };
 /// The array's values, and where its cells lie. Axes of the file are numbered from the one whose
 /// neighbours are closest in the file; axes of the model are x, y and z with Y up.
 struct CellArray {
-    std::filesystem::path data;  ///< the file that has the values
+    std::filesystem::path data;    ///< the file that has the values
+    std::filesystem::path header;  ///< of a pair of which either file may be named; else empty
     /// PNG slices along the file's last axis, of which `data` is the first; empty for other files.
     std::vector<std::filesystem::path> slices;
     uint64_t start = 0;  ///< byte of the first value, or of the compressed data

@@ -144,6 +144,7 @@ void set_data(const NiftiHeader& header, const InputFile& file, CellArray& array
                 "its data are in a file of its name that ends in .img, which isn't in its "
                 "folder");
         array.data = *data;
+        array.header = file.path();
         array.encoding = is_gzip(InputFile(*data)) ? DataEncoding::gzip : DataEncoding::raw;
         start = uint64_t(offset);
     }

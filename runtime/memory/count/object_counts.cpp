@@ -21,9 +21,7 @@ constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole 
 
 /// The maximum by which a surface's bricks and voxels exceed what areas and distances tell.
 constexpr double kMargin = 1.12;
-
-/// That of a solid's voxels, which are counted one by one.
-constexpr double kSolidMargin = 1.04;
+constexpr double kSolidMargin = 1.04;  ///< that of a solid's voxels, which are counted one by one
 
 const glm::dmat4 kOwnSpace(1);
 
@@ -44,8 +42,7 @@ double filled_voxels(const SurfaceExtent& extent, double inside) {
 
 /// The smaller of two counts: areas tell too much of small surfaces, and too little of others.
 SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
-    return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks),
-            std::min(a.listed, b.listed)};
+    return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
 }
 
 SurfaceExtent with_margin(const SurfaceExtent& extent, double voxel_margin = kMargin) {
@@ -66,8 +63,7 @@ BrickCount count_model(const Model& model, const glm::dmat4& frame_from_model,
 
 /// Primitives that an exact surface's voxels list: the solid, or each triangle that meets one.
 double listed(const Model& model, const SurfaceExtent& extent) {
-    if (model.surface != Surface::exact) return 0;
-    return model.solid ? extent.voxels : extent.listed;
+    return model.surface != Surface::exact ? 0 : model.solid ? extent.voxels : extent.listed;
 }
 
 /// `mesh` is null for a model that has none.

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -27,17 +28,21 @@ namespace fs = std::filesystem;
 /// The process's folder once it is made, for those who may not make it.
 std::atomic<const PoclFolder*> existing_folder = nullptr;
 
-constexpr const char* kPrefix = "pocl";          // older versions named them pocl-NUMBER-RANDOM
 constexpr std::string_view kRandom = "-XXXXXX";  // the end of a folder's name
 constexpr const char* kLock = "lock";
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// Whether the process that a folder's name tells is known to have ended.
-bool is_of_dead_process(const fs::path& folder) {
-    const std::string name = folder.filename();
-    return name.size() > kRandom.size() &&
-           ends_with_dead_tag(std::string_view(name).substr(0, name.size() - kRandom.size()));
+/// Whether a folder's name is one that make_folder() gives, or gave it in older versions: nothing
+/// else is ever removed.
+bool is_of_process(const std::string& name) {
+    static const std::regex pattern(R"(pocl(-[0-9]+|\..+\.[0-9]+\.[0-9]+)-[A-Za-z0-9]{6})");
+    return std::regex_match(name, pattern);
+}
+
+/// Whether the process that such a name tells is known to have ended.
+bool is_of_dead_process(std::string_view name) {
+    return ends_with_dead_tag(name.substr(0, name.size() - kRandom.size()));
 }
 
 /// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
@@ -47,9 +52,10 @@ void remove_stale_folders(const fs::path& parent) {
     std::error_code error;
     const auto now = fs::file_time_type::clock::now();
     for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
-        if (!entry.path().filename().string().starts_with(kPrefix)) continue;
+        const std::string name = entry.path().filename();
+        if (!is_of_process(name)) continue;
         const bool is_new = now - entry.last_write_time(error) < std::chrono::minutes(1);
-        if (error || (is_new && !is_of_dead_process(entry.path()))) continue;
+        if (error || (is_new && !is_of_dead_process(name))) continue;
         const PrivateFolder folder = PrivateFolder::open(entry.path());
         if (!folder) continue;
         const int lock = openat(folder.descriptor(), kLock,
@@ -67,7 +73,7 @@ fs::path make_folder(const fs::path& parent) {
     std::error_code error;
     if (!make_safe_parent(parent)) return {};
     if (fs::space(parent, error).available < kRoom || error) return {};
-    std::string name = (parent / fmt::format("{}.{}{}", kPrefix, process_tag(), kRandom)).string();
+    std::string name = (parent / fmt::format("pocl.{}{}", process_tag(), kRandom)).string();
     return mkdtemp(name.data()) ? fs::path(name) : fs::path();
 }
 

@@ -37,7 +37,7 @@ TEST_F(CliInputsTest, AModelFilesSceneHasValuesToo) {
     const Image image = read_exr(folder / "a.exr");
     EXPECT_EQ(image.planes.at("R").size(), 16u * 12u);
     EXPECT_THAT(expect_failure(2, "render wedge.obj -o a2.exr --set lights.sun.intensty=1"),
-                HasSubstr("--set lights.sun.intensty=1: lights[0]: unknown key \"intensty\"; did "
+                HasSubstr("--set lights.sun.intensty=1: lights.sun: unknown key \"intensty\"; did "
                           "you mean \"intensity\"?"));
 }
 

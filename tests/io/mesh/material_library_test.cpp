@@ -91,8 +91,9 @@ TEST_F(Companions, OfOneNameAreOneFileWithSpacesOrSeveral) {
     EXPECT_THAT(names({"b.mtl", "a.mtl"}), ElementsAre("b", "a"));
     EXPECT_THAT(faults, IsEmpty());
     EXPECT_THAT(names({"a.mtl c.mtl", "not there.mtl"}), ElementsAre("a"));
-    EXPECT_THAT(faults, ElementsAre("its material library \"c.mtl\" isn't in its folder",
-                                    "its material library \"not there.mtl\" isn't in its folder"));
+    EXPECT_THAT(faults,
+                ElementsAre("its material libraries \"c.mtl\" and \"not there.mtl\" aren't in "
+                            "its folder"));
     EXPECT_THAT(names({}), IsEmpty());
     put_bytes(folder / "a.mtl b.mtl", "newmtl c\n");
     EXPECT_THAT(names({"a.mtl b.mtl"}), ElementsAre("c"));
