@@ -46,7 +46,7 @@ static inline lane_int is_smooth(lane_uint packed, lane_uint primitive) {
 /// several fields or objects fields and triangles, VXL_FIELD_SOURCE with the field's number.
 /// `packed` are the surface's attributes.
 static inline lane_uint source_of_hit(lane_uint primitive, lane_uint number, lane_uint packed) {
-    if (!VXL_FIELD_LISTS && !VXL_MIXED) return primitive;
+    if (!(VXL_FIELD_LISTS | VXL_MIXED)) return primitive;
     return LANES_SELECT(is_smooth(packed, primitive), number | VXL_FIELD_SOURCE, primitive);
 }
 
@@ -55,7 +55,7 @@ static inline lane_uint source_of_hits(global const uint* hits, uint stride, uin
                                        lane_uint packed) {
     lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
-    if (!VXL_FIELD_LISTS && !VXL_MIXED) return primitive;
+    if (!(VXL_FIELD_LISTS | VXL_MIXED)) return primitive;
     return source_of_hit(primitive, LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first), packed);
 }
 
