@@ -221,21 +221,13 @@ void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetSt
         scene.objects[i].potentially_visible = potentially_visible[i];
 }
 
-namespace {
-
-/// Whether a model has that surface, be it in a part alone.
-bool shows_surface(const Model& model, Surface surface) {
-    return model.surface == surface ||
-           (surface == Surface::exact && thin_part_of(model).has_value());
-}
-
-}  // namespace
-
 void leave_out_culled(const Scene& scene, Pyramid& world) {
     const auto has = [&](Surface surface) {
         return std::ranges::any_of(scene.objects, [&](const Object& object) {
+            const Model& model = scene.models[size_t(object.model)];
+            const bool in_parts = surface == Surface::exact && thin_part_of(model);
             return is_potentially_visible(scene, object) && !is_instanced(scene, object) &&
-                   shows_surface(scene.models[size_t(object.model)], surface);
+                   (model.surface == surface || in_parts);
         });
     };
     if (!has(Surface::smooth)) world.fields = {};

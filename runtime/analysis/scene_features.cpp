@@ -148,8 +148,8 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
-    features.mixed = features.triangles && features.smooth &&
-                     (features.shadows || features.paths) && shows_mixed_mesh(scene, world);
+    const bool sends_on = features.shadows || features.paths;
+    features.mixed = sends_on && features.triangles && shows_mixed_mesh(scene, world);
     const auto sky = outside_of(scene).sky;
     if (sky && (sky->visible || features.paths || has_sky_samples(scene)))
         add_sky(*sky, scene, world, features);
@@ -191,8 +191,7 @@ void add_points(const Scene& scene, const Pyramid& world, Features& features) {
                               channels.object_matte || channels.material_matte;
 }
 
-/// An upper bound of the depth for which arrays are reserved: a ray ends when its weight is too
-/// small.
+/// An upper bound of the depth for which arrays are reserved: a ray ends at too small a weight.
 size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
     constexpr double kWeightRounding = 1e-3;  // relative error of the weights
     const auto depth = double(max_depth(features, scene, world));

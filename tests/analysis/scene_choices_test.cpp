@@ -168,15 +168,11 @@ TEST_F(SceneChoices, MakeNoPartsExactWhereSurfacesCantOverlap) {
     const Model in_colors = chosen(R"("mesh": "colored.obj", "fit": 0.8)");
     EXPECT_EQ(in_colors.thin_edge, 0);
     EXPECT_THAT(in_colors.surface_reason, testing::HasSubstr("voxels, and it has colours"));
-    EXPECT_EQ(
-        chosen(blade + R"(, "morph": {"center": [0, 0, 0], "radius": 0.3, "amount": 0})").thin_edge,
-        0);
-    EXPECT_EQ(
-        chosen(
-            blade, "",
-            R"({"target": "objects[0].visible", "keys": [{"frame": 1, "value": true}, {"frame": 3, "value": false}]})")
-            .thin_edge,
-        0);
+    const char* const kMorph = R"(, "morph": {"center": [0, 0, 0], "radius": 0.3, "amount": 0})";
+    EXPECT_EQ(chosen(blade + kMorph).thin_edge, 0);
+    const char* const kHides =
+        R"({"target": "objects[0].visible", "keys": [{"frame": 1, "value": true}, {"frame": 3, "value": false}]})";
+    EXPECT_EQ(chosen(blade, "", kHides).thin_edge, 0);
 }
 
 TEST_F(SceneChoices, MakeACutMeshSmooth) {

@@ -71,7 +71,7 @@ std::string keyed_radius(int step, const Radius& radius, const std::string& more
                        keys, more);
 }
 
-// Of the radius's 2000 keys few are planned for their own sake. It is largest in frame 15, which
+// Few of the radius's 2000 keys are planned for their own sake. It is largest in frame 15, which
 // shows nothing, and of the frames that show the ball in frame 3000.
 TEST_F(FramePlans, OfThousandsSomeAreMadeAndTheLargestIsFound) {
     const auto radius = [](int frame) {

@@ -65,8 +65,21 @@ class ThinPartImage : public FileTest {
     }
 };
 
+/// Whether a pixel's depth is within a voxel of those of its eight neighbours.
+bool is_flat(const Image& image, size_t pixel, double voxel) {
+    const auto& depth = image.planes.at("Z");
+    for (size_t i = 0; i < 9; ++i) {
+        const size_t beside =
+            pixel + i % 3 + size_t(image.width) * (i / 3) - size_t(image.width) - 1;
+        if (beside >= depth.size() || !(std::abs(depth[beside] - depth[pixel]) <= voxel))
+            return false;
+    }
+    return true;
+}
+
 /// Expects pictures of one body: every pixel of the one shows it where the other does, but for
-/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel.
+/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel, but for so many where
+/// rays graze it and depths differ by more than a voxel from pixel to pixel.
 void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim) {
     const auto& a = mixed.planes.at("Z");
     const auto& b = exact.planes.at("Z");
@@ -75,7 +88,9 @@ void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim)
         lost += std::isfinite(a[i]) != std::isfinite(b[i]);
         if (!std::isfinite(a[i]) || !std::isfinite(b[i])) continue;
         ++seen;
-        off += std::abs(a[i] - b[i]) > 0.1 * voxel;
+        const bool is_off = std::abs(a[i] - b[i]) > 0.1 * voxel;
+        EXPECT_FALSE(is_off && is_flat(exact, i, voxel)) << "pixel " << i;
+        off += is_off;
         EXPECT_LT(a[i] - b[i], 0.5 * voxel) << "a hole at " << i;
     }
     EXPECT_GT(seen, 6000);

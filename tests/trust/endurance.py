@@ -13,8 +13,8 @@ import time
 import outputs
 from runs import Tally, run
 
-GROWTH = 1.1  # of memory from a tenth of the way to its end
-OF_EACH = 64 << 20  # bytes that caches of models keep of frames before they take no more
+GROWTH = 1.1  # of resident memory, from the first fifth of the frames to the last
+ROOM = 64 << 20  # bytes: memory that glibc takes from the system at once, as tests let it
 
 
 def moving_scene(frames):
@@ -56,7 +56,7 @@ def long_process(program, folder, frames, tally):
     early = [s for s in seen if s[0] < 0.2 * frames] or seen[:1]
     late = [s for s in seen if s[0] > 0.8 * frames] or seen[-1:]
     bytes_early, bytes_late = max(s[1] for s in early), max(s[1] for s in late)
-    if bytes_late > GROWTH * bytes_early + OF_EACH:
+    if bytes_late > GROWTH * bytes_early + ROOM:
         faults.append(f"memory grows from {bytes_early >> 20} to {bytes_late >> 20} MB")
     if max(s[2] for s in late) > max(s[2] for s in early) + 4:
         faults.append(f"descriptors grow from {early[-1][2]} to {late[-1][2]}")

@@ -13,7 +13,8 @@ from runs import Tally, files_below, run
 
 
 def visible(files):
-    return {name: data for name, data in files.items() if not pathlib.Path(name).name.startswith(".")}
+    return {name: data for name, data in files.items()
+            if not pathlib.Path(name).name.startswith(".")}
 
 
 def strangers(cache):

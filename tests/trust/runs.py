@@ -24,6 +24,17 @@ class Run:
     hung: bool = False
 
 
+def wait_for_group(group):
+    """Waits until the linkers that a killed run has started are gone, too."""
+    deadline = time.monotonic() + 1  # what nobody asks for its end stays as a number
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(group, 0)
+        except (ProcessLookupError, PermissionError):
+            return
+        time.sleep(0.005)
+
+
 def run(program, arguments, folder, kill_after=None, environment=None):
     """Runs `program arguments` in `folder`; kills it after some seconds if those are given."""
     def leave_no_core():
@@ -46,6 +57,7 @@ def run(program, arguments, folder, kill_after=None, environment=None):
                 hung = kill_after is None
                 os.killpg(process.pid, signal.SIGKILL)
                 _, status, usage = os.wait4(process.pid, 0)
+                wait_for_group(process.pid)
                 break
             time.sleep(min(left, 0.002 if kill_after is not None else 0.005))
         process.returncode = os.waitstatus_to_exitcode(status)

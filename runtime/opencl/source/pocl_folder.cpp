@@ -40,11 +40,6 @@ bool is_of_process(const std::string& name) {
     return std::regex_match(name, pattern);
 }
 
-/// Whether the process that such a name tells is known to have ended.
-bool is_of_dead_process(std::string_view name) {
-    return ends_with_dead_tag(name.substr(0, name.size() - kRandom.size()));
-}
-
 /// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
 /// than a minute old of a process that may live is left, since it may not have locked it yet; so
 /// are other users'.
@@ -55,7 +50,8 @@ void remove_stale_folders(const fs::path& parent) {
         const std::string name = entry.path().filename();
         if (!is_of_process(name)) continue;
         const bool is_new = now - entry.last_write_time(error) < std::chrono::minutes(1);
-        if (error || (is_new && !is_of_dead_process(name))) continue;
+        const std::string_view tag(name.data(), name.size() - kRandom.size());
+        if (error || (is_new && !ends_with_dead_tag(tag))) continue;
         const PrivateFolder folder = PrivateFolder::open(entry.path());
         if (!folder) continue;
         const int lock = openat(folder.descriptor(), kLock,
