@@ -124,12 +124,19 @@ TEST(BenchReport, ThePageNeedsNothingElseAndTakesNoTextForTags) {
         EXPECT_THAT(page, Not(HasSubstr(foreign)));
 }
 
-class BenchProgram : public ProgramTest {};
+class BenchProgram : public ProgramTest {
+  protected:
+    static std::string device_option() {
+        const char* name = std::getenv("VXL_TEST_DEVICE");
+        return fmt::format(" --device '{}'", name ? name : "cpu");
+    }
+};
 
 TEST_F(BenchProgram, WritesATableAPageAndFilesThatParse) {
-    const ProgramResult result = run(
-        "bench -q --only box --resolution 16,8 --size 40x30 --repeat 1 --device cpu -o out.html "
-        "--json out.json --csv out.csv --plot out.svg");
+    const ProgramResult result =
+        run("bench -q --only box --resolution 16,8 --size 40x30 --repeat 1 -o out.html "
+            "--json out.json --csv out.csv --plot out.svg" +
+            device_option());
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("Pareto"));
     const auto json = nlohmann::json::parse(bytes_of(folder / "out.json"));
@@ -165,8 +172,8 @@ TEST_F(BenchProgram, WritesATableAPageAndFilesThatParse) {
 TEST_F(BenchProgram, TakesScenesWithCommasEachOnce) {
     const ProgramResult result =
         run("bench -q --only torus,box --only box --resolution 8 --placement world --size 12x9 "
-            "--repeat "
-            "1 --device cpu --json out.json");
+            "--repeat 1 --json out.json" +
+            device_option());
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto json = nlohmann::json::parse(bytes_of(folder / "out.json"));
     ASSERT_EQ(json["rows"].size(), 6u);
