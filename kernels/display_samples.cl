@@ -239,13 +239,17 @@ kernel void add_samples(PyramidShape shape, DisplayLattice lattice, Environment 
     }
 }
 
-/// Gives voxels the mean light of their samples; those without any keep the probe point's.
-kernel void mix_samples(uint count, global const float* restrict sums,
-                        global float* restrict colors) {
+/// Gives voxels the mean light of their samples; those without any keep the probe point's, but with
+/// `clears_others` not their object.
+kernel void mix_samples(uint count, global const float* restrict sums, uint clears_others,
+                        global float* restrict colors, global uint* restrict objects) {
     const uint voxel = work_item();
     if (voxel >= count) return;
     const float weight = sums[4 * (size_t)voxel + 3];
-    if (!(weight > 0.0f)) return;
+    if (!(weight > 0.0f)) {
+        if (clears_others) objects[voxel] = 0u;
+        return;
+    }
     for (uint channel = 0; channel < 3; ++channel)
         colors[3 * (size_t)voxel + channel] =
             exact_quotient(sums[4 * (size_t)voxel + channel], weight);

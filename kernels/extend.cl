@@ -29,15 +29,19 @@ static inline void add_path_light(const RayBatch* batch, uint first, lane_int va
 }
 
 /// Notes how much of what lies behind the paths' first surfaces these cover: all, unless a path has
-/// left the world on a straight way. Paths that were scattered have noted it before.
+/// left the world on a straight way. Paths that were scattered have noted it before. Of first
+/// surfaces alone it is their opacity.
 static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_int met,
-                                 lane_uint target, lane_float clear) {
+                                 lane_uint target, lane_float clear, lane_float opacity) {
     int add[VXL_LANES];
     uint node[VXL_LANES];
     float covered[VXL_LANES];
     LANES_STORE(valid, add, 0);
     LANES_STORE(target, node, 0);
-    LANES_STORE(LANES_SELECT(met, (lane_float)1.0f, 1.0f - clear), covered, 0);
+    if (VXL_OWN_LIGHT)
+        LANES_STORE(LANES_SELECT(met, opacity, (lane_float)0.0f), covered, 0);
+    else
+        LANES_STORE(LANES_SELECT(met, (lane_float)1.0f, 1.0f - clear), covered, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane)
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
 }
@@ -187,12 +191,14 @@ kernel void extend_paths(
         met_any = layer.hit;
         clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
         if (nodes.coverage)
-            note_coverage(&nodes, valid & LANE_MASK(bounces == 0u), met_any, target, clear);
+            note_coverage(&nodes, valid & LANE_MASK(bounces == 0u), met_any, target, clear,
+                          opacity);
     }
     PhysicalView view;
     if (VXL_PHYSICAL) view = view_of_paths(&around, colors, &batch, first, &p);
     Lobes lobes = lobes_of(&around, colors, &batch, first, &p, &view, opacity,
                            LANE_MASK(bounces < sampling.bounces));
+    if (VXL_OWN_LIGHT) met_any &= LANE_MASK(bounces != 0u);
     if (VXL_TRANSMISSION) lobes.straight = LANES_SELECT(met_any, 1.0f - opacity, (lane_float)0.0f);
     const PathSamples samples = path_samples(&sampling, target, state);
     Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),

@@ -230,6 +230,10 @@ std::vector<KnownPicture> known_pictures() {
          "0c28be7a202cf243"},
         {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "4d1f1d5c5036adb0"},
         {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2de843ba4414102e"},
+        {"voxels in global light",
+         with(lattice("veil", "lattice", "observer", ""),
+              {{"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
+         true, "e31c03cd8bbabb18"},
     };
 }
 

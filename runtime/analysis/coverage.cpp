@@ -10,6 +10,7 @@ Scene unlit_scene(Scene scene) {
     scene.lights.clear();
     scene.world.medium = {};
     scene.world.sky.reset();
+    scene.render.light = LightMode::local;
     scene.render.depth = 0;
     for (Material& material : scene.materials) material.emission = glm::vec3(0);
     return scene;

@@ -60,6 +60,31 @@ void add_scattering_warning(const Scene& scene, std::vector<Warning>& warnings) 
              warnings);
 }
 
+/// Whether the volumetric image can't show the global light that is asked for.
+bool drops_global_light(const Scene& scene) {
+    return scene.render.light == LightMode::global &&
+           scene.observer.display.layout == VolumeLayout::rays &&
+           std::ranges::any_of(scene.objects, [&](const Object& object) {
+               return object.visible && transmits(scene, object);
+           });
+}
+
+void add_volume_warnings(const Scene& scene, std::vector<Warning>& warnings) {
+    if (!scene.render.shows_volume) return;
+    if (has_scattering(scene))
+        add_once(
+            {WarningKind::ignored_scattering, scene.world.where,
+             "the volumetric image shows no light that the medium scatters: its \"scattering\" "
+             "is left out there"},
+            warnings);
+    if (drops_global_light(scene))
+        add_once({WarningKind::local_volume, SourcePlace(scene.file.string()),
+                  "the volumetric image is in local light, for its rays pass through objects that "
+                  "let light through: set the display's \"layout\" to \"lattice\", which shows "
+                  "global light"},
+                 warnings);
+}
+
 void add_cache_warning(const ModelCache& cache, std::vector<Warning>& warnings) {
     const std::string refusal = cache.refusal();
     if (refusal.empty()) return;
@@ -96,6 +121,7 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
     if (std::ranges::any_of(candidates, is_of_place)) add_inside_warnings(now, meshes, found);
     add_light_warning(now, found);
     add_scattering_warning(now, found);
+    add_volume_warnings(now, found);
     return found;
 }
 
@@ -125,6 +151,7 @@ std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> fra
             add_inside_warnings(now, meshes, warnings);
             add_light_warning(now, warnings);
             add_scattering_warning(now, warnings);
+            add_volume_warnings(now, warnings);
             first = std::move(now);
         });
     }

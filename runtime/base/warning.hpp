@@ -31,6 +31,7 @@ enum class WarningKind : uint8_t {
     cache_not_writable,   ///< so that each run does everything again
     ignored_scattering,   ///< the medium's, in local light
     rounded_edges,        ///< of a smooth solid whose formula is too deep
+    local_volume,         ///< a volumetric image in local light, where global light is asked for
 };
 
 /// A finished sentence in two parts: where, and what is wrong and what to do. `text` begins with a

@@ -170,7 +170,12 @@ void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_
 void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
                              bool hits_are_known) {
     if (features_.paths) begin_paths(batch, count);
-    if (features_.global && features_.radiance) return trace_paths(batch, count, hits_are_known);
+    if (features_.global && features_.radiance) {
+        trace_paths(batch, count, hits_are_known);
+        if (sink && features_.transmission)
+            sink(batch, count, true, {batch.radiance, batch.coverage, batch.stride});
+        return;
+    }
     if (!features_.paths || !features_.radiance) {
         if (!hits_are_known) trace_.closest(world_, batch, count);
         return direct(batch, count, true);

@@ -58,7 +58,7 @@ class Illumination {
 
     /// Fills the hits of rays 0 .. count-1, which come from an observer, and those of their
     /// positions, normals, packed attributes and radiance that the features ask for. `sink` is
-    /// called for each layer in scenes with `transmission`.
+    /// called for each layer in scenes with `transmission`; in global light once, for the first.
     void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {}) {
         light_all(batch, count, sink, false);
     }

@@ -48,6 +48,9 @@ void check_medium_voxels(uint64_t count, const VolumeFrame& frame) {
                 frame.size.x, frame.size.y, frame.size.z, count - 1, needed / 1e9, there / 1e9);
 }
 
+/// The tiles of the image as whose pixels a lattice's points are numbered.
+constexpr uint32_t kTilesAcross = 4096;
+
 /// The steps of one image. Their order is that of LatticeRender::run.
 class LatticeRender {
   public:
@@ -97,8 +100,10 @@ class LatticeRender {
     /// Prepares what lights points, and `look_`, which finds what hides them.
     void prepare_light() {
         build_programs(work_.device, work_.features, work_.scene, work_.world, false, false);
-        lit_.emplace(work_.device, work_.features, work_.scene, work_.world, batch_.stride);
-        look_ = [this](RayBatch& rays, uint32_t count) { lit_->find_hits(rays, count); };
+        lit_.emplace(work_, batch_.stride, kTilesAcross);
+        look_ = [this](RayBatch& rays, uint32_t count) {
+            lit_->illumination().find_hits(rays, count);
+        };
         if (!work_.features.transmission) return;
         const Scene unlit = unlit_scene(work_.scene);
         unlit_.emplace(work_.device, coverage_features(unlit, work_.world), unlit, work_.world,
@@ -107,10 +112,11 @@ class LatticeRender {
     }
 
     void light(ShownVoxels& shown) {
-        const LightRays light_rays = [this](RayBatch& rays, uint32_t count, const LayerSink& sink) {
-            lit_->light(rays, count, sink);
+        const LightRays light_rays = [this](RayBatch& rays, const SampledRays& which,
+                                            const LayerSink& sink) {
+            lit_->sample(rays, which, sink);
         };
-        const DensityGrid* const density = lit_->density();
+        const DensityGrid* const density = lit_->illumination().density();
         const SpaceMedium medium{environment_of(work_.scene.world),
                                  density ? *density : DensityGrid()};
         display_.light(look_, light_rays, medium, batch_, shown);
@@ -118,8 +124,15 @@ class LatticeRender {
         if (samples == 1 || shown.voxels.count == 0) return;
         DisplaySampleStage stage(work_.device, work_.features, work_.camera, work_.frame,
                                  work_.world, samples);
-        stage.light(light_rays, medium, display_.views(), batch_, shown);
+        const bool is_global = work_.features.global;
+        stage.light(light_rays, medium, display_.views(), batch_, shown, is_global);
         sample_rays_ = stage.rays();
+        if (!is_global) return;
+        const LightRays mean_rays = [this](RayBatch& rays, const SampledRays& which,
+                                           const LayerSink& sink) {
+            lit_->mean(rays, which, sink);
+        };
+        display_.light_rest(look_, mean_rays, medium, batch_, shown);
     }
 
     /// How much of each voxel transparent surfaces cover, in scenes that have some.
@@ -149,7 +162,7 @@ class LatticeRender {
                            const NodeLight&) { display_.note_objects(entries, number, is_first); });
             };
         }
-        const DensityGrid* const density = lit_->density();
+        const DensityGrid* const density = lit_->illumination().density();
         DisplayMediumStage stage(work_.device, work_.features, work_.frame, work_.world);
         const bool is_hidden =
             work_.world.voxel_count > 0 && work_.frame.display.visibility != Visibility::all;
@@ -170,7 +183,7 @@ class LatticeRender {
         work_.report.display_lines = scan_.lines();
         work_.report.clear_display_lines = scan_.clear_lines();
         work_.report.sight_rays += scan_.lines() + display_.rays() + sample_rays_;
-        count_rays(*lit_, work_.report);
+        count_rays(lit_->illumination(), work_.report);
     }
 
     VolumeWork& work_;
@@ -178,7 +191,7 @@ class LatticeRender {
     Features geometry_;
     DisplayScanStage scan_;
     DisplayLatticeStage display_;
-    std::optional<Illumination> lit_;
+    std::optional<VolumeLight> lit_;
     std::optional<Illumination> unlit_;  ///< where surfaces let light through
     LookAhead look_;
     uint64_t sample_rays_ = 0;
@@ -192,6 +205,41 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
     report.medium_overflows = illumination.medium_overflows();
+}
+
+VolumeLight::VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across)
+    : is_global_(work.features.global),
+      transmission_(work.features.transmission),
+      sampling_{0, tiles_across, 1, uint32_t(work.scene.render.bounces), 0, 0, 0},
+      illumination_(work.device, work.features, work.scene, work.world, max_rays) {
+    const auto paths = uint32_t(work.scene.render.samples);
+    if (is_global_ && paths > 1) mean_.emplace(work.device, work.features, max_rays, paths);
+}
+
+void VolumeLight::set_sampling(const SampledRays& rays) {
+    PathSampling of = sampling_;
+    of.first_tile = rays.first / 16;
+    of.first_sample = rays.sample;
+    illumination_.set_sampling(of);
+}
+
+void VolumeLight::sample(RayBatch& batch, const SampledRays& rays, const LayerSink& sink) {
+    set_sampling(rays);
+    illumination_.light(batch, rays.count, sink);
+}
+
+void VolumeLight::mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink) {
+    if (!mean_) return sample(batch, rays, sink);
+    for (uint32_t path = 0; path < mean_->paths(); ++path) {
+        set_sampling({rays.first, rays.count, path});
+        if (path == 0)
+            illumination_.light(batch, rays.count);
+        else
+            illumination_.light_hits(batch, rays.count);
+        mean_->add(path, batch, rays.count);
+    }
+    if (sink && transmission_)
+        sink(batch, rays.count, true, {batch.radiance, batch.coverage, batch.stride});
 }
 
 void render_lattice(VolumeWork& work, Volume& volume) {

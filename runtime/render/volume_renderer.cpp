@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/volume_scene.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/illumination.hpp"
@@ -18,15 +19,6 @@
 
 namespace voxelume {
 namespace {
-
-/// The scene with the default channels and in local light; what it asks for are a flat image's.
-Scene with_all_channels(Scene scene) {
-    scene.render.light = LightMode::local;
-    scene.observer.aperture = 0;
-    scene.render.filter = {};
-    scene.render.channels = {};
-    return scene;
-}
 
 /// The observer's camera with one sight ray for each (u, v) of the display.
 Camera display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
@@ -56,7 +48,8 @@ void render_rays(VolumeWork& work, Volume& volume) {
                    dilated_occupancy_of.has_value());
     SightStage camera(work.device, work.features, work.camera);
     std::optional<BeamStage> beams;
-    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
+    VolumeLight light(work, batch.stride, uint32_t(work.camera.width + 3) / 4);
+    Illumination& illumination = light.illumination();
     if (dilated_occupancy_of) {
         const DilatedOccupancy dilated_occupancy =
             build_dilated_occupancy(work.device, work.world, *dilated_occupancy_of);
@@ -78,7 +71,7 @@ void render_rays(VolumeWork& work, Volume& volume) {
                                {entries, count, is_first, nodes, first * 16});
         };
         if (beams) beams->start(batch, rays);
-        illumination.light(batch, rays, keep_layer);
+        light.mean(batch, {first * 16, rays}, keep_layer);
         if (!display.has_layers())
             display.keep(shape_of(work.world), batch, first * 16, rays);
         else if (!work.features.transmission)
@@ -108,12 +101,12 @@ uint32_t count_not_finite(const Volume& volume) {
 
 Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld& built,
                      RenderReport& report, const FrameProgress& progress) {
-    const Scene scene = with_all_channels(shown);
     const Pyramid& world = built.pyramid;
+    const Scene scene = volume_scene(shown, world);
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
     VolumeWork work = {device, scene,
-                       world,  features_of(scene, world),
+                       world,  volume_features(scene, world),
                        frame,  display_sight(scene, frame, world.frame),
                        report, progress};
     leave_out_solid_kinds(device, world, work.features);
@@ -157,7 +150,7 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const BuiltWo
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress) {
     AssetStore meshes;
-    const Scene shown = with_culling(with_all_channels(scene), meshes);
+    const Scene shown = with_culling(volume_scene(scene), meshes);
     const BuiltWorld world =
         WorldBuilder(device, false, std::move(meshes)).build(shown, report.world);
     return render_volume(device, shown, world, report, progress);

@@ -45,20 +45,22 @@ struct Features {
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
-    bool physical = false;             ///< ... and some material is physically based
-    bool rough_glass = false;          ///< ... and lets light through
-    bool coat = false;                 ///< ... or has a coat
-    bool weak_facets = false;          ///< ... or reflects less than its index says
-    bool lens = false;                 ///< sight rays start all over a lens
-    bool blades = false;               ///< ... that is a polygon
-    int emitters = 0;                  ///< VXL_EMITTERS_*: how paths find emissive surfaces
-    int sky = 0;                       ///< VXL_SKY_*: what is around the world
-    int sky_rays = 0;                  ///< VXL_EMITTERS_*: how paths find the light of a map
-    bool sky_hidden = false;           ///< observers don't see the sky
-    int media = 0;                     ///< size of the sets of transmitting objects that rays are
-                                       ///< inside of
-    bool medium_set_capped = false;    ///< ... and this size may not be enough
-    bool instances = false;            ///< some objects keep voxels of their own
+    bool own_light = false;          ///< ... and that of first surfaces alone is asked for, without
+                                     ///< what they let through straight
+    bool physical = false;           ///< ... and some material is physically based
+    bool rough_glass = false;        ///< ... and lets light through
+    bool coat = false;               ///< ... or has a coat
+    bool weak_facets = false;        ///< ... or reflects less than its index says
+    bool lens = false;               ///< sight rays start all over a lens
+    bool blades = false;             ///< ... that is a polygon
+    int emitters = 0;                ///< VXL_EMITTERS_*: how paths find emissive surfaces
+    int sky = 0;                     ///< VXL_SKY_*: what is around the world
+    int sky_rays = 0;                ///< VXL_EMITTERS_*: how paths find the light of a map
+    bool sky_hidden = false;         ///< observers don't see the sky
+    int media = 0;                   ///< size of the sets of transmitting objects that rays are
+                                     ///< inside of
+    bool medium_set_capped = false;  ///< ... and this size may not be enough
+    bool instances = false;          ///< some objects keep voxels of their own
     // The results that are asked for:
     bool radiance = true;   ///< the light along rays, and how much of what lies behind they cover
     bool positions = true;  ///< of the points that rays meet ...
@@ -120,6 +122,7 @@ struct Features {
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
                 {"VXL_GLOBAL", global},
+                {"VXL_OWN_LIGHT", own_light},
                 {"VXL_PHYSICAL", physical},
                 {"VXL_ROUGH_GLASS", rough_glass},
                 {"VXL_COAT", coat},

@@ -24,7 +24,8 @@ enum class WarningKind {
     world_not_cached,     ///< the world is too large to be kept on disk
     cache_not_writable,   ///< nothing can be kept on disk
     ignored_scattering,   ///< local light doesn't follow what the medium scatters
-    rounded_edges         ///< a smooth solid is nested too deeply for all edges to stay sharp
+    rounded_edges,        ///< a smooth solid is nested too deeply for all edges to stay sharp
+    local_volume          ///< a volumetric image can't show the global light that is asked for
 };
 
 /// The kind's name in JSON: "outside_world".

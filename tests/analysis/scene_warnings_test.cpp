@@ -185,6 +185,28 @@ TEST_F(SceneWarnings, NameASceneWithoutAnyLight) {
     EXPECT_THAT(kinds(), IsEmpty());
 }
 
+TEST_F(SceneWarnings, TellWhatGlobalLightVolumesLeaveOut) {
+    json["render"]["light"] = "global";
+    json["world"]["medium"] = {{"scattering", {0.1, 0.1, 0.1}}};
+    json["materials"]["red"]["opacity"] = 0.5;
+    json["observer"]["display"]["layout"] = "rays";
+    EXPECT_THAT(kinds(), IsEmpty());
+    const auto of_volume = [&] {
+        Scene scene = parse_scene(json.dump(), folder / "s.json", {});
+        scene.render.shows_volume = true;
+        AssetStore meshes;
+        std::vector<Kind> found;
+        for (const Warning& w : scene_warnings(scene, std::array{1}, meshes))
+            found.push_back(w.kind);
+        return found;
+    };
+    EXPECT_THAT(of_volume(), ElementsAre(Kind::ignored_scattering, Kind::local_volume));
+    json["observer"]["display"]["layout"] = "lattice";
+    EXPECT_THAT(of_volume(), ElementsAre(Kind::ignored_scattering));
+    json["world"].erase("medium");
+    EXPECT_THAT(of_volume(), IsEmpty());
+}
+
 TEST_F(SceneWarnings, NameScatteringInLocalLightInAllFrames) {
     json["world"]["medium"] = {{"scattering", {0.1, 0.1, 0.1}}};
     json["animation"] = Json::parse(R"({"frames": 3, "tracks": [

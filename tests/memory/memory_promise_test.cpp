@@ -252,5 +252,19 @@ TEST(BuiltScene, OfALatticeOfGlassInAMediumTakesWhatIsPromised) {
     }
 }
 
+TEST(BuiltScene, OfAVolumetricImageInGlobalLightTakesWhatIsPromised) {
+    for (const VolumeLayout layout : {VolumeLayout::lattice, VolumeLayout::rays})
+        for (const char* ball : {"", R"("refraction": 0.9, "ior": 1.5)"}) {
+            Scene scene = room(ball, "", "", 0.04);
+            scene.observer.display.layout = layout;
+            scene.observer.display.voxels = {64, 48, 48};
+            scene.render.light = LightMode::global;
+            scene.render.samples = 3;
+            expect_volume_kept(fmt::format("global light, {}: {}",
+                                           layout == VolumeLayout::rays ? "rays" : "lattice", ball),
+                               scene);
+        }
+}
+
 }  // namespace
 }  // namespace voxelume

@@ -10,10 +10,12 @@
 #include "runtime/analysis/coverage.hpp"
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/analysis/volume_scene.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/stages/display/display_mean.hpp"
 #include "runtime/stages/display/display_medium.hpp"
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/display/display_samples.hpp"
@@ -73,7 +75,7 @@ class DisplayCounter {
           world_(world),
           medium_(medium),
           frame_(display_frame(scene)),
-          features_(features_of(scene, world)),
+          features_(volume_features(scene, world)),
           is_least_(estimate == Estimate::minimum) {}
 
     /// Returns the number of voxels that are shown.
@@ -91,6 +93,7 @@ class DisplayCounter {
             of ? count_dilated_occupancy(device_, world_, *of) : DilatedOccupancy();
         const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
         const RayDepths kept = allocate_ray_depths(device_, features_, all);
+        const Buffer<float> mean = count_mean(in_batch);
         // In a medium, each of a ray's steps in the world may show some of it.
         const double steps = features_.medium ? steps_in_world() : 1;
         const double shown = is_least_ ? 1 : steps * all;
@@ -105,6 +108,12 @@ class DisplayCounter {
                                       size_t(frame_.size.y) * size_t(frame_.size.z));
         allocate_voxels(device_, numbered(shown));
         return shown;
+    }
+
+    /// Counts the sums of paths' light.
+    Buffer<float> count_mean(uint32_t rays) const {
+        if (!features_.global || scene_.render.samples == 1) return {};
+        return allocate_light_sums(device_, rays);
     }
 
     /// The mean number of a ray's steps in the world, if nothing hides it.
@@ -130,6 +139,7 @@ class DisplayCounter {
         const DisplayLight light =
             count_light(device_, scene_, features, counts_of(batch), medium_);
         const std::optional<PathDepth> unlit = count_unlit(batch);
+        const Buffer<float> mean = count_mean(batch);
         const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
         const Buffer<float> crossings =
             allocate_crossings(device_, scanned_lines(batch), kFirstSlots);
@@ -206,12 +216,8 @@ class DisplayCounter {
 
 double count_volume(const Device& device, const Scene& scene, const Pyramid& world,
                     const DensityPlan& medium, Estimate estimate) {
-    Scene all_channels = scene;
-    all_channels.render.channels = {};
-    all_channels.render.light = LightMode::local;
-    all_channels.observer.aperture = 0;
-    all_channels.render.filter = {};
-    return DisplayCounter(device, all_channels, world, medium, estimate).run();
+    const Scene shown = volume_scene(scene, world);
+    return DisplayCounter(device, shown, world, medium, estimate).run();
 }
 
 }  // namespace voxelume

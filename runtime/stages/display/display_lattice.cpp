@@ -215,12 +215,12 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const SpaceM
         const uint32_t count = std::min(batch.stride, task.points.count - first);
         aim(task.points, 0, first, count, batch);
         if (!transmission_) {
-            light_rays(batch, count, {});
+            light_rays(batch, {first, count}, {});
             keep(medium, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
             continue;
         }
         // The nearest surface is the voxel's; those behind have voxels of their own.
-        light_rays(batch, count,
+        light_rays(batch, {first, count},
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
                        if (is_first) keep(medium, entries, nodes, task, first, count, voxels);
                    });
@@ -263,6 +263,23 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
                                 const SpaceMedium& medium, RayBatch& batch, ShownVoxels& shown) {
     light_points(light_rays, medium, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
+    light_missed(look, light_rays, medium, batch, shown, host);
+}
+
+void DisplayLatticeStage::light_rest(const LookAhead& look, const LightRays& light_rays,
+                                     const SpaceMedium& medium, RayBatch& batch,
+                                     ShownVoxels& shown) {
+    HostPoints host;
+    const LightTask rest = missed_points(shown, glm::vec3(0), host);
+    if (rest.points.count == 0) return;
+    light_points(light_rays, medium, batch, rest, shown.voxels);
+    light_missed(look, light_rays, medium, batch, shown, host);
+}
+
+/// Lights the voxels that have no light yet from elsewhere.
+void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& light_rays,
+                                       const SpaceMedium& medium, RayBatch& batch,
+                                       ShownVoxels& shown, HostPoints& host) {
     const auto look_elsewhere = [&](bool hidden) {
         for (uint32_t view = 1; view < views_.size(); ++view) {
             LightTask missed = missed_points(shown, glm::vec3(0), host);

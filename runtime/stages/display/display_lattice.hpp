@@ -27,9 +27,15 @@ Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& s
 /// surfaces along each ray cover.
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 
-/// Lights rays 0 .. count-1 of a batch, and calls `sink`, unless it is empty, for each layer of
-/// surfaces.
-using LightRays = std::function<void(RayBatch& batch, uint32_t count, const LayerSink& sink)>;
+/// The rays 0 .. count-1 of a batch, of which the first is number `first` of all points, a multiple
+/// of 16, and which sample of the light of each they are for.
+struct SampledRays {
+    uint32_t first, count, sample = 0;
+};
+
+/// Lights rays of a batch, and calls `sink`, unless it is empty, for each layer of surfaces.
+using LightRays =
+    std::function<void(RayBatch& batch, const SampledRays& rays, const LayerSink& sink)>;
 
 /// The medium between the observer and surfaces. `density` is empty where it is 1 everywhere.
 struct SpaceMedium {
@@ -65,6 +71,10 @@ class DisplayLatticeStage {
     void light(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
                RayBatch& batch, ShownVoxels& shown);
 
+    /// Lights the voxels again whose objects are 0.
+    void light_rest(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
+                    RayBatch& batch, ShownVoxels& shown);
+
     const Buffer<float4>& views() const { return views_; }
 
     /// One bit for every voxel of the lattice, 1 for those that are shown.
@@ -92,6 +102,8 @@ class DisplayLatticeStage {
         std::vector<uint32_t> views;
     };
     LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
+    void light_missed(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
+                      RayBatch& batch, ShownVoxels& shown, HostPoints& host);
     void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view,
                 float max_covered);
 

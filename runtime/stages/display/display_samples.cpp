@@ -48,19 +48,19 @@ DisplaySampleStage::DisplaySampleStage(const Device& device, const Features& fea
       mix_(program_.kernel("mix_samples")) {}
 
 void DisplaySampleStage::add(const LightRays& light_rays, const SpaceMedium& medium,
-                             RayBatch& batch, const Facing& facing, uint32_t first,
-                             uint32_t count) {
+                             RayBatch& batch, const Facing& facing, const SampledRays& which) {
+    const uint32_t first = which.first, count = which.count;
     const auto add = [&](const RayBatch& entries, const NodeLight& nodes) {
         add_.launch_packets(count, shape_of(world_), lattice_, medium.environment, medium.density,
                             medium.density.colors, entries, nodes, facing.shown.voxels.indices,
                             sums_.weights, first, count, sums_.light);
     };
     if (!transmission_) {
-        light_rays(batch, count, {});
+        light_rays(batch, which, {});
         add(batch, {batch.radiance, {}, batch.stride});
         return;
     }
-    light_rays(batch, count,
+    light_rays(batch, which,
                [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
                    if (is_first) add(entries, nodes);
                });
@@ -87,27 +87,29 @@ void DisplaySampleStage::light_facing(const LightRays& light_rays, const SpaceMe
         };
         aim(0, 0);
         if (transmission_)
-            light_rays(batch, count,
+            light_rays(batch, {first, count},
                        [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight&) {
                            if (is_first) keep(entries);
                        });
         else
-            light_rays(batch, count, {}), keep(batch);
+            light_rays(batch, {first, count}, {}), keep(batch);
         for (uint32_t i = 0; i < samples_; ++i) {
             aim(i, samples_);
-            add(light_rays, medium, batch, facing, first, count);
+            add(light_rays, medium, batch, facing, {first, count, i});
         }
     }
 }
 
 void DisplaySampleStage::light(const LightRays& light_rays, const SpaceMedium& medium,
-                               const Buffer<float4>& views, RayBatch& batch, ShownVoxels& shown) {
+                               const Buffer<float4>& views, RayBatch& batch, ShownVoxels& shown,
+                               bool clears_others) {
     const auto voxels = uint32_t(shown.voxels.count);
     sums_ = allocate_sample_sums(device_, voxels, batch.stride);
     sums_.light.fill(0);
     for (const ProbePoints& points : shown.of_axes)
         light_facing(light_rays, medium, views, batch, {shown, points});
-    mix_.launch(WorkItem::light, voxels, voxels, sums_.light, shown.voxels.colors);
+    mix_.launch(WorkItem::light, voxels, voxels, sums_.light, uint32_t(clears_others),
+                shown.voxels.colors, shown.voxels.objects);
 }
 
 }  // namespace voxelume

@@ -23,9 +23,10 @@ class DisplaySampleStage {
     DisplaySampleStage(const Device& device, const Features& features, const Camera& camera,
                        const VolumeFrame& frame, const Pyramid& world, int samples);
 
-    /// Lights the samples batch by batch, and gives the voxels their means.
+    /// Lights the samples batch by batch, and gives the voxels their means. With `clears_others`
+    /// voxels without samples have object 0 afterwards.
     void light(const LightRays& light_rays, const SpaceMedium& medium, const Buffer<float4>& views,
-               RayBatch& batch, ShownVoxels& shown);
+               RayBatch& batch, ShownVoxels& shown, bool clears_others);
 
     uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 
@@ -38,7 +39,7 @@ class DisplaySampleStage {
     void light_facing(const LightRays& light_rays, const SpaceMedium& medium,
                       const Buffer<float4>& views, RayBatch& batch, const Facing& facing);
     void add(const LightRays& light_rays, const SpaceMedium& medium, RayBatch& batch,
-             const Facing& facing, uint32_t first, uint32_t count);
+             const Facing& facing, const SampledRays& which);
 
     Device device_;
     Camera camera_;
