@@ -25,15 +25,17 @@ namespace voxelume {
 enum class Cause {
     none,     ///< it is the same
     touch,    ///< two objects' surfaces pass through the point that it shows, so either is seen
+    cut,      ///< the world's bounds cut the object: closed in the world, open in an instance
     lattice,  ///< the object's voxels lie otherwise in its own space, by no more than is promised
-    sampled,  ///< lamps, random paths and checkers on their borders: it is the same without them
+    sampled,  ///< samples of lamps, of the sky and of paths, checkers at a border of their fields:
+              ///< it is the same without them
     others,   ///< light of objects with other voxels: it is the same if they stay in the world
     edge,     ///< the world's picture changes as much if its rays move by a ten-thousandth voxel
     unexplained
 };
-inline constexpr std::array kCauseNames = {"the same",         "touch",           "other voxels",
-                                           "sampled light",    "others' voxels",  "at an edge",
-                                           "unexplained"};
+inline constexpr std::array kCauseNames = {"the same",     "touch",         "cut",
+                                           "other voxels", "sampled light", "others' voxels",
+                                           "at an edge",   "unexplained"};
 
 /// How far a surface may be from itself in the other placement, in voxels of the larger lattice.
 inline double promised(Surface surface) {
@@ -103,20 +105,21 @@ struct Pictures {
 /// whose voxels depend on the placement, in the world.
 inline Scene with_placement(Scene scene, Placement placement, bool kept) {
     for (Object& object : scene.objects) {
-        const bool stays =
-            kept && scene.models[size_t(object.model)].surface != Surface::exact;
-        object.placement = placement == Placement::instance && !stays &&
-                                   can_be_instance(scene, object)
-                               ? Placement::instance
-                               : Placement::world;
+        const bool stays = kept && scene.models[size_t(object.model)].surface != Surface::exact;
+        object.placement =
+            placement == Placement::instance && !stays && can_be_instance(scene, object)
+                ? Placement::instance
+                : Placement::world;
     }
     return scene;
 }
 
-/// The scene in local light of its own lights, or of one, without lamps' samples and checkers.
+/// The scene in local light of its own lights, or of one, without lamps' samples and checkers, and
+/// without the sky's directions, which the last bits of a place choose.
 inline Scene without_samples(Scene scene) {
     scene.render.light = LightMode::local;
     scene.world.ambient = glm::max(scene.world.ambient, glm::vec3(0.1f));
+    if (scene.world.sky) scene.world.sky->samples = 0;
     for (Object& object : scene.objects) object.light_samples = 0;
     for (Material& material : scene.materials) material.checker.reset();
     if (scene.lights.empty()) {
@@ -142,20 +145,23 @@ class PlacementPair {
 
     Cause cause_of(size_t i) {
         const Pixel a = pixel_of(pictures_.world, i), b = pixel_of(pictures_.instances, i);
-        if (a.object != b.object) {
-            const bool touch = a.object && b.object && glm::length(a.p - b.p) <= rounding();
-            if (touch) return Cause::touch;
-            if (is_promised(a, pictures_.instances, i) && is_promised(b, pictures_.world, i))
-                return Cause::lattice;
-            return is_edge(i, b) ? Cause::edge : Cause::unexplained;
+        if (a.object == b.object) {
+            const double off = a.object ? std::abs(glm::dot(a.p - b.p, a.n)) : 0;
+            if (off <= rounding() && (!a.object || glm::dot(a.n, b.n) >= 0.9999))
+                return cause_of_light(i, a, b);
+            if (off <= promised(surface_of(a.object)) * voxel_of(a.object)) return Cause::lattice;
+        } else if (a.object && b.object && glm::length(a.p - b.p) <= rounding()) {
+            return Cause::touch;
         }
-        const double off = a.object ? std::abs(glm::dot(a.p - b.p, a.n)) : 0;
-        if (off <= rounding() && glm::dot(a.n, b.n) >= (a.object ? 0.9999 : 0))
-            return cause_of_light(i, a, b);
-        if (off <= promised(surface_of(a.object)) * voxel_of(a.object) ||
-            (is_promised(a, pictures_.instances, i) && is_promised(b, pictures_.world, i)))
+        if (a.object && is_on_bounds(a.p)) return Cause::cut;
+        const bool is_a = distance_of(a) <= distance_of(b);
+        const Image& nearer = is_a ? pictures_.world : pictures_.instances;
+        const Image& farther = is_a ? pictures_.instances : pictures_.world;
+        const Pixel &near = is_a ? a : b, &far = is_a ? b : a;
+        if (is_promised(near, farther, i) &&
+            (is_promised(far, nearer, i) || is_outline(near, nearer, i)))
             return Cause::lattice;
-        return is_edge(i, b) ? Cause::edge : Cause::unexplained;
+        return cause_beside(i, a, b);
     }
 
   private:
@@ -164,7 +170,7 @@ class PlacementPair {
         if (is_alike(without_samples(scene_), false, plain_, i)) return Cause::sampled;
         if (is_alike(scene_, true, kept_, i)) return Cause::others;
         if (is_alike(without_samples(scene_), true, plain_kept_, i)) return Cause::others;
-        return is_edge(i, b) ? Cause::edge : Cause::unexplained;
+        return cause_beside(i, a, b);
     }
 
     double rounding() const { return 1e-4 * glm::compMax(scene_.world.voxel_size); }
@@ -184,20 +190,48 @@ class PlacementPair {
         return edge;
     }
 
-    /// Whether another picture shows the object of a pixel within the promise of its surface and a
-    /// pixel's width from there. Nothing, and what is exact, is where the others make room.
-    bool is_promised(const Pixel& at, const Image& image, size_t i) const {
-        if (!at.object || surface_of(at.object) == Surface::exact) return true;
-        const double t = glm::length(at.p - scene_.observer.position);
-        const double pitch = 3 * t * std::tan(scene_.observer.display.half_angles.x) / image.width;
+    bool is_on_bounds(const glm::dvec3& p) const {
+        const Bounds box = lattice_bounds(scene_.world);
+        return glm::compMin(glm::min(glm::abs(p - box.min), glm::abs(p - box.max))) <= rounding();
+    }
+
+    double distance_of(const Pixel& at) const {
+        return at.object ? glm::length(at.p - scene_.observer.position) : INFINITY;
+    }
+
+    /// By how much an object may lie elsewhere, in metres, if a pixel shows it: by the promise of
+    /// its surface, and a pixel's width.
+    double slack_of(const Pixel& at) const {
+        const double pitch = 3 * distance_of(at) * std::tan(scene_.observer.display.half_angles.x) /
+                             pictures_.world.width;
+        return promised(surface_of(at.object)) * voxel_of(at.object) + pitch;
+    }
+
+    /// Whether a condition holds for a pixel that is at most three pixels from pixel i.
+    template <class Condition>
+    static bool any_around(const Image& image, size_t i, Condition holds) {
         const int radius = 3, x = int(i) % image.width, y = int(i) / image.width;
-        const double most = promised(surface_of(at.object)) * voxel_of(at.object) + pitch;
         for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
-            for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u) {
-                const Pixel other = pixel_of(image, size_t(v) * size_t(image.width) + size_t(u));
-                if (other.object == at.object && glm::length(other.p - at.p) <= most) return true;
-            }
+            for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u)
+                if (holds(pixel_of(image, size_t(v) * size_t(image.width) + size_t(u))))
+                    return true;
         return false;
+    }
+
+    /// Whether another picture shows the object of a pixel as close to where the pixel has it as
+    /// its surface promises. An exact one has no slack.
+    bool is_promised(const Pixel& at, const Image& image, size_t i) const {
+        if (!at.object || surface_of(at.object) == Surface::exact) return false;
+        return any_around(image, i, [&](const Pixel& other) {
+            return other.object == at.object && glm::length(other.p - at.p) <= slack_of(at);
+        });
+    }
+
+    /// Whether an outline of what a pixel shows, or a step in its depth, is close in its picture.
+    bool is_outline(const Pixel& at, const Image& image, size_t i) const {
+        return any_around(image, i, [&](const Pixel& other) {
+            return other.object != at.object || distance_of(other) > distance_of(at) + slack_of(at);
+        });
     }
 
     /// Whether the pictures of a scene with such placements, which are made at first, have the same
@@ -209,21 +243,25 @@ class PlacementPair {
         return is_same_light(pixel_of(pictures[0], i).light, pixel_of(pictures[1], i).light);
     }
 
-    /// Whether the world's picture shows such a pixel from a place beside the observer.
-    bool is_edge(size_t i, const Pixel& b) {
+    /// Why a pixel differs of whose surface nothing is known to differ: the world's picture from
+    /// places beside the observer, up to a ten-thousandth voxel away, shows as much; or it shows
+    /// another object's surface at the very point, in which a ray from there may begin.
+    Cause cause_beside(size_t i, const Pixel& a, const Pixel& b) {
         for (int k = 0; moved_.size() < 16 && k < 16; ++k) {
             const double angle = k * 0.7853981634 + 0.2, by = rounding() * (1 + k / 8) / 2;
             moved_.push_back(world_.picture(by * std::cos(angle), by * std::sin(angle)));
         }
-        const Pixel a = pixel_of(pictures_.world, i);
         glm::dvec3 low = a.light, high = a.light;
-        bool is_seen = a.object == b.object;
+        bool is_seen = a.object == b.object, touch = false;
         for (const Image& image : moved_) {
             const Pixel moved = pixel_of(image, i);
             is_seen |= moved.object == b.object;
+            touch |= moved.object && moved.object != a.object &&
+                     glm::length(moved.p - a.p) <= 4 * rounding();
             low = glm::min(low, moved.light), high = glm::max(high, moved.light);
         }
-        return is_seen && is_same_light(b.light, glm::clamp(b.light, low, high));
+        if (is_seen && is_same_light(b.light, glm::clamp(b.light, low, high))) return Cause::edge;
+        return touch && is_seen ? Cause::touch : Cause::unexplained;
     }
 
     Scene scene_;
