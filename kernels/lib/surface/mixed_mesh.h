@@ -11,6 +11,7 @@
 #ifndef VXL_MIXED_MESH_H
 #define VXL_MIXED_MESH_H
 
+#include "lib/surface/smooth.h"
 #include "lib/surface/surface_hit.h"
 #include "lib/traverse/world.h"
 #include "shared/voxel.h"
@@ -60,6 +61,19 @@ static inline void enter_mixed_mesh(RayState* ray_state, lane_uint number, uint 
 /// Mask: surfaces of these packed attributes are of `object`.
 static inline lane_int is_of_object(lane_uint object, lane_uint packed) {
     return LANE_MASK((packed & VXL_OBJECT_MASK) == object);
+}
+
+/// Keeps the level of rays that began below the field of their own mesh from the fields of other
+/// objects, whose packed attributes are given: for these it is what rounding may ask of any ray.
+/// The mask of such lanes, whose level stays what it was.
+static inline lane_int hide_level(const RayState* ray_state, lane_uint packed, float plane_bound,
+                                  lane_float* level) {
+    const float bound = rounding_of_origins(plane_bound);
+    const lane_int foreign = LANE_MASK(*level > bound) &
+                             ~is_of_object(ray_state->field_of, packed) &
+                             ~is_of_object(ray_state->triangle_of, packed);
+    *level = LANES_SELECT(foreign, (lane_float)bound, *level);
+    return foreign;
 }
 
 #endif

@@ -52,23 +52,32 @@ typedef struct {
     lane_int beginning;  // mask: the ray begins on a surface, and sees the `level` of its origin
 } FieldEntry;
 
+/// A bound on what the rounding of a point does to a field there, in distance units: the point is
+/// off by at most `plane_bound` along each axis, and F grows by less than two voxels a voxel.
+static inline float rounding_of_origins(float plane_bound) {
+    return 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
+}
+
 /// Finds how fields whose value at the entry is `outside`, as seen from outside, look to a ray.
 ///
 /// For a ray that is unsure of its side, that value decides: from outside it isn't negative there,
-/// but for the rounding of the point, which is `plane_bound` along each axis, while F grows by less
-/// than two voxels a voxel. A ray that began on the surface in this very voxel sees the level of
-/// its own origin instead: `level` is set so that F + level is not negative there, and stays with
-/// the ray.
+/// but for the rounding of the point. A ray that began on the surface in this very voxel sees the
+/// level of its own origin instead: `level` is set so that F + level is not negative there, and
+/// stays with the ray.
 static inline FieldEntry enter_field(lane_float outside, float plane_bound, lane_int tested,
                                      FieldApproach* from, lane_float* level) {
-    const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
-    from->within |= from->unsure & LANE_MASK(outside < -bound);
+    from->within |= from->unsure & LANE_MASK(outside < -rounding_of_origins(plane_bound));
     FieldEntry e;
     e.side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
     e.value = e.side * outside;
     // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is.
     // Otherwise the ray would go from one to the other without end.
     e.beginning = from->beginning | (from->here & LANE_MASK(e.value < 0.0f));
+    // A ray that has come as far above the field as it began below it has left it.
+    if (VXL_MIXED) {
+        const lane_int left = LANE_MASK(e.value >= *level) & tested;
+        *level = LANES_SELECT(left, fmin(*level, rounding_of_origins(plane_bound)), *level);
+    }
     *level = LANES_SELECT(e.beginning & tested, fmax(-e.value, 0.0f) + VXL_FIELD_ROUNDING, *level);
     return e;
 }

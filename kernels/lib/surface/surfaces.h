@@ -170,20 +170,23 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
     if (any_unsure)
         from.within |= from.unsure & (is_medium(found->inside, packed) |
                                       (from.beginning & ray_state->within_source));
-    lane_float t = (lane_float)INFINITY;
+    lane_float t = (lane_float)INFINITY, level = found->level;
     lane_int met = (lane_int)0, alone = tested;
     const lane_int unsure = from.unsure;
+    const lane_int foreign =
+        VXL_MIXED ? hide_level(ray_state, packed, p->plane_bound, &level) : (lane_int)0;
     const Field field = read_field(s->fields, number);
     if (VXL_FIELD_CHAINS) {
         const lane_int chained = tested & LANE_MASK(end - number > 1u);
         const FieldChain chain = {s->fields, number, end};
         if (lanes_any(chained))
-            met = hit_chain(&chain, w, p->plane_bound, chained, &from, &found->level, &t, &number);
+            met = hit_chain(&chain, w, p->plane_bound, chained, &from, &level, &t, &number);
         alone &= ~chained;
         from.unsure &= alone;
     }
     if (!VXL_FIELD_CHAINS || lanes_any(alone))
-        met |= hit_smooth(&field, w, p->plane_bound, alone, &from, &found->level, &t);
+        met |= hit_smooth(&field, w, p->plane_bound, alone, &from, &level, &t);
+    found->level = LANES_SELECT(foreign, found->level, level);
     from.unsure = unsure;
     if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
     // A ray that goes straight on has its hits beyond this voxel where any other ray has them.

@@ -20,15 +20,22 @@ void copy(const glm::vec3& from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
+// The places of hits are rounded to this share of the longest way through the world, or less.
+constexpr double kPlaceRounding = 0x1p-20;
+
+/// A face in the border of two blocks shows the upper one all over, wherever rounding puts its
+/// points.
 void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord& record) {
     copy(checker.color, record.checker_color);
+    const int longest = std::max({world.size.x, world.size.y, world.size.z});
     for (int a = 0; a < 3; ++a) {
         if (checker.size[a] == 0) continue;
         record.checker_scale[a] = float(world.voxel_edge[a] / checker.size[a]);
         // Two blocks make a period. Far from the origin a float would lose whole blocks to
         // rounding.
         const double shift = (world.origin[a] - checker.origin[a]) / checker.size[a];
-        record.checker_shift[a] = float(std::fmod(shift, 2.0));
+        const double rounding = kPlaceRounding * longest * record.checker_scale[a];
+        record.checker_shift[a] = float(std::fmod(shift, 2.0) + rounding);
     }
 }
 
