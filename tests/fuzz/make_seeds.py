@@ -39,6 +39,14 @@ def nii():
     return bytes(head) + bytes(range(48))
 
 
+def nifti_pair():
+    """The number of the header's bytes, the header, and the data."""
+    head = bytearray(nii()[:352])
+    struct.pack_into("<f", head, 108, 0)
+    head[344:347] = b"ni1"
+    return struct.pack("<H", len(head)) + bytes(head) + bytes(range(48))
+
+
 def qb(packed):
     head = struct.pack("<6I", 257, 0, 1, packed, 0, 1) + b"\4name"
     head += struct.pack("<3I3i", 2, 2, 1, 0, 1, 2)
@@ -164,7 +172,8 @@ MESHOPT = ["00a0013c000000080800013c000000080800013c000000080800013c000000080800
 SEEDS = {
     "npy": [npy(), npy(2), npy(1, ">f2"), npy(1, "|u1")],
     "nrrd": [nrrd("raw"), nrrd("gzip"), nrrd("bzip2"), nrrd("text")],
-    "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
+    "nii": [nii(), gzip.compress(nii(), mtime=0)], "img": [nifti_pair()],
+    "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
     "draco": [bytes.fromhex(text) for text in DRACO],
     "meshopt": [bytes.fromhex(text) for text in MESHOPT],

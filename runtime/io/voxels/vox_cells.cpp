@@ -2,12 +2,15 @@
 #include "runtime/io/voxels/vox_cells.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/huge_pages.hpp"
+#include "runtime/base/ranges.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
@@ -15,6 +18,9 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kNoBrick = 0xFFFFFFFF;
+constexpr size_t kBlock = 1 << 16;  // voxels read at once, which stay in the cache
+// Fewer take less time than it takes to start a thread.
+constexpr size_t kManyVoxels = 1 << 19, kManyBricks = 1 << 8;
 
 /// Voxel v of a model fills [first + R v, first + R v + 1] in Y-up coordinates, R being a signed
 /// permutation: this has R and `first`.
@@ -59,6 +65,15 @@ void append_values(const std::array<uint32_t, 256>& values, const uint8_t* cells
 
 bool is_empty(const uint8_t* cells) {
     return std::all_of(cells, cells + kVoxelsPerBrick, [](uint8_t c) { return c == 0; });
+}
+
+/// Calls `use(first, end)` for ranges of bricks, at the same time where there are many.
+template <class Use>
+void for_brick_ranges(size_t count, const Use& use) {
+    if (count >= kManyBricks)
+        for_ranges(int(count), use);
+    else
+        use(0, int(count));
 }
 
 /// The way from a voxel of the file to the next one.
@@ -110,7 +125,11 @@ void VoxCells::add_box(const CellBox& box) {
 
 void VoxCells::allocate() {
     reserve_in_huge_pages(cells_, size_t(count_) * kVoxelsPerBrick);
-    cells_.resize(size_t(count_) * kVoxelsPerBrick, 0);
+    cells_.resize(size_t(count_) * kVoxelsPerBrick);
+    for_brick_ranges(count_, [&](int first, int end) {
+        std::memset(cells_.data() + size_t(first) * kVoxelsPerBrick, 0,
+                    size_t(end - first) * kVoxelsPerBrick);
+    });
 }
 
 /// Each row of the place depends on one coordinate alone.
@@ -139,9 +158,10 @@ size_t VoxCells::Steps::room(size_t axis, uint32_t coordinate, bool is_up) const
 
 /// Files list most voxels in rows, up or down some axis: within a brick the place of one leads to
 /// the next. 16.8 M voxels take 20 instead of 65 ms.
-void VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
-                         const glm::ivec3& size) {
+size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
+                           const glm::ivec3& size) {
     constexpr uint32_t kCoordinates = 0xFFFFFF;
+    size_t added = 0;
     for (size_t i = 0; i < count;) {
         const uint32_t v = block[i];
         const std::array<uint32_t, 3> at = {v & 255, v >> 8 & 255, v >> 16 & 255};
@@ -166,23 +186,53 @@ void VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const
         uint32_t expected = v & kCoordinates;
         for (; i < end && (block[i] & kCoordinates) == expected; ++i) {
             const uint32_t index = block[i] >> 24;
-            if (index != 0) *cell = uint8_t(index);
+            if (index != 0) {
+                // Another thread may write it, too, of which add_together() takes notice later.
+                std::atomic_ref(*cell).store(uint8_t(index), std::memory_order_relaxed);
+                ++added;
+            }
             cell += stride;
             expected = (expected + step) & kCoordinates;
         }
     }
+    return added;
 }
 
+size_t VoxCells::add_range(const VoxModel& model, const Steps& steps, size_t first, size_t end) {
+    std::vector<uint32_t> block(std::min(kBlock, end - first));
+    size_t added = 0;
+    for (; first < end; first += block.size()) {
+        const size_t count = std::min(block.size(), end - first);
+        file_.read(model.voxels_at + 4 * first, block.data(), 4 * count);
+        added += add_block(block, count, steps, model.size);
+    }
+    return added;
+}
+
+bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
+    std::atomic<size_t> added = 0, filled = 0;
+    for_ranges(int((model.voxels + kBlock - 1) / kBlock), [&](int first, int end) {
+        added += add_range(model, steps, kBlock * size_t(first),
+                           std::min(kBlock * size_t(end), size_t(model.voxels)));
+    });
+    for_brick_ranges(count_, [&](int first, int end) {
+        const uint8_t* const cells = cells_.data();
+        filled += size_t(std::count_if(cells + size_t(first) * kVoxelsPerBrick,
+                                       cells + size_t(end) * kVoxelsPerBrick,
+                                       [](uint8_t cell) { return cell != 0; }));
+    });
+    if (added == filled) return true;
+    std::ranges::fill(cells_, uint8_t{0});
+    return false;
+}
+
+/// Of voxels that share a cell the last one counts, which threads can't tell.
 void VoxCells::add_voxels(const VoxStanding& standing) {
-    constexpr size_t kBlock = 1 << 16;  // voxels read at once, which stay in the cache
     const VoxModel& model = *standing.model;
     const Steps steps = steps_of(standing);
-    std::vector<uint32_t> block(std::min<size_t>(kBlock, model.voxels));
-    for (size_t done = 0; done < model.voxels; done += block.size()) {
-        const size_t count = std::min(block.size(), model.voxels - done);
-        file_.read(model.voxels_at + 4 * done, block.data(), 4 * count);
-        add_block(block, count, steps, model.size);
-    }
+    const bool is_first = std::exchange(is_untouched_, false);
+    if (is_first && model.voxels >= kManyVoxels && add_together(model, steps)) return;
+    add_range(model, steps, 0, model.voxels);
 }
 
 std::array<bool, 256> VoxCells::used() const {
@@ -209,10 +259,12 @@ void VoxCells::fill(const std::array<uint32_t, 256>& groups, bool has_groups,
     }
     model.occupancy.assign(bricks.size() * kLeavesPerBrick, 0);
     if (has_groups) reserve_in_huge_pages(model.attributes, bricks.size() * kVoxelsPerBrick);
-    for (size_t slot = 0; slot < bricks.size(); ++slot) {
-        mark_voxels(bricks[slot], model.occupancy.data() + slot * kLeavesPerBrick);
-        if (has_groups) append_values(groups, bricks[slot], model.attributes);
-    }
+    for_brick_ranges(bricks.size(), [&](int first, int end) {
+        for (size_t slot = size_t(first); slot < size_t(end); ++slot)
+            mark_voxels(bricks[slot], model.occupancy.data() + slot * kLeavesPerBrick);
+    });
+    if (has_groups)
+        for (const uint8_t* cells : bricks) append_values(groups, cells, model.attributes);
     if (!is_in_order) {
         reserve_in_huge_pages(model.color_codes, bricks.size() * kVoxelsPerBrick);
         for (const uint8_t* cells : bricks)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of masks, one for each of several labels, and of one channel.
+// Arrays of masks: one for each of several labels, of one channel, and of full bricks.
 #include <gtest/gtest.h>
 
 #include "runtime/assets/voxel_model_file.hpp"
@@ -49,6 +49,25 @@ TEST_F(ArrayMasksTest, OneChannelIsValues) {
     EXPECT_EQ(
         cells_of(cubes(put("a.npy", npy_bytes("|u1", "1, 2, 2, 1", bytes_of_values(values))))),
         (VoxelCells{{{0, 0, 1}, {}}, {{0, 1, 0}, {}}}));
+}
+
+// Bricks of 16 x 16 x 16 that are full are found at once.
+TEST_F(ArrayMasksTest, FullBricksLackTheCellsThatAreNoVoxels) {
+    const glm::ivec3 size(37, 48, 50);
+    std::vector<uint8_t> values(size_t(size.x * size.y * size.z), 1);
+    VoxelCells expected;
+    for (int x = 0; x < size.x; ++x)
+        for (int y = 0; y < size.y; ++y)
+            for (int z = 0; z < size.z; ++z) expected[{x, y, z}] = {};
+    for (const int missing : {-1, 0, 12345, 60000, int(values.size()) - 1}) {
+        if (missing >= 0) {
+            values[size_t(missing)] = 0;
+            expected.erase({missing / (48 * 50), missing / 50 % 48, missing % 50});
+        }
+        EXPECT_EQ(
+            cells_of(cubes(put("a.npy", npy_bytes("|u1", "37, 48, 50", bytes_of_values(values))))),
+            expected);
+    }
 }
 
 }  // namespace voxelume
