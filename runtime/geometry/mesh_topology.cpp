@@ -107,9 +107,10 @@ class EdgeSums {
 /// bucket with an open one, another set leaves a small share.
 std::vector<DirectedEdge> doubtful_edges_of(const Mesh& mesh) {
     const std::vector<uint64_t> hashes = place_hashes(mesh);
-    EdgeSums sums(0), others(16);
+    EdgeSums sums(0);
     for_each_edge(mesh, hashes, [&](const NumberedEdge& edge) { sums.add(edge); });
     if (sums.are_all_closed()) return {};
+    EdgeSums others(16);
     std::vector<NumberedEdge> left;
     for_each_edge(mesh, hashes, [&](const NumberedEdge& edge) {
         if (!sums.may_be_open(edge)) return;
