@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <glm/common.hpp>
+#include <span>
 #include <utility>
 
 #include "runtime/base/files/input_file.hpp"
@@ -39,19 +40,37 @@ CellMap cell_map(const VoxStanding& standing) {
     return map;
 }
 
-/// Sets the bits of the cells of a brick that have a voxel.
-void mark_voxels(const uint8_t* cells, uint64_t* leaves) {
-    for (size_t row = 0; row < kVoxelsPerBrick / 4; ++row) {
-        // Four cells along x share a leaf: bits 0-1 of `row` are its x, 2-5 y, 6-9 z.
-        uint32_t four = 0;
-        std::memcpy(&four, cells + 4 * row, 4);
-        if (four == 0) continue;
-        // The top bit of each byte that isn't 0, then byte i's at bit i.
-        const uint32_t tops = (((four & 0x7F7F7F7Fu) + 0x7F7F7F7Fu) | four) >> 7 & 0x01010101u;
-        const uint64_t bits = tops * 0x10204080u >> 28;
-        const size_t y = row >> 2 & 15, z = row >> 6;
-        leaves[(row & 3) | (y >> 2) << 2 | (z >> 2) << 4] |= bits << ((y & 3) << 2 | (z & 3) << 4);
+constexpr uint64_t kOneEach = 0x0101010101010101;  // in each byte
+
+/// 1 in each byte that isn't 0.
+uint64_t set_bytes(const uint8_t* eight) {
+    uint64_t bytes = 0;
+    std::memcpy(&bytes, eight, sizeof bytes);
+    constexpr uint64_t kLow = 0x7F * kOneEach;
+    return (((bytes & kLow) + kLow) | bytes) >> 7 & kOneEach;
+}
+
+/// Makes the bits of the cells of a brick that have a voxel. Returns how many have.
+size_t mark_voxels(const uint8_t* cells, uint64_t* leaves) {
+    constexpr uint64_t kGather = 0x0102040810204080;  // brings byte i to bit 56 + i
+    constexpr uint64_t kEven = 0x00FF00FF00FF00FF, kOneInTwo = 0x0001000100010001;
+    size_t count = 0;
+    // Rows of 16 cells along x pass through four leaves, and 16 rows fill these.
+    for (size_t block = 0; block < kLeavesPerBrick / 4; ++block) {
+        std::array<uint64_t, 4> four{};
+        uint64_t sums = 0;  // 32 in a byte at most
+        for (size_t row = 0; row < 16; ++row) {
+            const size_t y = (block & 3) << 2 | (row & 3), z = (block & 12) | row >> 2;
+            const uint8_t* const sixteen = cells + (y | z << 4) * 16;
+            const uint64_t low = set_bytes(sixteen), high = set_bytes(sixteen + 8),
+                           bits = low * kGather >> 56 | high * kGather >> 56 << 8;
+            for (size_t x = 0; x < 4; ++x) four[x] |= (bits >> 4 * x & 15) << 4 * row;
+            sums += low + high;
+        }
+        std::memcpy(leaves + 4 * block, four.data(), sizeof four);
+        count += ((sums & kEven) + (sums >> 8 & kEven)) * kOneInTwo >> 48;
     }
+    return count;
 }
 
 /// Appends the value of each cell of a brick.
@@ -61,10 +80,6 @@ void append_values(const std::array<uint32_t, 256>& values, const uint8_t* cells
     std::array<uint32_t, kVoxelsPerBrick> words;
     for (size_t i = 0; i < kVoxelsPerBrick; ++i) words[i] = values[cells[i]];
     to.insert(to.end(), words.begin(), words.end());
-}
-
-bool is_empty(const uint8_t* cells) {
-    return std::all_of(cells, cells + kVoxelsPerBrick, [](uint8_t c) { return c == 0; });
 }
 
 /// Calls `use(first, end)` for ranges of bricks, at the same time where there are many.
@@ -161,7 +176,7 @@ size_t VoxCells::Steps::room(size_t axis, uint32_t coordinate, bool is_up) const
 size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
                            const glm::ivec3& size) {
     constexpr uint32_t kCoordinates = 0xFFFFFF;
-    size_t added = 0;
+    size_t empty = 0;
     for (size_t i = 0; i < count;) {
         const uint32_t v = block[i];
         const std::array<uint32_t, 3> at = {v & 255, v >> 8 & 255, v >> 16 & 255};
@@ -186,16 +201,16 @@ size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, con
         uint32_t expected = v & kCoordinates;
         for (; i < end && (block[i] & kCoordinates) == expected; ++i) {
             const uint32_t index = block[i] >> 24;
-            if (index != 0) {
-                // Another thread may write it, too, of which add_together() takes notice later.
+            // Another thread may write it, too, of which add_together() takes notice later.
+            if (index != 0)
                 std::atomic_ref(*cell).store(uint8_t(index), std::memory_order_relaxed);
-                ++added;
-            }
+            else
+                ++empty;
             cell += stride;
             expected = (expected + step) & kCoordinates;
         }
     }
-    return added;
+    return count - empty;
 }
 
 size_t VoxCells::add_range(const VoxModel& model, const Steps& steps, size_t first, size_t end) {
@@ -209,19 +224,26 @@ size_t VoxCells::add_range(const VoxModel& model, const Steps& steps, size_t fir
     return added;
 }
 
+size_t VoxCells::mark_all() {
+    leaves_.resize(size_t(count_) * kLeavesPerBrick);
+    std::atomic<size_t> filled = 0;
+    for_brick_ranges(count_, [&](int first, int end) {
+        size_t sum = 0;
+        for (size_t brick = size_t(first); brick < size_t(end); ++brick)
+            sum += mark_voxels(cells_.data() + brick * kVoxelsPerBrick,
+                               leaves_.data() + brick * kLeavesPerBrick);
+        filled += sum;
+    });
+    return filled;
+}
+
 bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
-    std::atomic<size_t> added = 0, filled = 0;
+    std::atomic<size_t> added = 0;
     for_ranges(int((model.voxels + kBlock - 1) / kBlock), [&](int first, int end) {
         added += add_range(model, steps, kBlock * size_t(first),
                            std::min(kBlock * size_t(end), size_t(model.voxels)));
     });
-    for_brick_ranges(count_, [&](int first, int end) {
-        const uint8_t* const cells = cells_.data();
-        filled += size_t(std::count_if(cells + size_t(first) * kVoxelsPerBrick,
-                                       cells + size_t(end) * kVoxelsPerBrick,
-                                       [](uint8_t cell) { return cell != 0; }));
-    });
-    if (added == filled) return true;
+    if (added == mark_all()) return true;
     std::ranges::fill(cells_, uint8_t{0});
     return false;
 }
@@ -232,6 +254,7 @@ void VoxCells::add_voxels(const VoxStanding& standing) {
     const Steps steps = steps_of(standing);
     const bool is_first = std::exchange(is_untouched_, false);
     if (is_first && model.voxels >= kManyVoxels && add_together(model, steps)) return;
+    leaves_.clear();
     add_range(model, steps, 0, model.voxels);
 }
 
@@ -246,23 +269,21 @@ void VoxCells::fill(const std::array<uint32_t, 256>& groups, bool has_groups,
                     VoxelModel& model) && {
     model.frame = frame_;
     model.slots.assign(numbers_.size(), kBrickOutside);
+    if (leaves_.empty()) mark_all();
     std::vector<const uint8_t*> bricks;  // by slot
     bool is_in_order = true;
     for (size_t brick = 0; brick < numbers_.size(); ++brick) {
-        if (numbers_[brick] == kNoBrick) continue;
-        const uint8_t* cells = cells_.data() + size_t(numbers_[brick]) * kVoxelsPerBrick;
-        if (is_empty(cells)) continue;
-        is_in_order &= numbers_[brick] == bricks.size();
+        const size_t number = numbers_[brick];
+        if (number == kNoBrick) continue;
+        const auto leaves = std::span(leaves_).subspan(number * kLeavesPerBrick, kLeavesPerBrick);
+        if (std::ranges::all_of(leaves, [](uint64_t leaf) { return leaf == 0; })) continue;
+        is_in_order &= number == bricks.size();
         model.slots[brick] = uint32_t(bricks.size());
         model.coordinates.push_back(uint32_t(brick));
-        bricks.push_back(cells);
+        model.occupancy.insert(model.occupancy.end(), leaves.begin(), leaves.end());
+        bricks.push_back(cells_.data() + number * kVoxelsPerBrick);
     }
-    model.occupancy.assign(bricks.size() * kLeavesPerBrick, 0);
     if (has_groups) reserve_in_huge_pages(model.attributes, bricks.size() * kVoxelsPerBrick);
-    for_brick_ranges(bricks.size(), [&](int first, int end) {
-        for (size_t slot = size_t(first); slot < size_t(end); ++slot)
-            mark_voxels(bricks[slot], model.occupancy.data() + slot * kLeavesPerBrick);
-    });
     if (has_groups)
         for (const uint8_t* cells : bricks) append_values(groups, cells, model.attributes);
     if (!is_in_order) {
