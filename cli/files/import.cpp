@@ -46,10 +46,7 @@ int run(const ImportCommand& command) {
 
 Action add_import(CLI::App& app) {
     const auto command = std::make_shared<ImportCommand>();
-    app.add_option("FILE", command->file,
-                   "model file: .obj .ply .stl .gltf .glb .vxm .vdb .vox .npy .nrrd .nii .qb .kv6 "
-                   ".binvox .gox .schem .litematic")
-        ->required();
+    app.add_option("FILE", command->file, "model file: " + model_endings())->required();
     app.add_option("-o,--output", command->output,
                    "scene to write, .json; printed if this is left out");
     app.add_option("--size", command->size,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/shared/commands.hpp"
+#include "cli/shared/import_options.hpp"
 #include "cli/shared/report.hpp"
 #include "cli/shared/slice_names.hpp"
 #include "runtime/voxelume.hpp"
@@ -55,9 +56,9 @@ Action add_info(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.add_option(
            "FILE", options->path,
-           "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
-           "model (.vxm), MagicaVoxel file (.vox), array or scan (.npy .nrrd .nii), file of "
-           "another voxel editor or game, or mesh")
+           "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), or mesh, voxels or "
+           "scan: " +
+               model_endings())
         ->required();
     app.add_flag("--json", options->json, "print the result as JSON");
     app.add_flag("--verify", options->verify, "compare all of FILE with the checksum in it");

@@ -8,6 +8,7 @@
 
 #include "cli/shared/checks.hpp"
 #include "cli/shared/commands.hpp"
+#include "cli/shared/import_options.hpp"
 #include "cli/shared/slice_names.hpp"
 
 namespace voxelume::cli {
@@ -82,8 +83,9 @@ int run(const ViewCommand& command) {
 Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
     app.add_option("VOLUME", command->from,
-                   "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file: .obj "
-                   ".ply .stl .gltf .glb .vxm .vox, and others: see scenes/manual/model_files.md")
+                   "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file (see "
+                   "scenes/manual/model_files.md): " +
+                       model_endings())
         ->required();
     app.add_option("-o,--output", command->outputs,
                    ".png: views from the front and from a side, and slices from near to far; "

@@ -15,9 +15,9 @@ Action add_check(CLI::App& app) {
     };
     const auto options = std::make_shared<Options>();
     app.add_option("SCENE", options->scene.scene,
-                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl "
-                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see "
-                   "scenes/manual/model_files.md")
+                   "scene file, JSON (see scenes/README.md), or a model file (see "
+                   "scenes/manual/model_files.md): " +
+                       model_endings())
         ->required();
     add_scene_options(app, options->scene);
     app.add_flag("--json", options->json, "print the plan as JSON");

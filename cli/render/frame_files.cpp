@@ -74,9 +74,9 @@ void check_stream(const RenderCommand& options) {
 /// What is rendered, and which files that makes.
 void add_input_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
-                   "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl "
-                   ".gltf .glb .vxm .vdb .vox .npy .nrrd .nii, and others: see "
-                   "scenes/manual/model_files.md")
+                   "scene files, JSON (see scenes/README.md), or model files (see "
+                   "scenes/manual/model_files.md): " +
+                       model_endings())
         ->required();
     add_scene_options(app, command.scene);
     app.add_option("-o,--output", command.outputs,

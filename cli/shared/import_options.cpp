@@ -100,6 +100,10 @@ std::vector<std::string> view_names() {
     return names;
 }
 
+std::string model_endings() {
+    return fmt::format("{}", fmt::join(model_file_endings(), " "));
+}
+
 void add_import_options(CLI::App& app, ImportChoices& choices) {
     app.add_option(
            "--view", choices.view,

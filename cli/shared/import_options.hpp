@@ -22,6 +22,9 @@ struct ImportChoices {
     bool transparent = false;  ///< of scenes, too
 };
 
+/// What the names of model files end with, for people.
+std::string model_endings();
+
 /// The names that --view knows.
 std::vector<std::string> view_names();
 

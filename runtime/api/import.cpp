@@ -72,6 +72,10 @@ std::string name_from(const fs::path& folder, const fs::path& file) {
 
 namespace v1 {
 
+std::vector<std::string> model_file_endings() {
+    return voxelume::model_file_endings();
+}
+
 bool is_model_file(const fs::path& file) {
     return voxelume::is_model_file(file);
 }

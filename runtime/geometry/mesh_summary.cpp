@@ -30,11 +30,16 @@ double longest_edge(const Mesh& mesh) {
 }  // namespace
 
 Bounds mesh_bounds(const Mesh& mesh) {
-    Bounds box = kEmptyBounds;
+    if (mesh.triangles.empty()) return kEmptyBounds;
+    // As doubles they are the same numbers.
+    glm::vec3 min(INFINITY), max(-INFINITY);
     for (const glm::uvec3& triangle : mesh.triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            add(box, glm::dvec3(mesh.positions[triangle[corner]]));
-    return box;
+        for (int corner = 0; corner < 3; ++corner) {
+            const glm::vec3& p = mesh.positions[triangle[corner]];
+            min = glm::min(min, p);
+            max = glm::max(max, p);
+        }
+    return {glm::dvec3(min), glm::dvec3(max)};
 }
 
 MeshPaint paint_of(const Mesh& mesh) {
@@ -65,14 +70,13 @@ MeshSummary summary_of(const Mesh& mesh) {
                          ? std::launch::deferred
                          : std::launch::async | std::launch::deferred;
     auto topology = std::async(how, [&] { return mesh_topology(mesh); });
-    auto min_area = std::async(how, [&] { return min_mesh_area(mesh); });
+    auto areas = std::async(how, [&] { return mesh_areas(mesh); });
     MeshSummary summary;
     summary.triangles = mesh.triangles.size();
     summary.corners = mesh.positions.size();
     summary.surface = mesh_bounds(mesh);
     summary.vertices = kEmptyBounds;
     for (const glm::vec3& p : mesh.positions) add(summary.vertices, glm::dvec3(p));
-    summary.area = mesh_area(mesh);
     summary.paint = paint_of(mesh);
     summary.has_normals = !mesh.normals.empty();
     summary.longest_edge = longest_edge(mesh);
@@ -83,7 +87,9 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.texture = mesh.texture;
     summary.notes = mesh.notes;
     summary.topology = topology.get();
-    summary.min_area = min_area.get();
+    const MeshAreas both = areas.get();
+    summary.area = both.all;
+    summary.min_area = both.min;
     return summary;
 }
 

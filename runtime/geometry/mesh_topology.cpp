@@ -35,7 +35,13 @@ uint64_t hash_of(const PointBits& p) {
 struct DirectedEdge {
     PointBits low, high;
     int direction;  ///< 1 or -1
-    uint64_t hash;  ///< of both places
+};
+
+/// An edge by the number of the triangle's corner that it begins at, over all triangles.
+struct NumberedEdge {
+    uint64_t hash;  ///< of both places, whichever is first
+    uint64_t corner;
+    bool is_forward;  ///< from the place whose hash is smaller
 };
 
 /// By position. A place has a hash once, not for each of the six triangles that meet there.
@@ -45,23 +51,30 @@ std::vector<uint64_t> place_hashes(const Mesh& mesh) {
     return hashes;
 }
 
+DirectedEdge edge_from(const Mesh& mesh, uint64_t corner) {
+    const glm::uvec3& triangle = mesh.triangles[corner / 3];
+    const PointBits from = bits_of(mesh.positions[triangle[int(corner % 3)]]),
+                    to = bits_of(mesh.positions[triangle[int((corner + 1) % 3)]]);
+    return from < to ? DirectedEdge{from, to, 1} : DirectedEdge{to, from, -1};
+}
+
 /// Calls `visit` with each edge that has a length.
 template <class Visit>
 void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_places, const Visit& visit) {
+    uint64_t corner = 0;
     for (const glm::uvec3& triangle : mesh.triangles) {
-        std::array<PointBits, 3> points;
-        std::array<uint64_t, 3> hashes{};
-        for (int i = 0; i < 3; ++i) {
-            points[size_t(i)] = bits_of(mesh.positions[triangle[i]]);
-            hashes[size_t(i)] = of_places[triangle[i]];
-        }
-        for (size_t i = 0; i < 3; ++i) {
-            const size_t j = (i + 1) % 3;
-            if (points[i] == points[j]) continue;
-            if (points[i] < points[j])
-                visit(DirectedEdge{points[i], points[j], 1, mixed(hashes[i] + 3 * hashes[j])});
-            else
-                visit(DirectedEdge{points[j], points[i], -1, mixed(hashes[j] + 3 * hashes[i])});
+        const std::array<uint64_t, 3> hashes = {of_places[triangle.x], of_places[triangle.y],
+                                                of_places[triangle.z]};
+        for (size_t i = 0; i < 3; ++i, ++corner) {
+            const uint64_t from = hashes[i], to = hashes[(i + 1) % 3];
+            bool is_forward = from < to;
+            if (from == to) {  // one place, or two by a chance in 2^64
+                const DirectedEdge edge = edge_from(mesh, corner);
+                if (edge.low == edge.high) continue;
+                is_forward = edge.direction > 0;
+            }
+            const uint64_t hash = is_forward ? mixed(from + 3 * to) : mixed(to + 3 * from);
+            visit(NumberedEdge{hash, corner, is_forward});
         }
     }
 }
@@ -70,6 +83,46 @@ void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_places, con
 /// opposite signs. Where it is 0, all edges of the bucket are closed, but for one chance in 2^64.
 constexpr size_t kBuckets = size_t(1) << 16;
 
+class EdgeSums {
+  public:
+    /// The buckets go by the bits of hashes from `shift` on.
+    explicit EdgeSums(int shift) : shift_(shift), sums_(kBuckets) {}
+
+    void add(const NumberedEdge& edge) {
+        sums_[bucket(edge)] += edge.is_forward ? edge.hash : 0 - edge.hash;
+    }
+    bool may_be_open(const NumberedEdge& edge) const { return sums_[bucket(edge)] != 0; }
+    bool are_all_closed() const {
+        return std::ranges::all_of(sums_, [](uint64_t sum) { return sum == 0; });
+    }
+
+  private:
+    size_t bucket(const NumberedEdge& edge) const { return edge.hash >> shift_ & (kBuckets - 1); }
+
+    int shift_;
+    std::vector<uint64_t> sums_;
+};
+
+/// The edges that may be open. Of those that one set of buckets leaves, which are all edges of a
+/// bucket with an open one, another set leaves a small share.
+std::vector<DirectedEdge> doubtful_edges_of(const Mesh& mesh) {
+    const std::vector<uint64_t> hashes = place_hashes(mesh);
+    EdgeSums sums(0);
+    for_each_edge(mesh, hashes, [&](const NumberedEdge& edge) { sums.add(edge); });
+    if (sums.are_all_closed()) return {};
+    EdgeSums others(16);
+    std::vector<NumberedEdge> left;
+    for_each_edge(mesh, hashes, [&](const NumberedEdge& edge) {
+        if (!sums.may_be_open(edge)) return;
+        others.add(edge);
+        left.push_back(edge);
+    });
+    std::vector<DirectedEdge> doubtful;
+    for (const NumberedEdge& edge : left)
+        if (others.may_be_open(edge)) doubtful.push_back(edge_from(mesh, edge.corner));
+    return doubtful;
+}
+
 /// An edge by which triangles run more often in one direction than in the other.
 struct OpenEdge {
     PointBits from, to;
@@ -77,16 +130,7 @@ struct OpenEdge {
 };
 
 std::vector<OpenEdge> open_edges_of(const Mesh& mesh) {
-    const std::vector<uint64_t> hashes = place_hashes(mesh);
-    std::vector<uint64_t> sums(kBuckets);
-    for_each_edge(mesh, hashes, [&](const DirectedEdge& edge) {
-        sums[edge.hash % kBuckets] += edge.hash * uint64_t(int64_t(edge.direction));
-    });
-    std::vector<DirectedEdge> doubtful;
-    if (std::ranges::any_of(sums, [](uint64_t sum) { return sum != 0; }))
-        for_each_edge(mesh, hashes, [&](const DirectedEdge& edge) {
-            if (sums[edge.hash % kBuckets] != 0) doubtful.push_back(edge);
-        });
+    std::vector<DirectedEdge> doubtful = doubtful_edges_of(mesh);
     const auto ends = [](const DirectedEdge& edge) { return std::pair(edge.low, edge.high); };
     std::ranges::sort(doubtful, {}, ends);
     std::vector<OpenEdge> open;

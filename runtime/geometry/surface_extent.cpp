@@ -2,6 +2,7 @@
 #include "runtime/geometry/surface_extent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
@@ -9,7 +10,10 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <span>
 #include <vector>
+
+#include "runtime/base/huge_pages.hpp"
 
 namespace voxelume {
 namespace {
@@ -99,43 +103,95 @@ uint64_t corner_hash(const std::vector<uint64_t>& places, const glm::uvec3& tria
     return (places[triangle.x] + places[triangle.y] + places[triangle.z]) * 0x9E3779B97F4A7C15u;
 }
 
-void add_triangle(const Mesh& mesh, const glm::uvec3& triangle, SurfaceArea& area) {
+/// What a triangle adds to an area.
+struct TriangleArea {
+    glm::dvec3 shadows;
+    double total;
+    std::array<glm::dvec3, 3> widths;
+    std::array<double, 3> half_edges;
+};
+
+TriangleArea area_of(const Mesh& mesh, const glm::uvec3& triangle) {
+    TriangleArea area;
     const glm::dvec3 vector = area_vector(mesh, triangle);
-    area.shadows += glm::abs(vector);
-    area.total += glm::length(vector);
-    ++area.triangles;
+    area.shadows = glm::abs(vector);
+    area.total = glm::length(vector);
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 edge = glm::dvec3(mesh.positions[triangle[i]]) -
                                 glm::dvec3(mesh.positions[triangle[(i + 1) % 3]]);
-        area.widths += glm::abs(edge) / 2.0;  // an axis' range is passed there and back
-        area.half_edges += glm::length(edge) / 2.0;
+        area.widths[size_t(i)] = glm::abs(edge) / 2.0;  // an axis' range is passed there and back
+        area.half_edges[size_t(i)] = glm::length(edge) / 2.0;
     }
+    return area;
 }
+
+void add(const TriangleArea& triangle, SurfaceArea& area) {
+    area.shadows += triangle.shadows;
+    area.total += triangle.total;
+    ++area.triangles;
+    for (const glm::dvec3& width : triangle.widths) area.widths += width;
+    for (const double half_edge : triangle.half_edges) area.half_edges += half_edge;
+}
+
+/// Finds triangles whose corners are those of an earlier one.
+class Duplicates {
+  public:
+    explicit Duplicates(const Mesh& mesh) : mesh_(mesh), hashes_(mesh.positions.size()) {
+        // A slot is a bit. At most one triangle in 32 is mistaken for another's duplicate.
+        constexpr size_t kSlotsPerTriangle = 16;
+        const size_t slots =
+            std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
+        shift_ = 64 - std::countr_zero(slots);
+        reserve_in_huge_pages(seen_, (slots + 63) / 64);
+        seen_.resize((slots + 63) / 64);
+        std::ranges::transform(mesh.positions, hashes_.begin(), place_hash);
+    }
+
+    /// Calls `visit` with each triangle and whether it is a duplicate.
+    template <class Visit>
+    void for_each_triangle(const Visit& visit) {
+        // The words of slots lie anywhere in memory: asked for ahead of their use, they are there.
+        constexpr size_t kBlock = 64;
+        std::array<uint64_t, kBlock> slots{};
+        const std::span<const glm::uvec3> all = mesh_.triangles;
+        for (size_t first = 0; first < all.size(); first += kBlock) {
+            const auto block = all.subspan(first, std::min(kBlock, all.size() - first));
+            for (size_t i = 0; i < block.size(); ++i) {
+                slots[i] = corner_hash(hashes_, block[i]) >> shift_;
+                __builtin_prefetch(&seen_[slots[i] / 64], 1);
+            }
+            for (size_t i = 0; i < block.size(); ++i) {
+                uint64_t& word = seen_[slots[i] / 64];
+                const uint64_t bit = uint64_t{1} << slots[i] % 64;
+                visit(block[i], (word & bit) != 0);
+                word |= bit;
+            }
+        }
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::vector<uint64_t> hashes_;  ///< of each place once
+    std::vector<uint64_t> seen_;
+    int shift_ = 0;
+};
 
 }  // namespace
 
-SurfaceArea mesh_area(const Mesh& mesh) {
-    SurfaceArea area;
-    for (const glm::uvec3& triangle : mesh.triangles) add_triangle(mesh, triangle, area);
-    return area;
-}
-
-SurfaceArea min_mesh_area(const Mesh& mesh) {
-    // A slot is a bit. At most one triangle in 32 is mistaken for another's duplicate.
-    constexpr size_t kSlotsPerTriangle = 16;
-    const size_t places =
-        std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
-    const int shift = 64 - std::countr_zero(places);
-    std::vector<bool> seen(places);
-    std::vector<uint64_t> hashes(mesh.positions.size());  // of each place once
-    std::ranges::transform(mesh.positions, hashes.begin(), place_hash);
-    SurfaceArea area;
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        auto place = seen[corner_hash(hashes, triangle) >> shift];
-        if (!place) add_triangle(mesh, triangle, area);
-        place = true;
-    }
-    return area;
+MeshAreas mesh_areas(const Mesh& mesh) {
+    MeshAreas areas;
+    bool are_equal = true;  // so far
+    Duplicates(mesh).for_each_triangle([&](const glm::uvec3& triangle, bool is_duplicate) {
+        const TriangleArea area = area_of(mesh, triangle);
+        if (is_duplicate && are_equal) {
+            areas.min = areas.all;
+            are_equal = false;
+        }
+        add(area, areas.all);
+        if (!are_equal && !is_duplicate) add(area, areas.min);
+    });
+    if (are_equal) areas.min = areas.all;
+    return areas;
 }
 
 SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,

@@ -39,11 +39,13 @@ inline SurfaceArea without(const SurfaceArea& area, const SurfaceArea& part) {
             std::max(area.half_edges - part.half_edges, 0.0)};
 }
 
-SurfaceArea mesh_area(const Mesh& mesh);
-
-/// A lower bound of the area that the mesh covers where some triangles coincide, corner by corner.
-/// A hash table finds them; it mistakes few other triangles for duplicates.
-SurfaceArea min_mesh_area(const Mesh& mesh);
+struct MeshAreas {
+    SurfaceArea all;
+    /// A lower bound of the area that the mesh covers where some triangles coincide, corner by
+    /// corner. A hash table finds them; it mistakes few other triangles for duplicates.
+    SurfaceArea min;
+};
+MeshAreas mesh_areas(const Mesh& mesh);
 
 /// The area of a solid after its map: that of its parts' boxes where `clip` doesn't cut them.
 SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,

@@ -123,7 +123,7 @@ std::string gltf_values(const GltfValue& material) {
     if (transmission > 0) {
         text += glass_members(material, s, transmission);
     } else if (material.has_extension("KHR_materials_unlit")) {
-        // It shows its colour in whatever light.
+        // It is matte: a lamp of its colour would light what is around it.
     } else {
         text +=
             ", " + metal_members(s.metal, s.rough) + ior_member(material) + layer_members(material);

@@ -190,6 +190,16 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
 
 }  // namespace
 
+std::vector<std::string> model_file_endings() {
+    std::vector<std::string> endings;
+    for (const ModelFormat& format : kFormats) endings.emplace_back(format.ending);
+    for (const VoxelFileFormat& format : voxel_file_table())
+        for (const std::string_view ending : format.endings)
+            if (!ending.empty())
+                endings.push_back(fmt::format("{}{}", format.is_numbered ? "0001" : "", ending));
+    return endings;
+}
+
 bool is_model_file(const std::filesystem::path& file) {
     if (reader_of(file) == nullptr || is_volume_nrrd(file)) return false;
     // Radiance's pictures are named as scans are.

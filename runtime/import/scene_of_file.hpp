@@ -5,11 +5,15 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/import/import_options.hpp"
 
 namespace voxelume {
+
+/// How names of files end that `scene_of_file` reads, `0001.png` of slices among them.
+std::vector<std::string> model_file_endings();
 
 /// Whether a file's ending says that `scene_of_file` reads it.
 bool is_model_file(const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene.hpp"
 #include "values.hpp"
@@ -51,13 +52,17 @@ struct ImportOptions {
     Size size{800, 600};            ///< of the image, pixels
 };
 
+/// How the names of the model files end that `import_file` reads: ".obj", ".nii.gz" and others. Of
+/// stacks of slices, whose names have numbers, it is "0001.png".
+std::vector<std::string> model_file_endings();
+
 /// Whether a file's name ends as those of the model files that `import_file` reads.
 bool is_model_file(const std::filesystem::path& file);
 
-/// The text of a scene that shows what a model file (.obj, .ply, .stl, .gltf, .glb, .vxm, .vdb,
-/// .vox) holds. It names the file as seen from `folder`, which is the folder that the text is to be
-/// saved in, if it lies there or below, or else by its name alone. Throws Error::input for a file
-/// that can't be read or has nothing to show, Error::usage for another ending.
+/// The text of a scene that shows what a model file holds. It names the file as seen from `folder`,
+/// which is the folder that the text is to be saved in, if it lies there or below, or else by its
+/// name alone. Throws Error::input for a file that can't be read or has nothing to show,
+/// Error::usage for another ending.
 std::string import_file(const std::filesystem::path& file, const std::filesystem::path& folder,
                         const ImportOptions& options = {}, const CacheOptions& cache = {});
 

@@ -138,7 +138,7 @@ struct MeshFile {
 /// Voxels that are there already: a .vxm of `voxelize`, an OpenVDB or a MagicaVoxel file, an array
 /// of values or colours, or a file of another voxel editor or game.
 struct VoxelFile {
-    std::filesystem::path file{};        ///< .vxm, .vdb, .vox, .npy, .nrrd, .nii and others
+    std::filesystem::path file{};        ///< .vxm, .vdb, .vox, .npy, .nrrd, .nii, .hdr and others
     std::optional<int> part{};           ///< number of the model in a .vox, from 1; without it all
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<double> fit{};         ///< as of a mesh

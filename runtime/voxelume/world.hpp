@@ -42,7 +42,7 @@ struct TransferPoint {
 /// A float grid of an OpenVDB file, or the values of an array, in metres by its own transform and
 /// then placed.
 struct GridDensity {
-    std::filesystem::path file{};        ///< .vdb, .nrrd, .nii or .npy
+    std::filesystem::path file{};        ///< .vdb, .nrrd, .nii, .hdr or .npy
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::string grid = "density";        ///< its name in the file
     Vec3 position{};                     ///< metres: where the grid's origin goes

@@ -2,6 +2,7 @@
 // glTF files in place of scenes: materials, camera and lights of the scene that is made of them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/api/api_fixture.hpp"
@@ -100,6 +101,19 @@ TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
     const Json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
     EXPECT_THAT(with_material({{"emissiveFactor", {1, 0.5, 0}}, {"extensions", strength}}),
                 HasSubstr("\"emission\": [8, 4, 0]"));
+}
+
+TEST_F(ApiGltf, UnlitMaterialsAreMatteWhichInfoSays) {
+    EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}},
+                               {"extensions", {{"KHR_materials_unlit", Json::object()}}}}),
+                HasSubstr("\"m\": {\"color\": [0.5, 0.25, 1]}"));
+    const Facts facts = describe_file(folder / "a.glb");
+    const auto& members = std::get<std::vector<Facts>>(facts.value);
+    const auto notes = std::ranges::find(members, "notes", &Facts::name);
+    ASSERT_NE(notes, members.end());
+    const auto& sentences = std::get<std::vector<Facts>>(notes->value);
+    ASSERT_EQ(sentences.size(), 1u);
+    EXPECT_THAT(std::get<std::string>(sentences[0].value), HasSubstr("KHR_materials_unlit"));
 }
 
 TEST_F(ApiGltf, TheFilesCameraAndLightsGoBeforeThoseOfAStudio) {

@@ -3,6 +3,7 @@
 """Writes a small valid file of each format that has a fuzzer: FOLDER/FORMAT/seed.
 """
 import argparse
+import base64
 import bz2
 import gzip
 import pathlib
@@ -37,6 +38,14 @@ def nii():
     struct.pack_into("<2h6f", head, 252, 1, 0, 0, 0, 1, 1, 2, 3)
     head[344:347] = b"n+1"
     return bytes(head) + bytes(range(48))
+
+
+def nifti_pair():
+    """The number of the header's bytes, the header, and the data."""
+    head = bytearray(nii()[:352])
+    struct.pack_into("<f", head, 108, 0)
+    head[344:347] = b"ni1"
+    return struct.pack("<H", len(head)) + bytes(head) + bytes(range(48))
 
 
 def qb(packed):
@@ -141,6 +150,45 @@ def hdr(rows):
     return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + rows
 
 
+OBJ = (b"mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0 1 0.5 0\nv 1 1 0\nv 0 1 0.5\nvt 0 0\nvt 1 1\n"
+       b"vn 0 0 1\nusemtl m\ng b\ns 1\nf 1/1/1 2/2/1 3//1 4\nf -1 -2 -3\nl 1 2\n")
+PLY = (b"ply\nformat %s 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+       b"property float z\nproperty uchar red\nelement %s 1\nproperty list uchar int %s\n"
+       b"end_header\n")
+PLYS = [PLY % (b"ascii", b"face", b"vertex_indices") + b"0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n",
+        PLY % (b"binary_big_endian", b"tristrips", b"vertex_indices") +
+        b"".join(struct.pack(">3fB", i == 1, i == 2, 0, 9) for i in range(3)) +
+        struct.pack(">B3i", 3, 0, 1, 2)]
+STLS = [b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        b"endloop\nendfacet\nendsolid a\n",
+        b"COLOR=abcd".ljust(80) + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 999)]
+
+
+def gltf(uri):
+    """A moving triangle, as the text of a file; its buffer is `uri` or the file's own."""
+    buffer = f'"uri": "{uri}", ' if uri else ""
+    accessor = '{"bufferView": %d, "componentType": %d, "count": 3, "type": "%s"}'
+    accessors = ", ".join(accessor % of for of in ((0, 5126, "VEC3"), (1, 5123, "SCALAR"),
+                                                   (0, 5126, "SCALAR")))
+    return ('{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, '
+            '"scale": [1, 2, 3], "children": [1]}, {"camera": 0}], "cameras": [{"type": '
+            '"perspective", "perspective": {"yfov": 1, "znear": 1}}], "materials": [{"name": "m"}],'
+            ' "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, '
+            f'"material": 0}}]}}], "buffers": [{{{buffer}"byteLength": 44}}], "bufferViews": ['
+            '{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}], '
+            f'"accessors": [{accessors}], "animations": [{{"samplers": [{{"input": 2, "output": 0}}'
+            '], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}')
+
+
+def glb(buffer):
+    text = gltf("").encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I", len(text)) + b"JSON" + text
+    chunks += struct.pack("<I", len(buffer)) + b"BIN\0" + buffer
+    return b"glTF" + struct.pack("<2I", 2, 12 + len(chunks)) + chunks
+
+
+TRIANGLE = struct.pack("<9f3H2x", 0, 1, 2, 3, 0, 0, 0, 4, 0, 0, 1, 2)
 FLAT = b"-Y 1 +X 5\n" + bytes([2, 3, 4, 136, 1, 1, 1, 4])
 PLANES = b"+Y 1 +X 8\n" + bytes([2, 2, 0, 8, 136, 7, 136, 6, 4, 1, 2, 3, 4, 132, 9, 136, 136])
 MTL = b"newmtl a b\nKd 0.5 0.25 1\nKs 1 1 1\nNs 30\nd 0.5\nillum 7\nNi 1.5\nmap_Kd -s 2 2 t.png\n"
@@ -162,9 +210,13 @@ MESHOPT = ["00a0013c000000080800013c000000080800013c000000080800013c000000080800
            "05d000040400000000"]
 
 SEEDS = {
+    "obj": [OBJ], "ply": PLYS, "stl": STLS, "glb": [glb(TRIANGLE)],
+    "gltf": [gltf("data:application/octet-stream;base64," +
+                  base64.b64encode(TRIANGLE).decode()).encode()],
     "npy": [npy(), npy(2), npy(1, ">f2"), npy(1, "|u1")],
     "nrrd": [nrrd("raw"), nrrd("gzip"), nrrd("bzip2"), nrrd("text")],
-    "nii": [nii(), gzip.compress(nii(), mtime=0)], "qb": [qb(0), qb(1)], "kv6": [kv6()],
+    "nii": [nii(), gzip.compress(nii(), mtime=0)], "img": [nifti_pair()],
+    "qb": [qb(0), qb(1)], "kv6": [kv6()],
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
     "draco": [bytes.fromhex(text) for text in DRACO],
     "meshopt": [bytes.fromhex(text) for text in MESHOPT],

@@ -25,7 +25,7 @@ Mesh rectangle() {
 }
 
 TEST(SurfaceExtent, AFlatPatchTakesItsShadowsVoxels) {
-    const SurfaceArea area = mesh_area(rectangle());
+    const SurfaceArea area = mesh_areas(rectangle()).all;
     EXPECT_EQ(area.total, 6);
     EXPECT_EQ(area.shadows, glm::dvec3(0, 0, 6));
     const GridFrame frame = frame_of({0.01, 0.02, 0.05}, {300, 100, 40});
@@ -40,7 +40,7 @@ TEST(SurfaceExtent, AFlatPatchTakesItsShadowsVoxels) {
 }
 
 TEST(SurfaceExtent, ATurnedPatchCrossesMoreVoxels) {
-    const SurfaceArea area = mesh_area(rectangle());
+    const SurfaceArea area = mesh_areas(rectangle()).all;
     const glm::dmat4 turn =
         glm::rotate(glm::dmat4(1), glm::quarter_pi<double>(), glm::dvec3(1, 0, 0));
     const GridFrame frame = frame_of(glm::dvec3(0.01), {300, 200, 200});
@@ -72,7 +72,7 @@ TEST(SurfaceExtent, TrianglesOfNoAreaAreListedByTheCellsThatTheyMeet) {
         mesh.triangles.emplace_back(first, first + 1, first + 2);
     }
     const GridFrame frame = frame_of(glm::dvec3(1), glm::ivec3(16));
-    EXPECT_NEAR(surface_extent(mesh_area(mesh), glm::dmat4(1), frame, 0).listed,
+    EXPECT_NEAR(surface_extent(mesh_areas(mesh).all, glm::dmat4(1), frame, 0).listed,
                 mean_cells(segments), 1e-9);
 }
 
@@ -94,17 +94,17 @@ TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
 
 TEST(SurfaceExtent, TrianglesThatLieOnOneAnotherCountOnceAtLeast) {
     const Mesh ring = wavy_ring(300, 200);
-    const double once = mesh_area(ring).total;
-    EXPECT_LE(min_mesh_area(ring).total, once);
-    EXPECT_GT(min_mesh_area(ring).total, 0.95 * once);
+    const double once = mesh_areas(ring).all.total;
+    EXPECT_LE(mesh_areas(ring).min.total, once);
+    EXPECT_GT(mesh_areas(ring).min.total, 0.95 * once);
     for (const bool has_own_corners : {false, true}) {
         const Mesh twice = doubled(ring, has_own_corners);
-        EXPECT_NEAR(mesh_area(twice).total, 2 * once, 1e-9);
-        EXPECT_LE(min_mesh_area(twice).total, once);
-        EXPECT_GT(min_mesh_area(twice).total, 0.95 * once);
+        EXPECT_NEAR(mesh_areas(twice).all.total, 2 * once, 1e-9);
+        EXPECT_LE(mesh_areas(twice).min.total, once);
+        EXPECT_GT(mesh_areas(twice).min.total, 0.95 * once);
     }
-    EXPECT_EQ(min_mesh_area(rectangle()).total, 6);
-    EXPECT_EQ(min_mesh_area(doubled(rectangle(), true)).total, 6);
+    EXPECT_EQ(mesh_areas(rectangle()).min.total, 6);
+    EXPECT_EQ(mesh_areas(doubled(rectangle(), true)).min.total, 6);
 }
 
 }  // namespace

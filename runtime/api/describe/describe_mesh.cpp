@@ -52,18 +52,21 @@ Report clips_in(const GltfFile& file) {
     return clips;
 }
 
-/// The kinds of textures in a glTF file that no surface shows. Nearly every file has some, so
-/// rendering says nothing.
-std::vector<std::string> unshown_textures(const GltfFile& file) {
-    bool has_bumps = false, has_occlusion = false;
+/// What of the materials of a glTF file no surface shows. Nearly every file has some such textures,
+/// so rendering says nothing.
+std::vector<std::string> unshown_materials(const GltfFile& file) {
+    bool has_bumps = false, has_occlusion = false, is_unlit = false;
     for (const GltfValue& material : file.root().items("materials")) {
         has_bumps |= material.has("normalTexture");
         has_occlusion |= material.has("occlusionTexture");
+        is_unlit |= material.has_extension("KHR_materials_unlit");
     }
     std::vector<std::string> notes;
     if (has_bumps) notes.emplace_back("its normal textures aren't shown: surfaces have no bumps");
     if (has_occlusion)
         notes.emplace_back("its occlusion textures aren't shown: rays find what is occluded");
+    if (is_unlit)
+        notes.emplace_back("its materials of KHR_materials_unlit are matte, and lit as others are");
     return notes;
 }
 
@@ -86,7 +89,7 @@ Report describe_mesh(const std::filesystem::path& path) {
         const GltfFile file(read_mesh_bytes(path), path);
         mesh = gltf_mesh(file, 0);
         clips = clips_in(file);
-        unshown = unshown_textures(file);
+        unshown = unshown_materials(file);
     } else {
         mesh = read_mesh(path);
     }

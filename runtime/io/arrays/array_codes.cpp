@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/arrays/array_codes.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/grid/brick_cells.hpp"
@@ -27,6 +28,47 @@ bool is_uniform(const ByteBrick& brick) {
     return true;
 }
 
+using Row = uint8_t __attribute__((vector_size(kBrickSize)));
+struct Rows {
+    Row at[kBrickSize];
+};
+
+/// Makes rows of the columns: four times rows are mixed with those eight behind them, as cards are.
+void transpose(Rows& rows) {
+    for (int round = 0; round < 4; ++round) {
+        Rows mixed;
+        for (int i = 0; i < 8; ++i) {
+            const Row a = rows.at[i], b = rows.at[i + 8];
+            mixed.at[2 * i] = __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5,
+                                                      21, 6, 22, 7, 23);
+            mixed.at[2 * i + 1] = __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12,
+                                                          28, 13, 29, 14, 30, 15, 31);
+        }
+        rows = mixed;
+    }
+}
+
+/// Writes a brick without missing cells, of whose axes `side` runs along the model's rows.
+void write_whole(const ByteBrick& brick, const PlacesInBrick& places, size_t side, uint8_t* codes) {
+    const bool is_mirrored = places[side][0] > places[side][1];
+    const size_t other = side == 1 ? 2 : 1;
+    for (int j = 0; j < kBrickSize; ++j) {
+        Rows rows;
+        for (int k = 0; k < kBrickSize; ++k)
+            std::memcpy(&rows.at[is_mirrored && side != 0 ? kBrickSize - 1 - k : k],
+                        side == 1 ? row_of(brick, k, j) : row_of(brick, j, k), sizeof(Row));
+        if (side != 0) transpose(rows);
+        for (size_t k = 0; k < kBrickSize; ++k) {
+            Row& row = rows.at[k];
+            if (side == 0 && is_mirrored)
+                row = __builtin_shufflevector(row, row, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3,
+                                              2, 1, 0);
+            std::memcpy(codes + (places[other][size_t(j)] | places[side == 0 ? 2 : 0][k]), &row,
+                        sizeof row);
+        }
+    }
+}
+
 }  // namespace
 
 void write_codes(const ByteBrick& brick, const PlacesInBrick& places, uint8_t* codes) {
@@ -34,7 +76,13 @@ void write_codes(const ByteBrick& brick, const PlacesInBrick& places, uint8_t* c
         std::memset(codes, *brick.first, kVoxelsPerBrick);
         return;
     }
-    if (brick.count != glm::ivec3(kBrickSize)) std::memset(codes, 0, kVoxelsPerBrick);
+    if (brick.count == glm::ivec3(kBrickSize)) {
+        size_t side = 0;
+        while (std::max(places[side][0], places[side][1]) >= uint32_t(kBrickSize)) ++side;
+        write_whole(brick, places, side, codes);
+        return;
+    }
+    std::memset(codes, 0, kVoxelsPerBrick);
     for (size_t z = 0; z < size_t(brick.count.z); ++z)
         for (size_t y = 0; y < size_t(brick.count.y); ++y) {
             const uint8_t* const row = row_of(brick, int(y), int(z));

@@ -19,8 +19,7 @@ struct ByteBrick {
 /// By the file's axis and the cell along it: its share of the place in a brick.
 using PlacesInBrick = std::array<std::array<uint32_t, 16>, 3>;
 
-/// Writes 4096 bytes, those without a cell as 0. Bricks of one value, as most of labels are, take a
-/// third of the time of others.
+/// Writes 4096 bytes, those without a cell as 0.
 void write_codes(const ByteBrick& brick, const PlacesInBrick& places, uint8_t* codes);
 
 }  // namespace voxelume

@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "kernels/shared/voxel.h"
-#include "runtime/base/huge_pages.hpp"
+#include "runtime/base/make_room.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/arrays/array_choice.hpp"
 #include "runtime/io/arrays/array_codes.hpp"
@@ -52,31 +52,33 @@ class ArrayCubes {
 
     VoxelModel read() {
         read_bits();
-        if (found_.found.empty()) file_.refuse(reason_for_none(array_, values_));
+        if (stored_ == 0) file_.refuse(reason_for_none(array_, values_));
         VoxelModel model;
         model.surface = Surface::cubes;
         model.frame = layout_.frame;
         model.slots.assign(voxelume::bricks_of(model.frame), kBrickOutside);
-        for (const Found& found : found_.found) model.slots[found.brick] = found.number;
-        for (size_t brick = 0; brick < model.slots.size(); ++brick) {
-            if (model.slots[brick] == kBrickOutside) continue;
-            const uint64_t* bits =
-                found_.bits.data() + size_t(model.slots[brick]) * kLeavesPerBrick;
+        std::vector<const uint64_t*> bits(model.slots.size());
+        for (const Bricks& part : parts_)
+            for (size_t i = 0; i < part.found.size(); ++i)
+                bits[part.found[i]] = part.bits.data() + i * kLeavesPerBrick;
+        model.coordinates.reserve(stored_);
+        reserve_in_huge_pages(model.occupancy, stored_ * kLeavesPerBrick);
+        for (size_t brick = 0; brick < bits.size(); ++brick) {
+            if (bits[brick] == nullptr) continue;
             model.slots[brick] = uint32_t(model.coordinates.size());
             model.coordinates.push_back(uint32_t(brick));
-            model.occupancy.insert(model.occupancy.end(), bits, bits + kLeavesPerBrick);
+            model.occupancy.insert(model.occupancy.end(), bits[brick],
+                                   bits[brick] + kLeavesPerBrick);
         }
+        parts_.clear();
         if (array_.is_color() || values_.each_label) read_colors(model);
         return model;
     }
 
   private:
-    struct Found {
-        uint32_t brick, number;
-    };
-    struct Bricks {
-        std::vector<Found> found;
-        std::vector<uint64_t> bits;  ///< by number
+    struct Bricks {                   ///< what one thread found
+        std::vector<uint32_t> found;  ///< numbers of bricks
+        std::vector<uint64_t> bits;   ///< of their voxels, in the same order
     };
 
     /// Where four bits of a row along the file's first axis go in a leaf.
@@ -114,10 +116,7 @@ class ArrayCubes {
             Bricks part;
             read_bits(first, end, part);
             const std::scoped_lock lock(mutex_);
-            for (const Found& found : part.found)
-                found_.found.push_back(
-                    {found.brick, uint32_t(found.number + found_.bits.size() / kLeavesPerBrick)});
-            found_.bits.insert(found_.bits.end(), part.bits.begin(), part.bits.end());
+            parts_.push_back(std::move(part));
         });
     }
 
@@ -147,20 +146,22 @@ class ArrayCubes {
                    Bricks& part) {
         const size_t height = size_t(array_.counts.y), y_first = size_t(brick.y) * kBrickSize,
                      rows = std::min<size_t>(kBrickSize, height - y_first);
-        std::array<uint64_t, kLeavesPerBrick> leaves{};
-        bool is_empty = true;
+        std::array<uint32_t, 256> rows_of_brick{};  // along the file's first axis
         for (size_t z = 0; z < size_t(layers); ++z)
-            for (size_t y = 0; y < rows; ++y) {
-                const uint32_t word = words[(z * height + y_first + y) * rows_x_ + size_t(brick.x)];
-                if (word == 0) continue;
-                is_empty = false;
-                const uint32_t leaf = leaf_[1][y] | leaf_[2][z], bit = bit_[1][y] + bit_[2][z];
-                for (size_t x = 0; x < 16; x += 4)
-                    leaves[leaf | leaf_[0][x]] |= spread_[word >> x & 15] << bit;
-            }
-        if (is_empty) return;
+            for (size_t y = 0; y < rows; ++y)
+                rows_of_brick[16 * z + y] =
+                    words[(z * height + y_first + y) * rows_x_ + size_t(brick.x)];
+        if (std::ranges::count(rows_of_brick, 0u) == 256) return;
+        const bool is_full = std::ranges::count(rows_of_brick, 0xFFFFu) == 256;
+        std::array<uint64_t, kLeavesPerBrick> leaves{};
+        if (is_full) leaves.fill(~0ull);
+        for (size_t i = 0; i < 256 && !is_full; ++i)
+            for (size_t x = 0; x < 16; x += 4)
+                leaves[leaf_[1][i % 16] | leaf_[2][i / 16] | leaf_[0][x]] |=
+                    spread_[rows_of_brick[i] >> x & 15] << (bit_[1][i % 16] + bit_[2][i / 16]);
         check_stored_bricks(++stored_, file_);
-        part.found.push_back({uint32_t(number_of(brick)), uint32_t(part.found.size())});
+        part.found.push_back(uint32_t(number_of(brick)));
+        make_room(part.bits, leaves.size());
         part.bits.insert(part.bits.end(), leaves.begin(), leaves.end());
     }
 
@@ -285,8 +286,8 @@ class ArrayCubes {
     std::array<std::array<uint32_t, 16>, 3> leaf_{}, bit_{}, place_{};
     std::array<uint64_t, 16> spread_{};
     std::array<uint32_t, 256> byte_colors_{};
-    Bricks found_;
-    std::mutex mutex_;  ///< of found_
+    std::vector<Bricks> parts_;
+    std::mutex mutex_;  ///< of parts_
     std::atomic<size_t> stored_ = 0;
 };
 

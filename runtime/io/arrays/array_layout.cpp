@@ -28,4 +28,13 @@ CubeLayout layout_of(const CellArray& array, const InputFile& file) {
     return layout;
 }
 
+std::vector<CellRun> runs_of(const std::vector<size_t>& bricks) {
+    std::vector<CellRun> runs;
+    for (size_t i = 0; i < bricks.size(); ++i) {
+        if (i == 0 || bricks[i] != bricks[i - 1]) runs.push_back({int(i), int(i), bricks[i]});
+        runs.back().end = int(i) + 1;
+    }
+    return runs;
+}
+
 }  // namespace voxelume

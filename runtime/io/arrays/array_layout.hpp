@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the cells of an array lie in a model of cubes.
+// Where the cells of an array lie in a model.
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "runtime/grid/grid_frame.hpp"
 #include "runtime/io/arrays/cell_array.hpp"
@@ -25,5 +26,14 @@ struct CubeLayout {
 };
 
 CubeLayout layout_of(const CellArray& array, const InputFile& file);
+
+/// Cells in a row that lie in one brick, to whose number they add.
+struct CellRun {
+    int first, end;
+    size_t brick;
+};
+
+/// The runs of cells of which each adds so much to the number of its brick.
+std::vector<CellRun> runs_of(const std::vector<size_t>& bricks);
 
 }  // namespace voxelume

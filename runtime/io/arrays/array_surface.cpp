@@ -5,10 +5,13 @@
 #include <atomic>
 #include <cmath>
 
+#include "runtime/base/huge_pages.hpp"
 #include "runtime/grid/brick_cells.hpp"
+#include "runtime/io/arrays/array_layout.hpp"
 #include "runtime/io/arrays/array_sides.hpp"
 #include "runtime/io/arrays/array_steps.hpp"
 #include "runtime/io/arrays/array_stream.hpp"
+#include "runtime/io/arrays/array_units.hpp"
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
@@ -19,7 +22,6 @@ constexpr int kPad = 4;    // nodes around the array, as around other models
 constexpr int kReach = 4;  // nodes from a crossing that gradients and resampling read
 constexpr uint64_t kMaxCells = uint64_t{1} << 30;
 constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // few bytes tell many of them
-constexpr int16_t kMaxUnits = 32767;
 
 /// Where the model has the cells along one of the file's axes.
 struct AxisPlaces {
@@ -204,23 +206,19 @@ class ArraySurface {
         check_stored_bricks(model_.coordinates.size(), file_);
     }
 
-    /// The distance that a node stores: the steepest step is a voxel long.
-    int16_t units(float step) const {
-        const float whole = step < 0 ? -kMaxUnits : kMaxUnits;
-        return int16_t(std::lround(
-            std::isfinite(step) ? std::clamp(step / steepest_ * float(kDistanceUnitsPerVoxel),
-                                             -float(kMaxUnits), float(kMaxUnits))
-                                : whole));
-    }
-
     void fill() {
+        reserve_in_huge_pages(model_.distance, model_.coordinates.size() * kVoxelsPerBrick);
         model_.distance.resize(model_.coordinates.size() * kVoxelsPerBrick);
+        const ArrayUnits units(values_, steepest_, array_.type);
+        const std::vector<CellRun> runs = runs_of(places_[0].brick);
         for_layer_ranges(array_, 1, [&](int first, int end) {
             ArraySlabs slabs(array_, file_, 1, first, end);
             while (slabs.next() > 0)
                 with_type(array_.type, slabs.values(), [&](const auto* layer) {
                     for (int y = 0; y < array_.counts.y; ++y)
-                        fill_row(layer + size_t(y) * size_t(array_.counts.x), y, slabs.first());
+                        for (const CellRun& run : runs)
+                            fill_run(layer + size_t(y) * size_t(array_.counts.x), run, y,
+                                     slabs.first(), units);
                 });
         });
         for_ranges(int(model_.coordinates.size()), [&](int first, int end) {
@@ -230,26 +228,20 @@ class ArraySurface {
 
     /// Far from the surface, nodes store nothing but their side, however flat the values are there.
     template <class Value>
-    void fill_row(const Value* row, int y, int z) {
-        const AxisPlaces &along = places_[0], &y_places = places_[1], &z_places = places_[2];
-        const size_t brick = y_places.brick[size_t(y)] + z_places.brick[size_t(z)];
-        const size_t cell = y_places.cell[size_t(y)] + z_places.cell[size_t(z)];
-        const uint64_t *close = close_.row(y, z), *inside = sides_.inside.row(y, z);
-        const size_t width = size_t(array_.counts.x);
-        for (size_t x = 0; x < width;) {
-            const size_t number = brick + along.brick[x], at = along.brick[x];
-            if (!is_near_[number]) {
-                while (x < width && along.brick[x] == at) ++x;
-                continue;
-            }
-            int16_t* out = model_.distance.data() + model_.slots[number] * kVoxelsPerBrick + cell;
-            for (; x < width && along.brick[x] == at; ++x) {
-                const bool is_close = close[x / 64] >> x % 64 & 1;
-                const bool is_inside = inside[x / 64] >> x % 64 & 1;
-                out[along.cell[x]] = is_close    ? units(values_.step(row[x]))
-                                     : is_inside ? int16_t(-kMaxUnits)
-                                                 : kMaxUnits;
-            }
+    void fill_run(const Value* row, const CellRun& run, int y, int z, const ArrayUnits& units) {
+        const AxisPlaces &y_places = places_[1], &z_places = places_[2];
+        const size_t number = run.brick + y_places.brick[size_t(y)] + z_places.brick[size_t(z)];
+        if (!is_near_[number]) return;
+        int16_t* const out = model_.distance.data() + model_.slots[number] * kVoxelsPerBrick +
+                             y_places.cell[size_t(y)] + z_places.cell[size_t(z)];
+        const uint32_t close = close_.from(run.first, y, z),
+                       inside = sides_.inside.from(run.first, y, z);
+        for (int x = run.first; x < run.end; ++x) {
+            const bool is_close = close >> (x - run.first) & 1,
+                       is_inside = inside >> (x - run.first) & 1;
+            out[places_[0].cell[size_t(x)]] = is_close    ? units(row[x])
+                                              : is_inside ? int16_t(-kMaxUnits)
+                                                          : kMaxUnits;
         }
     }
 

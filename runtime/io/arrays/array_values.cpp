@@ -107,8 +107,10 @@ ArraySummary summary_of(const ForEach& for_each) {
     return summary;
 }
 
-/// Counts values of 8 bits, of which many in a row are often alike.
+/// Counts values of 8 bits, of which many in a row are often alike. Neighbours that almost are go
+/// to counts of their own, since each count waits for the one before.
 void count_bytes(const uint8_t* values, size_t count, std::vector<uint64_t>& counts) {
+    std::array<std::array<uint32_t, 256>, 4> apart{};
     size_t i = 0;
     for (; i + 8 <= count; i += 8) {
         uint64_t eight = 0;
@@ -117,9 +119,11 @@ void count_bytes(const uint8_t* values, size_t count, std::vector<uint64_t>& cou
             counts[values[i]] += 8;
             continue;
         }
-        for (size_t k = i; k < i + 8; ++k) ++counts[values[k]];
+        for (size_t k = 0; k < 8; ++k) ++apart[k % 4][eight >> 8 * k & 255];
     }
     for (; i < count; ++i) ++counts[values[i]];
+    for (const auto& some : apart)
+        for (size_t value = 0; value < some.size(); ++value) counts[value] += some[value];
 }
 
 /// How often each code of 8 or 16 bits occurs. 512^3 bytes take 40 ms, and one by one 1 s.

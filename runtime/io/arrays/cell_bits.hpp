@@ -21,6 +21,14 @@ class CellBits {
         return row(cell.y, cell.z)[cell.x / 64] >> (cell.x % 64) & 1;
     }
 
+    /// 16 bits of a row from cell x on, 0 behind its end.
+    uint32_t from(int x, int y, int z) const {
+        const size_t word = size_t(x) / 64, shift = size_t(x) % 64;
+        const uint64_t* const bits = row(y, z) + word;
+        const bool has_next = shift > 48 && word + 1 < words_;
+        return uint32_t(bits[0] >> shift | (has_next ? bits[1] << (64 - shift) : 0)) & 0xFFFF;
+    }
+
     /// Sets a row from a byte for each cell, 0 or 1. `bytes` goes on to a multiple of 64, with 0.
     void set_row(int y, int z, const uint8_t* bytes);
 

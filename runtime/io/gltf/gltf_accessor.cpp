@@ -7,7 +7,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <string_view>
+
+#include "runtime/base/huge_pages.hpp"
 
 namespace voxelume {
 namespace {
@@ -82,6 +85,12 @@ struct Elements {
             default:
                 return float(word);
         }
+    }
+
+    /// Whether elements of a type are words that this machine has, too, one after the other.
+    bool are_words(uint64_t of_type) const {
+        return std::endian::native == std::endian::little && first != nullptr && type == of_type &&
+               components == rows && stride == sizeof(uint32_t) * size_t(components);
     }
 
   private:
@@ -182,12 +191,16 @@ GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* 
         place(file, accessor, found.count, elements);
     if (!elements.first && found.count > (uint64_t{1} << 26))
         accessor.fail("more than 2^26 elements without a buffer view");
+    reserve_in_huge_pages(found.values, found.count * uint64_t(found.components));
     found.values.resize(found.count * uint64_t(found.components));
     const auto store = [&](uint64_t index, const Elements& of, uint64_t element) {
         for (int c = 0; c < found.components; ++c)
             found.values[index * uint64_t(found.components) + uint64_t(c)] = of.value(element, c);
     };
-    for (uint64_t i = 0; i < found.count && elements.first; ++i) store(i, elements, i);
+    if (elements.are_words(kFloat))
+        std::memcpy(found.values.data(), elements.first, found.values.size() * sizeof(float));
+    else
+        for (uint64_t i = 0; i < found.count && elements.first; ++i) store(i, elements, i);
     read_sparse(file, accessor, found.count, elements, store);
     return found;
 }
@@ -215,14 +228,19 @@ std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, 
     }
     if (!elements.first && count > (uint64_t{1} << 26))
         accessor.fail("more than 2^26 elements without a buffer view");
-    std::vector<uint32_t> indices(count);
+    std::vector<uint32_t> indices;
+    reserve_in_huge_pages(indices, count);
+    indices.resize(count);
     const auto store = [&](uint64_t index, const Elements& of, uint64_t element) {
         const uint32_t value = of.first ? of.word(element, 0) : 0;
         if (value >= limit)
             accessor.fail(fmt::format("names vertex {}, and there are {}", value, limit));
         indices[index] = value;
     };
-    for (uint64_t i = 0; i < count; ++i) store(i, elements, i);
+    const bool are_words = elements.are_words(kUnsignedInt);
+    if (are_words) std::memcpy(indices.data(), elements.first, count * sizeof(uint32_t));
+    if (!are_words || *std::ranges::max_element(indices) >= limit)
+        for (uint64_t i = 0; i < count; ++i) store(i, elements, i);
     read_sparse(file, accessor, count, elements, store);
     return indices;
 }

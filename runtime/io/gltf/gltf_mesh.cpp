@@ -10,6 +10,7 @@
 #include <map>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/make_room.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
 #include "runtime/io/gltf/gltf_skin.hpp"
@@ -31,6 +32,7 @@ void append_triangles(const std::vector<uint32_t>& order, uint64_t mode, uint32_
         mesh.triangles.push_back(t + base);
     };
     const size_t count = order.size();
+    make_room(mesh.triangles, mode == kTriangles ? count / 3 : count);
     if (mode == kTriangles)
         for (size_t i = 0; i + 3 <= count; i += 3) add(i, i + 1, i + 2);
     else if (mode == kStrip)
@@ -94,6 +96,7 @@ class MeshBuilder {
         const int material = primitive.index("material", file_.root().size("materials"));
         add_uvs(attributes, material, positions.count, base);
         add_faces(primitive, mode, positions.count, base, glm::determinant(glm::dmat3(map)) < 0);
+        make_room(mesh_.triangle_group, mesh_.triangles.size() - mesh_.triangle_group.size());
         mesh_.triangle_group.resize(mesh_.triangles.size(), group_of(material));
     }
 
@@ -109,6 +112,7 @@ class MeshBuilder {
     }
 
     void add_positions(const GltfValues& positions, const glm::dmat4& map) {
+        make_room(mesh_.positions, positions.count);
         for (size_t i = 0; i < positions.count; ++i) {
             const float* const p = &positions.values[3 * i];
             const glm::vec3 at(map * glm::dvec4(p[0], p[1], p[2], 1));
@@ -131,6 +135,7 @@ class MeshBuilder {
         if (!attributes.has("NORMAL")) return;
         const GltfValues normals = values(attributes, "NORMAL", vertices, {3});
         const glm::dmat3 turn = glm::inverseTranspose(glm::dmat3(map));
+        make_room(mesh_.normals, base + vertices - mesh_.normals.size());
         mesh_.normals.resize(base, glm::vec3(0));
         for (size_t i = 0; i < vertices; ++i) {
             const float* const n = &normals.values[3 * i];

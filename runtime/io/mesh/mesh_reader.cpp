@@ -2,6 +2,7 @@
 // Reads a mesh file into memory and passes it to the reader of its format.
 #include "runtime/io/mesh/mesh_reader.hpp"
 
+#include "runtime/base/huge_pages.hpp"
 #include "runtime/io/mesh/mesh_source.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 
@@ -48,6 +49,8 @@ std::string read_bytes(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string bytes;
     if (file) {
+        bytes.reserve(size);
+        advise_huge_pages(bytes.data(), bytes.capacity());
         bytes.resize(size);
         file.read(bytes.data(), static_cast<std::streamsize>(size));
     }

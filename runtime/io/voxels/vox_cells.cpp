@@ -2,12 +2,16 @@
 #include "runtime/io/voxels/vox_cells.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <glm/common.hpp>
+#include <span>
+#include <utility>
 
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/huge_pages.hpp"
+#include "runtime/base/ranges.hpp"
 #include "runtime/grid/brick_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
@@ -15,6 +19,9 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kNoBrick = 0xFFFFFFFF;
+constexpr size_t kBlock = 1 << 16;  // voxels read at once, which stay in the cache
+// Fewer take less time than it takes to start a thread.
+constexpr size_t kManyVoxels = 1 << 19, kManyBricks = 1 << 8;
 
 /// Voxel v of a model fills [first + R v, first + R v + 1] in Y-up coordinates, R being a signed
 /// permutation: this has R and `first`.
@@ -33,19 +40,37 @@ CellMap cell_map(const VoxStanding& standing) {
     return map;
 }
 
-/// Sets the bits of the cells of a brick that have a voxel.
-void mark_voxels(const uint8_t* cells, uint64_t* leaves) {
-    for (size_t row = 0; row < kVoxelsPerBrick / 4; ++row) {
-        // Four cells along x share a leaf: bits 0-1 of `row` are its x, 2-5 y, 6-9 z.
-        uint32_t four = 0;
-        std::memcpy(&four, cells + 4 * row, 4);
-        if (four == 0) continue;
-        // The top bit of each byte that isn't 0, then byte i's at bit i.
-        const uint32_t tops = (((four & 0x7F7F7F7Fu) + 0x7F7F7F7Fu) | four) >> 7 & 0x01010101u;
-        const uint64_t bits = tops * 0x10204080u >> 28;
-        const size_t y = row >> 2 & 15, z = row >> 6;
-        leaves[(row & 3) | (y >> 2) << 2 | (z >> 2) << 4] |= bits << ((y & 3) << 2 | (z & 3) << 4);
+constexpr uint64_t kOneEach = 0x0101010101010101;  // in each byte
+
+/// 1 in each byte that isn't 0.
+uint64_t set_bytes(const uint8_t* eight) {
+    uint64_t bytes = 0;
+    std::memcpy(&bytes, eight, sizeof bytes);
+    constexpr uint64_t kLow = 0x7F * kOneEach;
+    return (((bytes & kLow) + kLow) | bytes) >> 7 & kOneEach;
+}
+
+/// Makes the bits of the cells of a brick that have a voxel. Returns how many have.
+size_t mark_voxels(const uint8_t* cells, uint64_t* leaves) {
+    constexpr uint64_t kGather = 0x0102040810204080;  // brings byte i to bit 56 + i
+    constexpr uint64_t kEven = 0x00FF00FF00FF00FF, kOneInTwo = 0x0001000100010001;
+    size_t count = 0;
+    // Rows of 16 cells along x pass through four leaves, and 16 rows fill these.
+    for (size_t block = 0; block < kLeavesPerBrick / 4; ++block) {
+        std::array<uint64_t, 4> four{};
+        uint64_t sums = 0;  // 32 in a byte at most
+        for (size_t row = 0; row < 16; ++row) {
+            const size_t y = (block & 3) << 2 | (row & 3), z = (block & 12) | row >> 2;
+            const uint8_t* const sixteen = cells + (y | z << 4) * 16;
+            const uint64_t low = set_bytes(sixteen), high = set_bytes(sixteen + 8),
+                           bits = low * kGather >> 56 | high * kGather >> 56 << 8;
+            for (size_t x = 0; x < 4; ++x) four[x] |= (bits >> 4 * x & 15) << 4 * row;
+            sums += low + high;
+        }
+        std::memcpy(leaves + 4 * block, four.data(), sizeof four);
+        count += ((sums & kEven) + (sums >> 8 & kEven)) * kOneInTwo >> 48;
     }
+    return count;
 }
 
 /// Appends the value of each cell of a brick.
@@ -57,8 +82,13 @@ void append_values(const std::array<uint32_t, 256>& values, const uint8_t* cells
     to.insert(to.end(), words.begin(), words.end());
 }
 
-bool is_empty(const uint8_t* cells) {
-    return std::all_of(cells, cells + kVoxelsPerBrick, [](uint8_t c) { return c == 0; });
+/// Calls `use(first, end)` for ranges of bricks, at the same time where there are many.
+template <class Use>
+void for_brick_ranges(size_t count, const Use& use) {
+    if (count >= kManyBricks)
+        for_ranges(int(count), use);
+    else
+        use(0, int(count));
 }
 
 /// The way from a voxel of the file to the next one.
@@ -110,7 +140,11 @@ void VoxCells::add_box(const CellBox& box) {
 
 void VoxCells::allocate() {
     reserve_in_huge_pages(cells_, size_t(count_) * kVoxelsPerBrick);
-    cells_.resize(size_t(count_) * kVoxelsPerBrick, 0);
+    cells_.resize(size_t(count_) * kVoxelsPerBrick);
+    for_brick_ranges(count_, [&](int first, int end) {
+        std::memset(cells_.data() + size_t(first) * kVoxelsPerBrick, 0,
+                    size_t(end - first) * kVoxelsPerBrick);
+    });
 }
 
 /// Each row of the place depends on one coordinate alone.
@@ -139,9 +173,10 @@ size_t VoxCells::Steps::room(size_t axis, uint32_t coordinate, bool is_up) const
 
 /// Files list most voxels in rows, up or down some axis: within a brick the place of one leads to
 /// the next. 16.8 M voxels take 20 instead of 65 ms.
-void VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
-                         const glm::ivec3& size) {
+size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
+                           const glm::ivec3& size) {
     constexpr uint32_t kCoordinates = 0xFFFFFF;
+    size_t empty = 0;
     for (size_t i = 0; i < count;) {
         const uint32_t v = block[i];
         const std::array<uint32_t, 3> at = {v & 255, v >> 8 & 255, v >> 16 & 255};
@@ -166,23 +201,61 @@ void VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const
         uint32_t expected = v & kCoordinates;
         for (; i < end && (block[i] & kCoordinates) == expected; ++i) {
             const uint32_t index = block[i] >> 24;
-            if (index != 0) *cell = uint8_t(index);
+            // Another thread may write it, too, of which add_together() takes notice later.
+            if (index != 0)
+                std::atomic_ref(*cell).store(uint8_t(index), std::memory_order_relaxed);
+            else
+                ++empty;
             cell += stride;
             expected = (expected + step) & kCoordinates;
         }
     }
+    return count - empty;
 }
 
+size_t VoxCells::add_range(const VoxModel& model, const Steps& steps, size_t first, size_t end) {
+    std::vector<uint32_t> block(std::min(kBlock, end - first));
+    size_t added = 0;
+    for (; first < end; first += block.size()) {
+        const size_t count = std::min(block.size(), end - first);
+        file_.read(model.voxels_at + 4 * first, block.data(), 4 * count);
+        added += add_block(block, count, steps, model.size);
+    }
+    return added;
+}
+
+size_t VoxCells::mark_all() {
+    leaves_.resize(size_t(count_) * kLeavesPerBrick);
+    std::atomic<size_t> filled = 0;
+    for_brick_ranges(count_, [&](int first, int end) {
+        size_t sum = 0;
+        for (size_t brick = size_t(first); brick < size_t(end); ++brick)
+            sum += mark_voxels(cells_.data() + brick * kVoxelsPerBrick,
+                               leaves_.data() + brick * kLeavesPerBrick);
+        filled += sum;
+    });
+    return filled;
+}
+
+bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
+    std::atomic<size_t> added = 0;
+    for_ranges(int((model.voxels + kBlock - 1) / kBlock), [&](int first, int end) {
+        added += add_range(model, steps, kBlock * size_t(first),
+                           std::min(kBlock * size_t(end), size_t(model.voxels)));
+    });
+    if (added == mark_all()) return true;
+    std::ranges::fill(cells_, uint8_t{0});
+    return false;
+}
+
+/// Of voxels that share a cell the last one counts, which threads can't tell.
 void VoxCells::add_voxels(const VoxStanding& standing) {
-    constexpr size_t kBlock = 1 << 16;  // voxels read at once, which stay in the cache
     const VoxModel& model = *standing.model;
     const Steps steps = steps_of(standing);
-    std::vector<uint32_t> block(std::min<size_t>(kBlock, model.voxels));
-    for (size_t done = 0; done < model.voxels; done += block.size()) {
-        const size_t count = std::min(block.size(), model.voxels - done);
-        file_.read(model.voxels_at + 4 * done, block.data(), 4 * count);
-        add_block(block, count, steps, model.size);
-    }
+    const bool is_first = std::exchange(is_untouched_, false);
+    if (is_first && model.voxels >= kManyVoxels && add_together(model, steps)) return;
+    leaves_.clear();
+    add_range(model, steps, 0, model.voxels);
 }
 
 std::array<bool, 256> VoxCells::used() const {
@@ -196,23 +269,23 @@ void VoxCells::fill(const std::array<uint32_t, 256>& groups, bool has_groups,
                     VoxelModel& model) && {
     model.frame = frame_;
     model.slots.assign(numbers_.size(), kBrickOutside);
+    if (leaves_.empty()) mark_all();
     std::vector<const uint8_t*> bricks;  // by slot
     bool is_in_order = true;
     for (size_t brick = 0; brick < numbers_.size(); ++brick) {
-        if (numbers_[brick] == kNoBrick) continue;
-        const uint8_t* cells = cells_.data() + size_t(numbers_[brick]) * kVoxelsPerBrick;
-        if (is_empty(cells)) continue;
-        is_in_order &= numbers_[brick] == bricks.size();
+        const size_t number = numbers_[brick];
+        if (number == kNoBrick) continue;
+        const auto leaves = std::span(leaves_).subspan(number * kLeavesPerBrick, kLeavesPerBrick);
+        if (std::ranges::all_of(leaves, [](uint64_t leaf) { return leaf == 0; })) continue;
+        is_in_order &= number == bricks.size();
         model.slots[brick] = uint32_t(bricks.size());
         model.coordinates.push_back(uint32_t(brick));
-        bricks.push_back(cells);
+        model.occupancy.insert(model.occupancy.end(), leaves.begin(), leaves.end());
+        bricks.push_back(cells_.data() + number * kVoxelsPerBrick);
     }
-    model.occupancy.assign(bricks.size() * kLeavesPerBrick, 0);
     if (has_groups) reserve_in_huge_pages(model.attributes, bricks.size() * kVoxelsPerBrick);
-    for (size_t slot = 0; slot < bricks.size(); ++slot) {
-        mark_voxels(bricks[slot], model.occupancy.data() + slot * kLeavesPerBrick);
-        if (has_groups) append_values(groups, bricks[slot], model.attributes);
-    }
+    if (has_groups)
+        for (const uint8_t* cells : bricks) append_values(groups, cells, model.attributes);
     if (!is_in_order) {
         reserve_in_huge_pages(model.color_codes, bricks.size() * kVoxelsPerBrick);
         for (const uint8_t* cells : bricks)

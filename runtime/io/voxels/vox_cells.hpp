@@ -62,8 +62,14 @@ class VoxCells {
         size_t room(size_t axis, uint32_t coordinate, bool is_up) const;
     };
     Steps steps_of(const VoxStanding& standing) const;
-    void add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
-                   const glm::ivec3& size);
+    /// The voxels from number `first` to one before `end`. Returns how many have a colour.
+    size_t add_range(const VoxModel& model, const Steps& steps, size_t first, size_t end);
+    size_t add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
+                     const glm::ivec3& size);
+    /// Fills leaves_. Returns how many cells have a voxel.
+    size_t mark_all();
+    /// False where some voxels share a cell: all cells are empty then as they were before.
+    bool add_together(const VoxModel& model, const Steps& steps);
 
     const InputFile& file_;
     GridFrame frame_;
@@ -71,6 +77,8 @@ class VoxCells {
     std::vector<uint32_t> numbers_;  ///< by brick, into cells_
     uint32_t count_ = 0;
     UnfilledVector<uint8_t> cells_;
+    std::vector<uint64_t> leaves_;  ///< bits of cells_, while they are those of all voxels
+    bool is_untouched_ = true;      ///< no voxel has been added
 };
 
 }  // namespace voxelume

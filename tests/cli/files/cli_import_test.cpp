@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "tests/support/program_runner.hpp"
@@ -75,6 +76,21 @@ TEST_F(CliImportTest, ImportWritesWhatRenderShows) {
     EXPECT_EQ(run("import wedge.obj --size 32x24 --view iso").out, bytes_of(folder / "wedge.json"));
     std::filesystem::create_directory(folder / "scenes");
     EXPECT_THAT(run("import wedge.obj -o scenes/wedge.json").err, HasSubstr("--assets"));
+}
+
+TEST_F(CliImportTest, HelpAndManualNameTheEndingsOfAllModelFiles) {
+    const std::vector<std::string> endings = model_file_endings();
+    for (const char* known : {".obj", ".glb", ".vox", ".npy", ".nii.gz", ".hdr", ".img", ".qb"})
+        EXPECT_THAT(endings, testing::Contains(known));
+    const std::string manual = bytes_of(VXL_SOURCE_DIR "/scenes/manual/model_files.md");
+    for (const std::string& ending : endings) {
+        EXPECT_TRUE(is_model_file("name" + ending)) << ending;
+        for (const char* command : {"render", "check", "import", "info", "view"})
+            EXPECT_THAT(run(std::string(command) + " --help").out, HasSubstr(ending)) << command;
+        // The manual says once that pairs may end in ".gz", and that slices have numbers.
+        const bool is_own = ending != ".hdr.gz" && ending != ".img.gz" && ending != "0001.png";
+        if (is_own) EXPECT_THAT(manual, HasSubstr("`" + ending + "`"));
+    }
 }
 
 TEST_F(CliImportTest, AModelFileIsViewedAsAVolumetricImage) {

@@ -107,6 +107,34 @@ TEST_F(ArraySurfaceTest, NodesAtTheSurfaceHaveTheirValuesAndOthersTheirSides) {
     }
 }
 
+// Bytes have a table of their own; other numbers of the same value store the same.
+TEST_F(ArraySurfaceTest, BytesStoreWhatWiderNumbersDo) {
+    std::mt19937 random(6);
+    CellArray array;
+    array.data = folder / "a.raw";
+    array.counts = {45, 19, 21};
+    array.sign = {-1, 1, 1};
+    array.slope = 0.75;
+    array.intercept = -3;
+    std::vector<int8_t> bytes(size_t(45) * 19 * 21);
+    for (int8_t& byte : bytes) byte = int8_t(random());
+    for (const bool is_signed : {false, true}) {
+        array.type = is_signed ? CellType::i8 : CellType::u8;
+        put_bytes(array.data, bytes_of_values(bytes));
+        const VoxelModel model = surface_of_array(array, {.iso = 20.25});
+        std::vector<int16_t> words;
+        for (const int8_t byte : bytes)
+            words.push_back(is_signed ? int16_t(byte) : int16_t(uint8_t(byte)));
+        array.type = CellType::i16;
+        put_bytes(array.data, bytes_of_values(words));
+        const VoxelModel wide = surface_of_array(array, {.iso = 20.25});
+        EXPECT_EQ(model.slots, wide.slots);
+        EXPECT_EQ(model.distance, wide.distance);
+        EXPECT_GT(std::ranges::count_if(model.distance, [](int16_t d) { return d != 32767; }),
+                  9000);
+    }
+}
+
 // Values close to `iso` at the end once went on through the nodes around the array, as rods.
 TEST_F(ArraySurfaceTest, NothingIsNearTheSurfaceTwoNodesBeyondTheEnd) {
     std::mt19937 random(5);
@@ -129,6 +157,17 @@ TEST_F(ArraySurfaceTest, NothingIsNearTheSurfaceTwoNodesBeyondTheEnd) {
                 ++beyond;
             }
     EXPECT_GT(beyond, 1000);
+}
+
+TEST(CellBits, SixteenOfARowBeginAnywhere) {
+    const std::array<int, 7> set = {0, 3, 17, 62, 64, 66, 99};
+    CellBits bits({100, 2, 1});
+    for (const int x : set) bits.row(1, 0)[x / 64] |= uint64_t{1} << x % 64;
+    for (int from = 0; from < 100; ++from)
+        for (int i = 0; i < 16; ++i)
+            EXPECT_EQ(bits.from(from, 1, 0) >> i & 1,
+                      std::ranges::count(set, from + i) > 0 ? 1u : 0u)
+                << from << " " << i;
 }
 
 TEST(CellBits, CellsSpreadAlongEachAxis) {

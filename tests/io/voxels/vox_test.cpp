@@ -197,6 +197,34 @@ TEST_F(VoxTest, TheOrderOfVoxelsInAFileChangesNothing) {
     }
 }
 
+// Threads share the voxels of a large model.
+TEST_F(VoxTest, OfManyVoxelsThatShareACellTheLastOneCounts) {
+    constexpr int kSide = 81;  // more cells than one thread takes
+    std::mt19937 random(11);
+    std::vector<VoxWriter::Voxel> voxels;
+    for (int x = 0; x < kSide; ++x)
+        for (int y = 0; y < kSide; ++y)
+            for (int z = 0; z < kSide; ++z)
+                voxels.push_back({uint8_t(x), uint8_t(y), uint8_t(z), uint8_t(random())});
+    std::ranges::shuffle(voxels, random);
+    const std::array<uint32_t, 256> colors = odd_palette();
+    for (const bool is_shared : {false, true}) {
+        // Those of the end lie in cells of the beginning.
+        for (size_t i = 0; is_shared && i < 4000; ++i)
+            voxels[voxels.size() - 1 - i] = {voxels[i][0], voxels[i][1], voxels[i][2],
+                                             uint8_t(random())};
+        VoxelCells expected;
+        for (const auto& [x, y, z, index] : voxels)
+            if (index != 0)
+                expected[{x - kSide / 2, z, kSide / 2 - 1 - y}] = {colors[index] & 0xFFFFFF, ""};
+        VoxWriter writer;
+        writer.model({kSide, kSide, kSide}, voxels);
+        writer.palette(colors);
+        EXPECT_TRUE(cells_of(read_voxel_model(put(writer.bytes()), Surface::cubes)) == expected)
+            << is_shared;
+    }
+}
+
 TEST_F(VoxTest, PartsLieAroundTheirMiddleCorner) {
     const VoxSample sample;
     VoxWriter writer;
