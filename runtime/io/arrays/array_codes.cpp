@@ -28,9 +28,9 @@ bool is_uniform(const ByteBrick& brick) {
     return true;
 }
 
-using Row = uint8_t __attribute__((vector_size(kBrickSize)));
+using ByteRow = uint8_t __attribute__((vector_size(kBrickSize)));
 struct Rows {
-    Row at[kBrickSize];
+    ByteRow at[kBrickSize];
 };
 
 /// Makes rows of the columns: four times rows are mixed with those eight behind them, as cards are.
@@ -38,7 +38,7 @@ void transpose(Rows& rows) {
     for (int round = 0; round < 4; ++round) {
         Rows mixed;
         for (int i = 0; i < 8; ++i) {
-            const Row a = rows.at[i], b = rows.at[i + 8];
+            const ByteRow a = rows.at[i], b = rows.at[i + 8];
             mixed.at[2 * i] = __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5,
                                                       21, 6, 22, 7, 23);
             mixed.at[2 * i + 1] = __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12,
@@ -56,10 +56,10 @@ void write_whole(const ByteBrick& brick, const PlacesInBrick& places, size_t sid
         Rows rows;
         for (int k = 0; k < kBrickSize; ++k)
             std::memcpy(&rows.at[is_mirrored && side != 0 ? kBrickSize - 1 - k : k],
-                        side == 1 ? row_of(brick, k, j) : row_of(brick, j, k), sizeof(Row));
+                        side == 1 ? row_of(brick, k, j) : row_of(brick, j, k), sizeof(ByteRow));
         if (side != 0) transpose(rows);
         for (size_t k = 0; k < kBrickSize; ++k) {
-            Row& row = rows.at[k];
+            ByteRow& row = rows.at[k];
             if (side == 0 && is_mirrored)
                 row = __builtin_shufflevector(row, row, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3,
                                               2, 1, 0);

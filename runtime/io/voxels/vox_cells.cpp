@@ -12,14 +12,15 @@
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/huge_pages.hpp"
 #include "runtime/base/ranges.hpp"
-#include "runtime/grid/brick_cells.hpp"
+#include "runtime/io/voxels/marked_cells.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr uint32_t kNoBrick = 0xFFFFFFFF;
-constexpr size_t kBlock = 1 << 16;  // voxels read at once, which stay in the cache
+constexpr size_t kBlock = 1 << 16;           // voxels read at once, which stay in the cache
+constexpr uint32_t kCoordinates = 0xFFFFFF;  // the bits of a listed voxel that aren't its colour
 // Fewer take less time than it takes to start a thread.
 constexpr size_t kManyVoxels = 1 << 19, kManyBricks = 1 << 8;
 
@@ -38,39 +39,6 @@ CellMap cell_map(const VoxStanding& standing) {
     for (int row = 0; row < 3; ++row)
         if (r.sign[size_t(row)] < 0) --map.first[row];
     return map;
-}
-
-constexpr uint64_t kOneEach = 0x0101010101010101;  // in each byte
-
-/// 1 in each byte that isn't 0.
-uint64_t set_bytes(const uint8_t* eight) {
-    uint64_t bytes = 0;
-    std::memcpy(&bytes, eight, sizeof bytes);
-    constexpr uint64_t kLow = 0x7F * kOneEach;
-    return (((bytes & kLow) + kLow) | bytes) >> 7 & kOneEach;
-}
-
-/// Makes the bits of the cells of a brick that have a voxel. Returns how many have.
-size_t mark_voxels(const uint8_t* cells, uint64_t* leaves) {
-    constexpr uint64_t kGather = 0x0102040810204080;  // brings byte i to bit 56 + i
-    constexpr uint64_t kEven = 0x00FF00FF00FF00FF, kOneInTwo = 0x0001000100010001;
-    size_t count = 0;
-    // Rows of 16 cells along x pass through four leaves, and 16 rows fill these.
-    for (size_t block = 0; block < kLeavesPerBrick / 4; ++block) {
-        std::array<uint64_t, 4> four{};
-        uint64_t sums = 0;  // 32 in a byte at most
-        for (size_t row = 0; row < 16; ++row) {
-            const size_t y = (block & 3) << 2 | (row & 3), z = (block & 12) | row >> 2;
-            const uint8_t* const sixteen = cells + (y | z << 4) * 16;
-            const uint64_t low = set_bytes(sixteen), high = set_bytes(sixteen + 8),
-                           bits = low * kGather >> 56 | high * kGather >> 56 << 8;
-            for (size_t x = 0; x < 4; ++x) four[x] |= (bits >> 4 * x & 15) << 4 * row;
-            sums += low + high;
-        }
-        std::memcpy(leaves + 4 * block, four.data(), sizeof four);
-        count += ((sums & kEven) + (sums >> 8 & kEven)) * kOneInTwo >> 48;
-    }
-    return count;
 }
 
 /// Appends the value of each cell of a brick.
@@ -175,7 +143,6 @@ size_t VoxCells::Steps::room(size_t axis, uint32_t coordinate, bool is_up) const
 /// the next. 16.8 M voxels take 20 instead of 65 ms.
 size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
                            const glm::ivec3& size) {
-    constexpr uint32_t kCoordinates = 0xFFFFFF;
     size_t empty = 0;
     for (size_t i = 0; i < count;) {
         const uint32_t v = block[i];
@@ -248,12 +215,25 @@ bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
     return false;
 }
 
+/// Whether most of the voxels in the middle of a model's list lie in rows. Threads that write all
+/// over the cells take longer together than one takes alone.
+bool VoxCells::lies_in_rows(const VoxModel& model) const {
+    std::vector<uint32_t> some(std::min(kBlock / 16, size_t(model.voxels)));
+    file_.read(model.voxels_at + 4 * ((model.voxels - some.size()) / 2), some.data(),
+               4 * some.size());
+    size_t in_rows = 0;
+    for (size_t i = 1; i < some.size(); ++i)
+        in_rows += row_along((some[i] - some[i - 1]) & kCoordinates).is_one;
+    return in_rows > some.size() / 2;
+}
+
 /// Of voxels that share a cell the last one counts, which threads can't tell.
 void VoxCells::add_voxels(const VoxStanding& standing) {
     const VoxModel& model = *standing.model;
     const Steps steps = steps_of(standing);
     const bool is_first = std::exchange(is_untouched_, false);
-    if (is_first && model.voxels >= kManyVoxels && add_together(model, steps)) return;
+    const bool is_parted = is_first && model.voxels >= kManyVoxels && lies_in_rows(model);
+    if (is_parted && add_together(model, steps)) return;
     leaves_.clear();
     add_range(model, steps, 0, model.voxels);
 }

@@ -69,6 +69,7 @@ class VoxCells {
     /// Fills leaves_. Returns how many cells have a voxel.
     size_t mark_all();
     /// False where some voxels share a cell: all cells are empty then as they were before.
+    bool lies_in_rows(const VoxModel& model) const;
     bool add_together(const VoxModel& model, const Steps& steps);
 
     const InputFile& file_;

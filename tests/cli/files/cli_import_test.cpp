@@ -89,7 +89,9 @@ TEST_F(CliImportTest, HelpAndManualNameTheEndingsOfAllModelFiles) {
             EXPECT_THAT(run(std::string(command) + " --help").out, HasSubstr(ending)) << command;
         // The manual says once that pairs may end in ".gz", and that slices have numbers.
         const bool is_own = ending != ".hdr.gz" && ending != ".img.gz" && ending != "0001.png";
-        if (is_own) EXPECT_THAT(manual, HasSubstr("`" + ending + "`"));
+        if (is_own) {
+            EXPECT_THAT(manual, HasSubstr("`" + ending + "`"));
+        }
     }
 }
 
