@@ -36,8 +36,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->check(in_range(0.001, 1e6));
     app.add_option(
            "--light", options.light,
-           "light of flat images: local, or global with all that surfaces reflect; replaces "
-           "the scene's")
+           "light of images: local, or global with all that surfaces reflect; replaces the scene's")
         ->type_name("local|global")
         ->check(one_of({"local", "global"}));
     app.add_option(

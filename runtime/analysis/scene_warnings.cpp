@@ -9,6 +9,7 @@
 #include "runtime/analysis/inside_warnings.hpp"
 #include "runtime/analysis/mesh_warnings.hpp"
 #include "runtime/analysis/object_warnings.hpp"
+#include "runtime/analysis/volume_scene.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
@@ -52,37 +53,24 @@ void add_light_warning(const Scene& scene, std::vector<Warning>& warnings) {
 }
 
 void add_scattering_warning(const Scene& scene, std::vector<Warning>& warnings) {
-    if (scene.world.medium.scattering == glm::vec3(0) || has_scattering(scene)) return;
-    if (!scene.render.channels.color) return;
-    add_once({WarningKind::ignored_scattering, scene.world.where,
-              "the medium's \"scattering\" is followed in global light alone, and is left out "
-              "here: set render.light to \"global\""},
-             warnings);
-}
-
-/// Whether the volumetric image can't show the global light that is asked for.
-bool drops_global_light(const Scene& scene) {
-    return scene.render.light == LightMode::global &&
-           scene.observer.display.layout == VolumeLayout::rays &&
-           std::ranges::any_of(scene.objects, [&](const Object& object) {
-               return object.visible && transmits(scene, object);
-           });
-}
-
-void add_volume_warnings(const Scene& scene, std::vector<Warning>& warnings) {
-    if (!scene.render.shows_volume) return;
-    if (has_scattering(scene))
-        add_once(
-            {WarningKind::ignored_scattering, scene.world.where,
-             "the volumetric image shows no light that the medium scatters: its \"scattering\" "
-             "is left out there"},
-            warnings);
-    if (drops_global_light(scene))
-        add_once({WarningKind::local_volume, SourcePlace(scene.file.string()),
-                  "the volumetric image is in local light, for its rays pass through objects that "
-                  "let light through: set the display's \"layout\" to \"lattice\", which shows "
-                  "global light"},
+    const RenderSettings& render = scene.render;
+    if (scene.world.medium.scattering == glm::vec3(0)) return;
+    const bool is_seen = render.shows_image && render.channels.color;
+    if (is_seen && !has_scattering(scene))
+        add_once({WarningKind::ignored_scattering, scene.world.where,
+                  "the medium's \"scattering\" is followed in global light alone, and is left out "
+                  "here: set render.light to \"global\""},
                  warnings);
+    else if (render.shows_volume)
+        add_once({WarningKind::ignored_scattering, scene.world.where,
+                  "volumetric images show no light that the medium scatters: its \"scattering\" is "
+                  "left out there"},
+                 warnings);
+}
+
+void add_volume_warning(const Scene& scene, std::vector<Warning>& warnings) {
+    if (scene.render.shows_volume && drops_global_light(scene))
+        add_once(local_volume_warning(scene), warnings);
 }
 
 void add_cache_warning(const ModelCache& cache, std::vector<Warning>& warnings) {
@@ -121,7 +109,7 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
     if (std::ranges::any_of(candidates, is_of_place)) add_inside_warnings(now, meshes, found);
     add_light_warning(now, found);
     add_scattering_warning(now, found);
-    add_volume_warnings(now, found);
+    add_volume_warning(now, found);
     return found;
 }
 
@@ -151,7 +139,7 @@ std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> fra
             add_inside_warnings(now, meshes, warnings);
             add_light_warning(now, warnings);
             add_scattering_warning(now, warnings);
-            add_volume_warnings(now, warnings);
+            add_volume_warning(now, warnings);
             first = std::move(now);
         });
     }

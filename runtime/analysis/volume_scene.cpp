@@ -1,25 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/volume_scene.hpp"
 
+#include <algorithm>
+
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
+namespace {
+
+/// The samples of a voxel where those of a scene are as many as a noise may need.
+constexpr int kSamplesWithNoise = 64;
+
+bool asks_for_light_of_layers(const Scene& scene) {
+    return scene.render.light == LightMode::global &&
+           scene.observer.display.layout == VolumeLayout::rays;
+}
+
+}  // namespace
 
 Scene volume_scene(Scene scene) {
+    RenderSettings& render = scene.render;
     scene.observer.aperture = 0;
-    scene.render.filter = {};
-    scene.render.channels = {};
-    if (scene.render.light == LightMode::global) scene.world.medium.scattering = glm::vec3(0);
+    render.filter = {};
+    render.channels = {};
+    if (render.noise.is_given()) render.samples = std::min(render.samples, kSamplesWithNoise);
+    if (render.light == LightMode::global) scene.world.medium.scattering = glm::vec3(0);
     return scene;
 }
 
 Scene volume_scene(const Scene& scene, const Pyramid& world) {
     Scene shown = volume_scene(scene);
-    if (shown.render.light == LightMode::global &&
-        shown.observer.display.layout == VolumeLayout::rays &&
-        features_of(shown, world).transmission)
+    if (asks_for_light_of_layers(shown) &&
+        (drops_global_light(shown) || features_of(shown, world).transmission))
         shown.render.light = LightMode::local;
     return shown;
+}
+
+bool drops_global_light(const Scene& scene) {
+    return asks_for_light_of_layers(scene) &&
+           std::ranges::any_of(scene.objects,
+                               [&](const Object& object) { return transmits(scene, object); });
+}
+
+Warning local_volume_warning(const Scene& scene) {
+    return {WarningKind::local_volume, SourcePlace(scene.file.string()),
+            "the volumetric image is in local light, for its rays pass through objects that let "
+            "light through: set the display's \"layout\" to \"lattice\", which shows global light"};
 }
 
 Features volume_features(const Scene& scene, const Pyramid& world) {

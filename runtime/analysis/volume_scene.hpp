@@ -2,6 +2,7 @@
 // scene -> what its volumetric image shows of it.
 #pragma once
 
+#include "runtime/base/warning.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"
@@ -9,12 +10,20 @@
 namespace voxelume {
 
 /// The scene with the default channels; what it asks for are a flat image's. In global light no
-/// medium scatters, for the voxels of a medium have only its own light.
+/// medium scatters, for the voxels of a medium have only its own light, and with a noise to reach
+/// all voxels have a few samples: none is measured.
 Scene volume_scene(Scene scene);
 
 /// The same in local light where a display can't show global light: in the layout `rays` with
 /// objects that let light through, whose layers need the light of each alone.
 Scene volume_scene(const Scene& scene, const Pyramid& world);
+
+/// Whether objects of the scene decide that, wherever they are in a frame. In a world, textures and
+/// voxels that are seen through may decide it, too.
+bool drops_global_light(const Scene& scene);
+
+/// What the caller of an image that drops it is told.
+Warning local_volume_warning(const Scene& scene);
 
 /// The features of a scene that `volume_scene` gave.
 Features volume_features(const Scene& scene, const Pyramid& world);

@@ -119,8 +119,9 @@ class LatticeRender {
         const DensityGrid* const density = lit_->illumination().density();
         const SpaceMedium medium{environment_of(work_.scene.world),
                                  density ? *density : DensityGrid()};
-        display_.light(look_, light_rays, medium, batch_, shown);
         const int samples = work_.scene.render.samples;
+        display_.light(look_, light_rays, medium, batch_, shown,
+                       samples == 1 || !work_.features.global);
         if (samples == 1 || shown.voxels.count == 0) return;
         DisplaySampleStage stage(work_.device, work_.features, work_.camera, work_.frame,
                                  work_.world, samples);
@@ -208,18 +209,19 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
 }
 
 VolumeLight::VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across)
-    : is_global_(work.features.global),
-      transmission_(work.features.transmission),
+    : transmission_(work.features.transmission),
       sampling_{0, tiles_across, 1, uint32_t(work.scene.render.bounces), 0, 0, 0},
       illumination_(work.device, work.features, work.scene, work.world, max_rays) {
     const auto paths = uint32_t(work.scene.render.samples);
-    if (is_global_ && paths > 1) mean_.emplace(work.device, work.features, max_rays, paths);
+    if (work.features.global && paths > 1)
+        mean_.emplace(work.device, work.features, max_rays, paths);
 }
 
 void VolumeLight::set_sampling(const SampledRays& rays) {
     PathSampling of = sampling_;
     of.first_tile = rays.first / 16;
     of.first_sample = rays.sample;
+    if (!rays.is_shown) of.bounces = 0;
     illumination_.set_sampling(of);
 }
 

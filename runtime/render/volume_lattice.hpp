@@ -46,7 +46,7 @@ class VolumeLight {
   private:
     void set_sampling(const SampledRays& rays);
 
-    bool is_global_, transmission_;
+    bool transmission_;
     PathSampling sampling_;  ///< of the first path of ray 0
     Illumination illumination_;
     std::optional<DisplayMeanStage> mean_;  ///< only for several paths of a ray

@@ -104,6 +104,8 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
     const Pyramid& world = built.pyramid;
     const Scene scene = volume_scene(shown, world);
     const auto start = std::chrono::steady_clock::now();
+    if (scene.render.light != shown.render.light)
+        add_once(local_volume_warning(shown), report.world.warnings);
     const VolumeFrame frame = display_frame(scene);
     VolumeWork work = {device, scene,
                        world,  volume_features(scene, world),
@@ -137,6 +139,7 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const BuiltWo
         report.image_seconds += report_.image_seconds;
     }
     add_counts(report_, report);
+    for (const Warning& warning : report_.world.warnings) add_once(warning, report.world.warnings);
     report.voxels = report_.voxels;
     report.is_kept = report.hits_are_kept = is_kept;
     if (follows_) {

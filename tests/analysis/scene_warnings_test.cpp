@@ -203,6 +203,8 @@ TEST_F(SceneWarnings, TellWhatGlobalLightVolumesLeaveOut) {
     EXPECT_THAT(of_volume(), ElementsAre(Kind::ignored_scattering, Kind::local_volume));
     json["observer"]["display"]["layout"] = "lattice";
     EXPECT_THAT(of_volume(), ElementsAre(Kind::ignored_scattering));
+    json["render"]["light"] = "local";
+    EXPECT_THAT(of_volume(), ElementsAre(Kind::ignored_scattering));
     json["world"].erase("medium");
     EXPECT_THAT(of_volume(), IsEmpty());
 }

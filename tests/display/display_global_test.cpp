@@ -152,8 +152,11 @@ TEST(GlobalDisplay, ShowsWhatFlatPicturesShowAsSamplesGrow) {
 
 TEST(GlobalDisplay, HasTheSameBitsInAnyBatchesAndOnAnyLanes) {
     for (const char* layout : {"lattice", "rays"}) {
-        const Scene scene = shown(layout, kEvenSky, R"("opacity": 1, "reflection": 0.3)",
-                                  R"("light": "global", "samples": 3, "bounces": 3)", kSun);
+        // Through what lets light through, rays have local light.
+        const char* opacity = layout == std::string("rays") ? "1" : "0.6";
+        const Scene scene =
+            shown(layout, kEvenSky, fmt::format(R"("opacity": {}, "reflection": 0.3)", opacity),
+                  R"("light": "global", "samples": 3, "bounces": 3)", kSun);
         const Volume expected = volume_of(scene);
         const auto expect_same = [&](const Volume& volume, const std::string& where) {
             EXPECT_EQ(volume.indices, expected.indices) << layout << where;
@@ -173,9 +176,26 @@ TEST(GlobalDisplay, HasTheSameBitsInAnyBatchesAndOnAnyLanes) {
 // In the layout `rays` each layer of surfaces would need its own light.
 TEST(GlobalDisplay, OfRaysThroughClearObjectsIsInLocalLight) {
     Scene scene = shown("rays", kEvenSky, R"("opacity": 0.4)", R"("samples": 2)", kSun);
-    const Volume local = volume_of(scene);
-    scene.render.light = LightMode::global;
-    EXPECT_EQ(farthest(local, volume_of(scene)), 0);
+    for (const double left :
+         {0.0, 5.0}) {  // outside of the world it counts, too, as in other frames
+        scene.objects[0].world_from_object[3].x -= left;
+        scene.render.light = LightMode::local;
+        const Volume local = volume_of(scene);
+        scene.render.light = LightMode::global;
+        RenderReport report;
+        EXPECT_EQ(farthest(local, render_volume(shared_device(), scene, report)), 0) << left;
+        ASSERT_FALSE(report.world.warnings.empty());
+        EXPECT_EQ(report.world.warnings.back().kind, WarningKind::local_volume);
+    }
+}
+
+// Noise is measured in pixels, of which a volume has none.
+TEST(GlobalDisplay, HasFewSamplesWhereNoiseMayAskForMany) {
+    Scene scene = shown("rays", kEvenSky, "", R"("light": "global", "samples": 64)", kSun);
+    const Volume expected = volume_of(scene);
+    scene.render.noise.error = 0.1;
+    scene.render.samples = 4096;
+    EXPECT_EQ(farthest(expected, volume_of(scene)), 0);
 }
 
 TEST(GlobalDisplay, IsMadeByKernelsThatLocalLightLacks) {

@@ -2,12 +2,12 @@
 #include "runtime/stages/display/display_lattice.hpp"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_arguments.hpp"
+#include "runtime/stages/display/display_views.hpp"
 
 namespace voxelume {
 namespace {
@@ -16,24 +16,6 @@ namespace {
 constexpr float kMaxCovered = 1 - 1.0f / 1024;
 
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
-
-/// Vectors from outside of the world to a point in it, in voxels, one for each view. View 0 is the
-/// observer's and has no vector of its own. The others run along the axes, with the view from above
-/// first, then along the diagonals of faces, then along those of the cube.
-std::vector<float4> ways_from_outside(const GridFrame& world) {
-    const double length = glm::length(world.voxel_edge * glm::dvec3(world.size));
-    std::vector<float4> ways = {{0, 0, 0, 0}};
-    for (int axes = 1; axes <= 3; ++axes)
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                for (int z = -1; z <= 1; ++z) {
-                    const glm::dvec3 way(x, y, z);
-                    if (std::abs(x) + std::abs(y) + std::abs(z) != axes) continue;
-                    const glm::dvec3 voxels = length * glm::normalize(way) / world.voxel_edge;
-                    ways.push_back({float(voxels.x), float(voxels.y), float(voxels.z), 0});
-                }
-    return ways;
-}
 
 uint32_t group_count(const Device& device, const glm::ivec3& size) {
     const double bits = double(size.x) * double(size.y) * double(size.z);
@@ -215,12 +197,12 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const SpaceM
         const uint32_t count = std::min(batch.stride, task.points.count - first);
         aim(task.points, 0, first, count, batch);
         if (!transmission_) {
-            light_rays(batch, {first, count}, {});
+            light_rays(batch, {first, count, 0, task.is_shown}, {});
             keep(medium, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
             continue;
         }
         // The nearest surface is the voxel's; those behind have voxels of their own.
-        light_rays(batch, {first, count},
+        light_rays(batch, {first, count, 0, task.is_shown},
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
                        if (is_first) keep(medium, entries, nodes, task, first, count, voxels);
                    });
@@ -260,10 +242,11 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
 }
 
 void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_rays,
-                                const SpaceMedium& medium, RayBatch& batch, ShownVoxels& shown) {
-    light_points(light_rays, medium, batch, {shown.points, {}}, shown.voxels);
+                                const SpaceMedium& medium, RayBatch& batch, ShownVoxels& shown,
+                                bool is_shown) {
+    light_points(light_rays, medium, batch, {shown.points, {}, is_shown}, shown.voxels);
     HostPoints host;
-    light_missed(look, light_rays, medium, batch, shown, host);
+    light_missed(look, light_rays, medium, batch, shown, host, is_shown);
 }
 
 void DisplayLatticeStage::light_rest(const LookAhead& look, const LightRays& light_rays,
@@ -273,32 +256,37 @@ void DisplayLatticeStage::light_rest(const LookAhead& look, const LightRays& lig
     const LightTask rest = missed_points(shown, glm::vec3(0), host);
     if (rest.points.count == 0) return;
     light_points(light_rays, medium, batch, rest, shown.voxels);
-    light_missed(look, light_rays, medium, batch, shown, host);
+    light_missed(look, light_rays, medium, batch, shown, host, true);
 }
 
-/// Lights the voxels that have no light yet from elsewhere.
+/// Lights the voxels that have no light yet from elsewhere. A ray along the surface at its point,
+/// as at an outline or along a wall, may miss the surface. Others of the views that see the point
+/// meet it, or else a ray next to it.
 void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& light_rays,
                                        const SpaceMedium& medium, RayBatch& batch,
-                                       ShownVoxels& shown, HostPoints& host) {
-    const auto look_elsewhere = [&](bool hidden) {
-        for (uint32_t view = 1; view < views_.size(); ++view) {
-            LightTask missed = missed_points(shown, glm::vec3(0), host);
-            if (missed.points.count == 0) return;
-            missed.points.views.fill(hidden ? view : kNoView);
-            if (!hidden) search(look, batch, missed.points, view, kMaxCovered);
-            light_points(light_rays, medium, batch, missed, shown.voxels);
-        }
+                                       ShownVoxels& shown, HostPoints& host, bool is_shown) {
+    const auto light_shifted = [&](const glm::vec3& shift, auto&& set_views) {
+        LightTask missed = missed_points(shown, shift, host);
+        if (missed.points.count == 0) return false;
+        missed.is_shown = is_shown;
+        set_views(missed.points);
+        light_points(light_rays, medium, batch, missed, shown.voxels);
+        return true;
     };
-    // A ray along the surface at its point, as at an outline or along a wall, may miss the surface.
-    // Others of the views that see the point meet it, or else a ray next to it.
+    const auto look_elsewhere = [&](bool hidden) {
+        for (uint32_t view = 1; view < views_.size(); ++view)
+            if (!light_shifted(glm::vec3(0), [&](ProbePoints& points) {
+                    points.views.fill(hidden ? view : kNoView);
+                    if (!hidden) search(look, batch, points, view, kMaxCovered);
+                }))
+                return;
+    };
     if (visibility_ != Visibility::observer) look_elsewhere(false);
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
             shift[side / 2] = side % 2 == 0 ? by : -by;
-            const LightTask missed = missed_points(shown, shift, host);
-            if (missed.points.count == 0) return;
-            light_points(light_rays, medium, batch, missed, shown.voxels);
+            if (!light_shifted(shift, [](const ProbePoints&) {})) return;
         }
     if (visibility_ != Visibility::observer) look_elsewhere(true);
 }

@@ -28,9 +28,11 @@ Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& s
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 
 /// The rays 0 .. count-1 of a batch, of which the first is number `first` of all points, a multiple
-/// of 16, and which sample of the light of each they are for.
+/// of 16, and which sample of the light of each they are for. Light that isn't shown needs no paths
+/// beyond the surface.
 struct SampledRays {
     uint32_t first, count, sample = 0;
+    bool is_shown = true;
 };
 
 /// Lights rays of a batch, and calls `sink`, unless it is empty, for each layer of surfaces.
@@ -67,9 +69,10 @@ class DisplayLatticeStage {
     /// The voxels of all points that have a view. Finds `of_axes` for `samples` above 1.
     ShownVoxels choose(const std::vector<ProbePoints>& pieces, int samples);
 
-    /// Lights the voxels, batch by batch.
+    /// Finds the voxels' objects and depths, batch by batch, and their light unless others replace
+    /// it: `is_shown`.
     void light(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
-               RayBatch& batch, ShownVoxels& shown);
+               RayBatch& batch, ShownVoxels& shown, bool is_shown);
 
     /// Lights the voxels again whose objects are 0.
     void light_rest(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
@@ -90,6 +93,7 @@ class DisplayLatticeStage {
     struct LightTask {
         ProbePoints points;
         Buffer<uint32_t> targets;
+        bool is_shown = true;
     };
     /// Adds the light of batch rays from `first` on, which `nodes` holds, to their voxels.
     void keep(const SpaceMedium& medium, const RayBatch& batch, const NodeLight& nodes,
@@ -103,7 +107,7 @@ class DisplayLatticeStage {
     };
     LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
     void light_missed(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
-                      RayBatch& batch, ShownVoxels& shown, HostPoints& host);
+                      RayBatch& batch, ShownVoxels& shown, HostPoints& host, bool is_shown);
     void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view,
                 float max_covered);
 

@@ -87,12 +87,12 @@ void DisplaySampleStage::light_facing(const LightRays& light_rays, const SpaceMe
         };
         aim(0, 0);
         if (transmission_)
-            light_rays(batch, {first, count},
+            light_rays(batch, {first, count, 0, false},
                        [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight&) {
                            if (is_first) keep(entries);
                        });
         else
-            light_rays(batch, {first, count}, {}), keep(batch);
+            light_rays(batch, {first, count, 0, false}, {}), keep(batch);
         for (uint32_t i = 0; i < samples_; ++i) {
             aim(i, samples_);
             add(light_rays, medium, batch, facing, {first, count, i});
