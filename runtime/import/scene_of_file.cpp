@@ -192,6 +192,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
 
 std::vector<std::string> model_file_endings() {
     std::vector<std::string> endings;
+    endings.reserve(std::size(kFormats) + 2 * voxel_file_table().size());
     for (const ModelFormat& format : kFormats) endings.emplace_back(format.ending);
     for (const VoxelFileFormat& format : voxel_file_table())
         for (const std::string_view ending : format.endings)
