@@ -14,8 +14,8 @@ namespace voxelume {
 /// all voxels have a few samples: none is measured.
 Scene volume_scene(Scene scene);
 
-/// The same in local light where a display can't show global light: in the layout `rays` with
-/// objects that let light through, whose layers need the light of each alone.
+/// Where a display can't show global light, the scene is in local light: in the layout `rays` the
+/// layers of objects that let light through would need the light of each alone.
 Scene volume_scene(const Scene& scene, const Pyramid& world);
 
 /// Whether objects of the scene decide that, wherever they are in a frame. In a world, textures and

@@ -186,8 +186,7 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
     }
     if (!VXL_FIELD_CHAINS || lanes_any(alone))
         met |= hit_smooth(&field, w, p->plane_bound, alone, &from, &level, &t);
-    // A foreign field in which the ray begins, too, may ask for more.
-    found->level = LANES_SELECT(foreign, fmax(found->level, level), level);
+    found->level = LANES_SELECT(foreign, found->level, level);
     from.unsure = unsure;
     if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
     // A ray that goes straight on has its hits beyond this voxel where any other ray has them.

@@ -227,7 +227,7 @@ bool VoxCells::lies_in_rows(const VoxModel& model) const {
     return in_rows > some.size() / 2;
 }
 
-/// Of voxels that share a cell the last one counts, which threads can't tell.
+/// The last of the voxels that share a cell counts. Threads can't tell which one that is.
 void VoxCells::add_voxels(const VoxStanding& standing) {
     const VoxModel& model = *standing.model;
     const Steps steps = steps_of(standing);

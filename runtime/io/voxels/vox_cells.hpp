@@ -68,8 +68,8 @@ class VoxCells {
                      const glm::ivec3& size);
     /// Fills leaves_. Returns how many cells have a voxel.
     size_t mark_all();
-    /// False where some voxels share a cell: all cells are empty then as they were before.
     bool lies_in_rows(const VoxModel& model) const;
+    /// False where some voxels share a cell: all cells are empty then as they were before.
     bool add_together(const VoxModel& model, const Steps& steps);
 
     const InputFile& file_;

@@ -209,7 +209,7 @@ TEST_F(VoxTest, OfManyVoxelsThatShareACellTheLastOneCounts) {
     std::ranges::shuffle(voxels, random);
     const std::array<uint32_t, 256> colors = odd_palette();
     for (const bool is_shared : {false, true}) {
-        // Those of the end lie in cells of the beginning.
+        // The last voxels of the list lie in cells of the first ones.
         for (size_t i = 0; is_shared && i < 4000; ++i)
             voxels[voxels.size() - 1 - i] = {voxels[i][0], voxels[i][1], voxels[i][2],
                                              uint8_t(random())};

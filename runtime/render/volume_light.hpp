@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// rays of a display -> their light. Both layouts of volumetric images share it.
+#pragma once
+
+#include <optional>
+
+#include "runtime/image/volume.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/render/renderer.hpp"
+#include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/stages/display/display_mean.hpp"
+
+namespace voxelume {
+
+/// The data that both layouts work with.
+struct VolumeWork {
+    const Device& device;
+    const Scene& scene;
+    const Pyramid& world;
+    Features features;
+    VolumeFrame frame;
+    Camera camera;
+    RenderReport& report;
+    const FrameProgress& progress;
+};
+
+/// The numbers of the rays that illumination has sent.
+void count_rays(const Illumination& illumination, RenderReport& report);
+
+/// Lights the rays of a volumetric image, in global light by paths.
+class VolumeLight {
+  public:
+    /// For batches of at most `max_rays`. In global light rays are numbered as the pixels of an
+    /// image with so many tiles side by side.
+    VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across);
+
+    Illumination& illumination() { return illumination_; }
+    const Illumination& illumination() const { return illumination_; }
+
+    /// Lights one sample of the light of rays.
+    void sample(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
+
+    /// Lights rays, in global light by the mean of the scene's samples.
+    void mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
+
+  private:
+    void set_sampling(const SampledRays& rays);
+
+    bool transmission_;
+    PathSampling sampling_;  ///< of the first path of ray 0
+    Illumination illumination_;
+    std::optional<DisplayMeanStage> mean_;  ///< only for several paths of a ray
+};
+
+}  // namespace voxelume
