@@ -222,7 +222,7 @@ std::string textured_gltf(const nlohmann::json& material) {
     writer.json["images"] = {
         {{"uri", "data:image/png;base64," + GltfWriter::base64(png_bytes(texel, {}))}}};
     writer.json["textures"] = {{{"source", 0}}};
-    writer.json["materials"] = {material};
+    writer.json["materials"] = nlohmann::json::array({material});
     writer.show(p, t, i);
     return writer.gltf();
 }

@@ -24,7 +24,7 @@ class ApiGltf : public ApiTest {
 
     std::string with_material(const Json& material) const {
         GltfWriter writer = triangle_gltf();
-        writer.json["materials"] = {material};
+        writer.json["materials"] = Json::array({material});
         writer.json["materials"][0]["name"] = "m";
         writer.json["meshes"][0]["primitives"][0]["material"] = 0;
         return scene_of(writer);

@@ -113,8 +113,8 @@ ExpectedVoxels expected_voxels(const LatticeOracle& lattice) {
     ExpectedVoxels expected;
     for (const oracle::SimpleSolid& solid : solids.solids)
         for (const glm::dvec3& p : solid.surface_points(0.08 * edge)) {
-            const auto [surely, maybe] = sightings_of(lattice, solids, p, edge);
-            if (!maybe) continue;
+            const auto seen = sightings_of(lattice, solids, p, edge);
+            if (!seen.maybe) continue;
             const glm::dvec3 q = lattice.lattice(p);
             for_each_voxel_near(q, 0.09, [&](const glm::ivec3& v) {
                 if (glm::any(glm::lessThan(v, glm::ivec3(0))) ||
@@ -126,7 +126,8 @@ ExpectedVoxels expected_voxels(const LatticeOracle& lattice) {
                 const glm::dvec3 within = q - glm::dvec3(v);
                 const double depth = std::min(
                     {within.x, within.y, within.z, 1 - within.x, 1 - within.y, 1 - within.z});
-                if (surely && depth > 0.04 && inside > 1e-5) expected.must.insert(lattice.place(v));
+                if (seen.surely && depth > 0.04 && inside > 1e-5)
+                    expected.must.insert(lattice.place(v));
             });
         }
     return expected;

@@ -14,14 +14,14 @@
 namespace voxelume {
 namespace {
 
-Solid ball(double x) {
+Solid ball_at(double x) {
     Solid solid;
     solid.radius = 1;
     solid.parent_from_solid = glm::translate(glm::dmat4(1), {x, 0, 0});
     return solid;
 }
 
-Solid box(const glm::dvec3& middle, const glm::dvec3& size) {
+Solid box_at(const glm::dvec3& middle, const glm::dvec3& size) {
     Solid solid;
     solid.kind = SolidKind::box;
     solid.size = size;
@@ -61,14 +61,15 @@ std::string formula_of(const std::vector<SolidPart>& parts) {
 }
 
 TEST(SolidParts, OfAShapeAreTheShape) {
-    const std::vector<SolidPart> parts = parts_of(ball(3));
+    const std::vector<SolidPart> parts = parts_of(ball_at(3));
     ASSERT_EQ(parts.size(), 1u);
-    EXPECT_EQ(parts[0].solid, ball(3));
+    EXPECT_EQ(parts[0].solid, ball_at(3));
 }
 
 TEST(SolidParts, OfUnionsOfUnionsAreTheirShapesInPlace) {
-    const std::vector<SolidPart> parts = parts_of(joined(
-        SolidKind::union_of, {ball(0), joined(SolidKind::union_of, {ball(1), ball(2)}, 10)}, 100));
+    const std::vector<SolidPart> parts = parts_of(
+        joined(SolidKind::union_of,
+               {ball_at(0), joined(SolidKind::union_of, {ball_at(1), ball_at(2)}, 10)}, 100));
     EXPECT_EQ(formula_of(parts), "0 | 1 | 2");
     EXPECT_EQ(parts[0].solid.parent_from_solid[3].x, 100);
     EXPECT_EQ(parts[1].solid.parent_from_solid[3].x, 111);
@@ -77,42 +78,43 @@ TEST(SolidParts, OfUnionsOfUnionsAreTheirShapesInPlace) {
 
 /// What fills a hole must not move before the part that cuts it.
 TEST(SolidParts, WithFacesInOnePlaneStayBehindACut) {
-    const Solid wall = joined(SolidKind::union_of, {ball(9), box({0, 0, 0}, {2, 2, 1})});
-    const Solid cut = joined(SolidKind::difference_of, {wall, box({1, 0, 0}, {1, 1, 3})});
+    const Solid wall = joined(SolidKind::union_of, {ball_at(9), box_at({0, 0, 0}, {2, 2, 1})});
+    const Solid cut = joined(SolidKind::difference_of, {wall, box_at({1, 0, 0}, {1, 1, 3})});
     const std::vector<SolidPart> parts =
-        parts_of(joined(SolidKind::union_of, {cut, box({1, 0, 0}, {0.5, 0.5, 1})}));
+        parts_of(joined(SolidKind::union_of, {cut, box_at({1, 0, 0}, {0.5, 0.5, 1})}));
     EXPECT_EQ(formula_of(parts), "0 | 1 & -2 | 3");
 }
 
 TEST(SolidParts, OfADifferenceOfAUnionAreComplements) {
-    const std::vector<SolidPart> parts = parts_of(joined(
-        SolidKind::difference_of, {ball(0), joined(SolidKind::union_of, {ball(1), ball(2)})}));
+    const std::vector<SolidPart> parts =
+        parts_of(joined(SolidKind::difference_of,
+                        {ball_at(0), joined(SolidKind::union_of, {ball_at(1), ball_at(2)})}));
     EXPECT_EQ(formula_of(parts), "0 & -1 & -2");
 }
 
 Solid bitten(double x) {
-    return joined(SolidKind::difference_of, {ball(x), ball(x + 1)});
+    return joined(SolidKind::difference_of, {ball_at(x), ball_at(x + 1)});
 }
 
 TEST(SolidParts, OfSeveralDifferencesInAUnionStandInBrackets) {
     const std::vector<SolidPart> parts =
-        parts_of(joined(SolidKind::union_of, {ball(9), bitten(0), bitten(5)}));
+        parts_of(joined(SolidKind::union_of, {ball_at(9), bitten(0), bitten(5)}));
     EXPECT_EQ(formula_of(parts), "0 & -1 | 2 | (3 & -4)");
-    EXPECT_EQ(parts[0].solid, ball(0));
-    EXPECT_EQ(parts[2].solid, ball(9));
-    EXPECT_EQ(parts[3].solid, ball(5));
-    EXPECT_EQ(parts[4].solid, ball(6));
+    EXPECT_EQ(parts[0].solid, ball_at(0));
+    EXPECT_EQ(parts[2].solid, ball_at(9));
+    EXPECT_EQ(parts[3].solid, ball_at(5));
+    EXPECT_EQ(parts[4].solid, ball_at(6));
 }
 
 TEST(SolidParts, OfWhatIsTakenFromADifferenceStandInBrackets) {
     EXPECT_EQ(formula_of(parts_of(
-                  joined(SolidKind::difference_of, {bitten(0), bitten(3), ball(9), bitten(6)}))),
+                  joined(SolidKind::difference_of, {bitten(0), bitten(3), ball_at(9), bitten(6)}))),
               "-0 | 1 & 2 & -3 & -4 & (-5 | 6)");
 }
 
 /// A union of differences, or a difference of unions, ... of balls: 2^levels.
 Solid alternating(int levels, double x = 0) {
-    if (levels == 0) return ball(x);
+    if (levels == 0) return ball_at(x);
     const double shift = std::ldexp(1, levels - 1);
     return joined(levels % 2 == 0 ? SolidKind::union_of : SolidKind::intersection_of,
                   {alternating(levels - 1, x), alternating(levels - 1, x + shift)});
@@ -130,23 +132,23 @@ TEST(SolidParts, StandInThreeBracketsAtMost) {
 }
 
 TEST(SolidParts, WithFacesInOnePlaneAreOnePart) {
-    const Solid left = box({0, 0, 0}, {2, 2, 2}), right = box({1.5, 0.1, 0.1}, {2, 1.6, 1.8});
+    const Solid left = box_at({0, 0, 0}, {2, 2, 2}), right = box_at({1.5, 0.1, 0.1}, {2, 1.6, 1.8});
     EXPECT_EQ(parts_of(joined(SolidKind::union_of, {left, right})).size(), 1u)
         << "their faces at z = 1 are one";
-    EXPECT_EQ(
-        parts_of(joined(SolidKind::union_of, {left, box({1.5, 0.1, 0.2}, {2, 1.6, 1.8})})).size(),
-        2u);
-    EXPECT_EQ(
-        parts_of(joined(SolidKind::union_of, {left, box({3.5, 0.2, 0.1}, {2, 1.6, 1.8})})).size(),
-        2u)
+    EXPECT_EQ(parts_of(joined(SolidKind::union_of, {left, box_at({1.5, 0.1, 0.2}, {2, 1.6, 1.8})}))
+                  .size(),
+              2u);
+    EXPECT_EQ(parts_of(joined(SolidKind::union_of, {left, box_at({3.5, 0.2, 0.1}, {2, 1.6, 1.8})}))
+                  .size(),
+              2u)
         << "they lie apart";
     EXPECT_EQ(
         formula_of(parts_of(joined(SolidKind::union_of,
-                                   {joined(SolidKind::intersection_of, {ball(0), ball(1)}),
-                                    joined(SolidKind::difference_of, {ball(0), left, right})}))),
+                                   {joined(SolidKind::intersection_of, {ball_at(0), ball_at(1)}),
+                                    joined(SolidKind::difference_of, {ball_at(0), left, right})}))),
         "0 & 1 | (2 & -3)")
         << "they are taken away together";
-    EXPECT_EQ(parts_of(joined(SolidKind::union_of, {left, ball(1), right})).size(), 2u);
+    EXPECT_EQ(parts_of(joined(SolidKind::union_of, {left, ball_at(1), right})).size(), 2u);
 }
 
 }  // namespace

@@ -15,11 +15,11 @@
 namespace voxelume {
 namespace {
 
-using Record = std::array<uint32_t, VXL_FIELD_WORDS>;
+using FieldWords = std::array<uint32_t, VXL_FIELD_WORDS>;
 
 /// A field whose distance at the height y of its voxel is `low` at 0 and `high` at 1, in voxels.
-Record field_of(double low, double high) {
-    Record record{};
+FieldWords field_of(double low, double high) {
+    FieldWords record{};
     for (size_t word = 0; word < 4; ++word) {
         const auto value = uint32_t(int((word & 1 ? high : low) * VXL_DISTANCE_UNITS)) & 0xFFFFu;
         record[word] = value | value << 16;
@@ -29,7 +29,7 @@ Record field_of(double low, double high) {
 
 /// Where a ray up the middle of a column of voxels that begins at y = 0.45 on a triangle of object
 /// 1 meets the last of the fields, of these objects, in the voxels 0, 1 ...
-float last_hit(const std::vector<Record>& records, const std::vector<uint32_t>& objects) {
+float last_hit(const std::vector<FieldWords>& records, const std::vector<uint32_t>& objects) {
     const Device device = test_device();
     Features features;
     features.smooth = features.triangles = features.field_lists = true;
@@ -66,7 +66,8 @@ kernel void climb(uint count, global const uint* fields, global const uint* attr
 )",
                                                features.defines(device));
     std::vector<uint32_t> words, attributes;
-    for (const Record& record : records) words.insert(words.end(), record.begin(), record.end());
+    for (const FieldWords& record : records)
+        words.insert(words.end(), record.begin(), record.end());
     for (const uint32_t object : objects)
         attributes.push_back(VXL_KIND_SMOOTH << VXL_KIND_SHIFT | object);
     Buffer<float> results(device, "results", 16);

@@ -31,13 +31,6 @@ Scene lens(double apart, int width) {
     return parse_scene(text, "lens.json", {});
 }
 
-Device device_of(uint64_t megabytes) {
-    setenv("VOXELUME_MEMORY_MB", std::to_string(megabytes).c_str(), 1);
-    Device device = test_device();
-    unsetenv("VOXELUME_MEMORY_MB");
-    return device;
-}
-
 /// The results of the frames of a scene without motion.
 struct Still {
     std::vector<uint64_t> hashes, launches;
@@ -67,7 +60,7 @@ Still run(const Scene& scene, const Device& device, bool overlap) {
 
 /// The peak bytes of a frame's world and image; `follows` says whether the world follows others.
 uint64_t peak_of(const Scene& scene, bool follows) {
-    const Device device = device_of(2000);
+    const Device device = device_with_memory(2000);
     WorldBuilder builder(device, follows);
     RenderReport report;
     const BuiltWorld world = builder.build(scene, report.world);
@@ -78,7 +71,7 @@ uint64_t peak_of(const Scene& scene, bool follows) {
 TEST(KeptMemory, AStillFrameOfWhatTakesLessThanItMayRunsNoKernel) {
     const Scene scene = lens(0.6, 64);
     const uint64_t megabytes = (peak_of(scene, true) >> 20) + 1;
-    const Device device = device_of(megabytes);
+    const Device device = device_with_memory(megabytes);
     AssetStore meshes;
     EXPECT_GT(plan_scene(scene, meshes).bytes_with_next(), double(device.info().memory));
     for (const bool overlap : {false, true}) {
@@ -97,9 +90,9 @@ TEST(KeptMemory, TheFirstFrameIsRenderedWithoutKeepingWhatLeavesItNoRoom) {
     const uint64_t megabytes = ((alone + kept) / 2) >> 20;
     ASSERT_GT(megabytes << 20, alone);
     ASSERT_LT(megabytes << 20, kept);
-    const uint64_t expected = run(scene, device_of(2000), false).hashes.at(0);
+    const uint64_t expected = run(scene, device_with_memory(2000), false).hashes.at(0);
     for (const bool overlap : {false, true}) {
-        const Still still = run(scene, device_of(megabytes), overlap);
+        const Still still = run(scene, device_with_memory(megabytes), overlap);
         EXPECT_EQ(still.hashes, std::vector(3, expected)) << overlap;
         EXPECT_EQ(still.lacks_room, std::vector(3, true)) << overlap;
     }
@@ -114,7 +107,7 @@ TEST(KeptMemory, WhatDoesNotFitLaterIsToldWithItsPlaceItsSizeAndItsFrame) {
     for (uint64_t megabytes = 4;; ++megabytes) {  // which frame 7 takes
         std::string told;
         try {
-            run_frames({device_of(megabytes)}, 2, steps, {.overlap = megabytes % 2 == 0});
+            run_frames({device_with_memory(megabytes)}, 2, steps, {.overlap = megabytes % 2 == 0});
             break;
         } catch (const Error& error) {
             ASSERT_EQ(error.kind(), ErrorKind::limit) << error.what();

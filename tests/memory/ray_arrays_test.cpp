@@ -118,19 +118,12 @@ TEST(RayArrays, OfPathsThatEndForTheirWeightArePlannedUpToThere) {
     EXPECT_NEAR(plan.maximum() / taken(scene), 1, 0.02);
 }
 
-Device device_of(uint64_t megabytes) {
-    setenv("VOXELUME_MEMORY_MB", std::to_string(megabytes).c_str(), 1);
-    Device device = test_device();
-    unsetenv("VOXELUME_MEMORY_MB");
-    return device;
-}
-
 TEST(RayArrays, LeaveHitsOutForWhichTheyLeaveNoRoom) {
     const Scene scene = scene_of({.wall = kMirror, .depth = 16, .size = {512, 256}});
     RenderReport report;
     const Device large = test_device();
     const uint64_t expected = oracle::image_hash(render(large, scene, report));
-    const Device device = device_of((large.counters().peak_bytes >> 20) + 2);
+    const Device device = device_with_memory((large.counters().peak_bytes >> 20) + 2);
     const BuiltWorld world = WorldBuilder(device).build(scene, report.world);
     Renderer renderer(device);
     EXPECT_EQ(oracle::image_hash(*renderer.image(scene, world, report)), expected);
@@ -156,7 +149,7 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     EXPECT_THAT(refusal(), testing::EndsWith(": render a smaller one, or with fewer samples a "
                                              "pixel, or with less depth"));
     // The arrays' allocation reports what the plan can't foresee.
-    const Device device = device_of(24);
+    const Device device = device_with_memory(24);
     RenderReport report;
     scene = scene_of({.wall = kMirror, .lights = kLamp, .depth = 16, .size = {256, 128}});
     EXPECT_NO_THROW(check_memory(scene, plan_scene(scene, meshes), device.info()));

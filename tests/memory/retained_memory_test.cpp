@@ -44,13 +44,6 @@ std::string scene_text(const std::string& placement) {
                        models, placement, keys);
 }
 
-Device device_of(const char* megabytes) {
-    setenv("VOXELUME_MEMORY_MB", megabytes, 1);
-    Device device = test_device();
-    unsetenv("VOXELUME_MEMORY_MB");
-    return device;
-}
-
 /// The results of rendering frames.
 struct Rendered {
     std::optional<size_t> alone;
@@ -62,9 +55,9 @@ struct Rendered {
 class RetainedMemory : public FileTest, public testing::WithParamInterface<const char*> {
   protected:
     /// Renders the first `count` frames on a device with that many megabytes.
-    Rendered run(const char* megabytes, int count, bool overlap) {
+    Rendered run(uint64_t megabytes, int count, bool overlap) {
         const Scene moving = parse_scene(scene_text(GetParam()), folder / "scene.json", {});
-        const Device device = device_of(megabytes);
+        const Device device = device_with_memory(megabytes);
         Renderer renderer(device);
         std::vector<int> frames(static_cast<size_t>(count));
         std::iota(frames.begin(), frames.end(), 1);
@@ -99,19 +92,19 @@ class RetainedMemory : public FileTest, public testing::WithParamInterface<const
 };
 
 TEST_P(RetainedMemory, FramesOverlapThoughAllModelsComeBack) {
-    const Rendered small = run("16", 2 * kModels, true);
+    const Rendered small = run(16, 2 * kModels, true);
     EXPECT_EQ(small.alone, std::nullopt);
     EXPECT_EQ(small.forgotten, 0);
-    EXPECT_EQ(small.hashes, run("2000", 2 * kModels, true).hashes);
+    EXPECT_EQ(small.hashes, run(2000, 2 * kModels, true).hashes);
 }
 
 TEST_P(RetainedMemory, IsAnEighthOfTheDevices) {
-    const Rendered once = run("64", kModels, false), twice = run("64", 2 * kModels, false);
+    const Rendered once = run(64, kModels, false), twice = run(64, 2 * kModels, false);
     EXPECT_EQ(twice.forgotten, 0);
     EXPECT_LE(twice.peak, once.peak + twice.memory / 8);
     EXPECT_GT(twice.peak, once.peak);
     EXPECT_LT(twice.voxelized, 2u * kModels) << "some waited";
-    const Rendered large = run("2000", 2 * kModels, false);
+    const Rendered large = run(2000, 2 * kModels, false);
     EXPECT_EQ(large.voxelized, uint64_t{kModels});
     EXPECT_LE(large.indexed, uint64_t{kModels});
     EXPECT_EQ(large.hashes, twice.hashes);
@@ -119,7 +112,7 @@ TEST_P(RetainedMemory, IsAnEighthOfTheDevices) {
 
 TEST_P(RetainedMemory, MakesRoomForAWorldThatHasNone) {
     const Scene moving = parse_scene(scene_text(GetParam()), folder / "scene.json", {});
-    const Device device = device_of("64");
+    const Device device = device_with_memory(64);
     WorldBuilder builder(device);
     const std::vector<bool> retained(kModels, true);
     WorldReport report;

@@ -14,9 +14,9 @@
 
 namespace voxelume {
 
-using Json = nlohmann::json;
-
 namespace {
+
+using Json = nlohmann::json;
 
 constexpr double kBackground[3] = {0.25, 0.5, 1};
 constexpr const char* kColors[3] = {"R", "G", "B"};

@@ -42,7 +42,6 @@ TEST(Quilt, TheWindowHasOnePlaceInAllViews) {
     for (const double focus : {0.0, 2.5}) {
         const double distance = focus > 0 ? focus : glm::length(glm::dvec3(2.5, 2, 4.75));
         const ViewRow row{7, 50, focus};
-        glm::dvec3 last(0);
         for (int number = 0; number < row.views; ++number) {
             const Scene view = view_of_row(scene, row, number);
             EXPECT_EQ(view.render.size, scene.render.size);

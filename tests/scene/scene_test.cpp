@@ -24,12 +24,12 @@ using testing::StartsWith;
 
 constexpr double kPi = std::numbers::pi;
 
-Scene parse(const std::string& text) {
+Scene parse_room(const std::string& text) {
     return parse_scene(text, "room.json", {});
 }
 
 glm::dmat4 placed(const std::string& factors) {
-    return parse(scene_with(R"("objects": [{"model": "ball", )" + factors + "}],"))
+    return parse_room(scene_with(R"("objects": [{"model": "ball", )" + factors + "}],"))
         .objects[0]
         .world_from_object;
 }
@@ -40,7 +40,7 @@ glm::dvec3 move(const glm::dmat4& map, glm::dvec3 p) {
 
 /// An observer with the given members, position (1, 2, 3) and a ball as its display.
 Observer observer_with(const std::string& members) {
-    return parse(
+    return parse_room(
                R"({"voxelume": 1, "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
         "observer": {"position": [1, 2, 3], "display": {"shape": "ball", "radius": 1})" +
                members + "}}")
@@ -48,7 +48,7 @@ Observer observer_with(const std::string& members) {
 }
 
 Display display_with(const std::string& display, const std::string& render = "{}") {
-    return parse(
+    return parse_room(
                R"({"voxelume": 1, "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [2, 3, 6]}},
         "render": )" +
                render + R"(, "observer": {"position": [0, 0, 0], "display": )" + display + "}}")
@@ -123,7 +123,7 @@ TEST(SceneObserver, ATurnIsTheOneOfObjects) {
 }
 
 TEST(SceneDisplay, OneAngleMakesSquarePixelsOfAnyImage) {
-    Scene scene = parse(scene_with(R"("render": {"size": [200, 100]},)"));
+    Scene scene = parse_room(scene_with(R"("render": {"size": [200, 100]},)"));
     Display& display = scene.observer.display;
     EXPECT_DOUBLE_EQ(display.half_angles.x, 20 * kPi / 180);
     EXPECT_DOUBLE_EQ(std::tan(display.half_angles.y) * 2, std::tan(display.half_angles.x));
@@ -163,9 +163,10 @@ TEST(SceneDisplay, HasItsOwnMeasuresForEachShape) {
 
 TEST(SceneWorld, CoversItsBoundsWithWholeVoxels) {
     const auto voxels = [](const std::string& size, const std::string& max) {
-        return parse(R"({"voxelume": 1, "world": {"voxel_size": )" + size +
-                     R"(, "bounds": {"min": [0, 0, 0], "max": )" + max +
-                     R"(}}, "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid"}}})")
+        return parse_room(
+                   R"({"voxelume": 1, "world": {"voxel_size": )" + size +
+                   R"(, "bounds": {"min": [0, 0, 0], "max": )" + max +
+                   R"(}}, "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid"}}})")
             .world.voxels;
     };
     EXPECT_EQ(voxels("1", "[7, 5, 2.5]"), glm::ivec3(7, 5, 3));
@@ -175,7 +176,7 @@ TEST(SceneWorld, CoversItsBoundsWithWholeVoxels) {
 }
 
 TEST(SceneMaterials, NumberZeroIsTheDefaultOne) {
-    const Scene scene = parse(
+    const Scene scene = parse_room(
         scene_with(R"("objects": [{"model": "ball"}, {"model": "floor", "material": "glass"}],)"));
     ASSERT_EQ(scene.materials.size(), 3u);
     EXPECT_EQ(scene.materials[0].name, "default");
@@ -192,9 +193,9 @@ TEST(SceneModels, HaveTheWorldsVoxelsUnlessTheySayMore) {
         "resolution": 70, "surface": "exact"}, "c": {"shape": "cone", "radius": 1, "height": 2,
         "voxel_size": [0.1, 0.2, 0.3], "surface": "cubes", "set": "thin"}})";
     const Scene scene =
-        parse(R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0],
+        parse_room(R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0],
         "max": [1, 2, 3]}}, "models": )" +
-              models + R"(, "observer": {"position": [0, 0, 0],
+                   models + R"(, "observer": {"position": [0, 0, 0],
         "display": {"shape": "pyramid"}}})");
     EXPECT_EQ(scene.models[0].voxel_size, glm::dvec3(0.5));
     EXPECT_EQ(scene.models[0].surface, Surface::exact);
@@ -227,7 +228,8 @@ TEST(SceneModels, AMeshIsShadedByItsNormalsUnlessItSaysMore) {
 }
 
 TEST(SceneModels, AnInfiniteSolidReachesAsFarAsTheWorldFromAllItsObjects) {
-    const Scene scene = parse(scene_with(R"("objects": [{"model": "floor", "position": [0, -1, 0]},
+    const Scene scene =
+        parse_room(scene_with(R"("objects": [{"model": "floor", "position": [0, -1, 0]},
         {"model": "floor", "turn": [0, 0, 90], "scale": 0.5}],)"));
     // The world is -1..1, -2..2, -3..3. The second object sees x = y/0.5, y = -x/0.5, z = z/0.5.
     EXPECT_TRUE(is_infinite(*scene.models[1].solid));
@@ -237,7 +239,7 @@ TEST(SceneModels, AnInfiniteSolidReachesAsFarAsTheWorldFromAllItsObjects) {
 }
 
 TEST(SceneModels, PartsOfASolidArePlacedInTheirParent) {
-    const Scene scene = parse(
+    const Scene scene = parse_room(
         R"({"voxelume": 1, "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
         "models": {"m": {"shape": "difference", "parts": [{"shape": "cone", "radius": 2, "height": 3, "top_radius": 1},
             {"shape": "intersection", "position": [1, 2, 3], "parts": [{"shape": "slab", "thickness": 0.5, "turn": [0, 0, 90]},
@@ -259,7 +261,7 @@ TEST(SceneModels, PartsOfASolidArePlacedInTheirParent) {
 }
 
 TEST(SceneLights, CarryTheirIntensityDirectionAndCone) {
-    const Scene scene = parse(scene_with(R"("lights": [
+    const Scene scene = parse_room(scene_with(R"("lights": [
         {"type": "spot", "position": [1, 2, 3], "look_at": [1, -3, 3], "angle": 40, "inner_angle": 30,
          "color": [1, 0.5, 0.25], "intensity": 8},
         {"type": "directional", "direction": [0, 0, -1e-300], "name": "sun"},

@@ -48,7 +48,7 @@ std::string values(const std::string& target, const std::vector<std::string>& va
     return track(target, keys, more);
 }
 
-std::string message(const std::string& tracks) {
+std::string message_of_tracks(const std::string& tracks) {
     try {
         parse_scene(scene_with_tracks(tracks), "s.json", {});
     } catch (const Error& error) {
@@ -71,11 +71,12 @@ TEST(Tracks, AreAcceptedOnWhatCanChange) {
           "materials.brick.emission", "models.block.parts[0].size",
           "models.block.parts[1].position", "lights.lamp.position", "lights[0].color",
           "observer.position", "world.background"})
-        EXPECT_EQ(message(values(target, {"[0.5, 0.5, 0.25]", "[0.1, 0.2, 0.3]"})), "no error")
+        EXPECT_EQ(message_of_tracks(values(target, {"[0.5, 0.5, 0.25]", "[0.1, 0.2, 0.3]"})),
+                  "no error")
             << target;
-    EXPECT_EQ(message(values("objects.b.position[2]", {"1", "2"})),
+    EXPECT_EQ(message_of_tracks(values("objects.b.position[2]", {"1", "2"})),
               "s.json:13:12: animation.tracks[0].target: objects[0] has no \"position\" to change");
-    EXPECT_EQ(message(values("lights.sun.direction[2]", {"1", "2"})), "no error");
+    EXPECT_EQ(message_of_tracks(values("lights.sun.direction[2]", {"1", "2"})), "no error");
 }
 
 TEST(Tracks, OnWhatIsNotThereGetTheNearestName) {
@@ -118,9 +119,9 @@ TEST(Tracks, OnWhatIsNotThereGetTheNearestName) {
         {values("objects[99999999999999999999].position", {"1"}), "can't be read"},
     };
     for (const Case& wrong : cases) {
-        EXPECT_THAT(message(wrong.tracks),
+        EXPECT_THAT(message_of_tracks(wrong.tracks),
                     StartsWith("s.json:13:12: animation.tracks[0].target: "));
-        EXPECT_THAT(message(wrong.tracks), HasSubstr(wrong.message));
+        EXPECT_THAT(message_of_tracks(wrong.tracks), HasSubstr(wrong.message));
     }
 }
 
@@ -159,11 +160,12 @@ TEST(Tracks, WithWrongKeysSayWhich) {
              values("lights.sun.direction[1]", {"2"}),
          "another track changes this value already"},
     };
-    for (const Case& wrong : cases) EXPECT_THAT(message(wrong.tracks), HasSubstr(wrong.message));
+    for (const Case& wrong : cases)
+        EXPECT_THAT(message_of_tracks(wrong.tracks), HasSubstr(wrong.message));
 }
 
 TEST(Tracks, WithValuesThatTheirTargetRefusesPointAtTheKey) {
-    EXPECT_EQ(message(values("materials.brick.diffuse", {"0.5", "1.5"})),
+    EXPECT_EQ(message_of_tracks(values("materials.brick.diffuse", {"0.5", "1.5"})),
               "s.json:13:98: materials.brick.diffuse: must be from 0 to 1; it is 1.5 (at frame 2)");
     const Case cases[] = {
         {values("objects.b.position", {"[1, 2, 3, 4]"}),
@@ -178,7 +180,8 @@ TEST(Tracks, WithValuesThatTheirTargetRefusesPointAtTheKey) {
         {values("lights.lamp.angle", {"50", "10"}), "must not be larger than the spot's angle"},
         {values("observer.display.near", {"1", "6"}), "nothing lies between near, 6 m, and far"},
     };
-    for (const Case& wrong : cases) EXPECT_THAT(message(wrong.tracks), HasSubstr(wrong.message));
+    for (const Case& wrong : cases)
+        EXPECT_THAT(message_of_tracks(wrong.tracks), HasSubstr(wrong.message));
 }
 
 TEST(Tracks, ThatGoWrongBetweenKeysSayWhereWhenTheFrameIsMade) {

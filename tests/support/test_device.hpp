@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,6 +37,14 @@ inline Device test_device(int lanes = 0) {
     if (!name) name = "cpu";
     if (!OpenContext::device) OpenContext::device = new Device(Device::open(name));
     return Device::open(name, lanes, OpenContext::device);
+}
+
+/// The tests' device with so little memory.
+inline Device device_with_memory(uint64_t megabytes) {
+    setenv("VOXELUME_MEMORY_MB", std::to_string(megabytes).c_str(), 1);
+    Device device = test_device();
+    unsetenv("VOXELUME_MEMORY_MB");
+    return device;
 }
 
 /// All numbers of lanes in an exhaustive run, otherwise the device's own alone: each makes kernels

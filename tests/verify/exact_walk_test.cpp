@@ -37,7 +37,7 @@ std::vector<oracle::RationalCell> first_of_blocks(const std::vector<oracle::Rati
         if (!first.empty()) {
             const glm::ivec3 before = first.back().cell;
             const int log2 = block_log2(before);
-            if (before >> log2 == c.cell >> log2) continue;
+            if ((before >> log2) == (c.cell >> log2)) continue;
         }
         first.push_back(c);
     }

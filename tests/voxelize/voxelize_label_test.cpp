@@ -13,7 +13,7 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-constexpr ivec3 kSize(33, 31, 18);
+constexpr ivec3 kLabelSize(33, 31, 18);
 
 VoxelizeOptions surface(Surface kind) {
     VoxelizeOptions options;
@@ -22,7 +22,7 @@ VoxelizeOptions surface(Surface kind) {
 }
 
 BrickGrid grid_of(const Mesh& mesh, const VoxelizeOptions& options) {
-    return shared_voxelizer().voxelize(mesh, glm::dmat4(1), unit_frame(kSize), options);
+    return shared_voxelizer().voxelize(mesh, glm::dmat4(1), unit_frame(kLabelSize), options);
 }
 
 /// A torus whose triangles belong to three groups in turn, `run` at a time.
@@ -45,9 +45,9 @@ TEST(ExactVoxels, ListTheTrianglesThatTheirWidenedCubesMeetInOrder) {
     ASSERT_EQ(first.size(), 4096u * grid.brick_count + 1);
     EXPECT_EQ(first.back(), primitives.size());
     size_t listed = 0;
-    for (int z = 0; z < kSize.z; ++z)
-        for (int y = 0; y < kSize.y; ++y)
-            for (int x = 0; x < kSize.x; ++x) {
+    for (int z = 0; z < kLabelSize.z; ++z)
+        for (int y = 0; y < kLabelSize.y; ++y)
+            for (int x = 0; x < kLabelSize.x; ++x) {
                 std::vector<uint32_t> expected, actual;
                 for (uint32_t i = 0; i < triangles.size(); ++i)
                     if (oracle::cube_meets_triangle({x, y, z}, triangles[i], 1))
@@ -61,13 +61,13 @@ TEST(ExactVoxels, ListTheTrianglesThatTheirWidenedCubesMeetInOrder) {
                 listed += actual.size();
             }
     EXPECT_EQ(listed, primitives.size());
-    EXPECT_EQ(difference(occupied_voxels(grid), exact_supercover(mesh, kSize, 1)), "");
+    EXPECT_EQ(difference(occupied_voxels(grid), exact_supercover(mesh, kLabelSize, 1)), "");
 }
 
 TEST(ExactVoxels, KeepTheSourceTrianglesInVoxels) {
     Mesh mesh = single_triangle({1.1f, 2.2f, 3.3f}, {4.4f, 2.5f, 3.6f}, {1.7f, 5.8f, 3.9f});
     mesh.triangle_group = {2};
-    GridFrame frame = unit_frame(kSize);
+    GridFrame frame = unit_frame(kLabelSize);
     frame.origin = {1, 0, 0};
     frame.voxel_edge = {0.5, 1, 0.25};
     const BrickGrid grid =
@@ -96,9 +96,9 @@ TEST(Labels, AreOfTheTriangleClosestToTheCentre) {
         const BrickGrid grid = grid_of(mesh, surface(kind));
         const std::vector<uint32_t> slots = grid.slots.read(), words = grid.attributes.read();
         size_t checked = 0;
-        for (int z = 0; z < kSize.z; ++z)
-            for (int y = 0; y < kSize.y; ++y)
-                for (int x = 0; x < kSize.x; ++x) {
+        for (int z = 0; z < kLabelSize.z; ++z)
+            for (int y = 0; y < kLabelSize.y; ++y)
+                for (int x = 0; x < kLabelSize.x; ++x) {
                     const GridPlace place = place_in(grid, slots, {x, y, z});
                     if (place.slot >= kBrickInside) continue;
                     double best[3] = {9, 9, 9};
@@ -158,7 +158,7 @@ TEST(Labels, ColorsOfCornersGoBeforeTheOrderOfVertices) {
             mesh,
             mirrored ? glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 12, 1})
                      : glm::dmat4(1),
-            unit_frame(kSize), surface(Surface::cubes));
+            unit_frame(kLabelSize), surface(Surface::cubes));
         const std::vector<uint32_t> slots = grid.slots.read(), colors = grid.colors.read();
         const auto color = [&](int x, int y, int z) {
             const GridPlace place = place_in(grid, slots, {x, y, z});
@@ -179,8 +179,8 @@ TEST(Labels, AreTheSameForEveryNumberOfLanes) {
     std::vector<uint32_t> words, colors, primitives;
     for (const int lanes : lanes_to_compare(1)) {
         Voxelizer voxelizer(test_device(lanes));
-        const BrickGrid grid =
-            voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(kSize), surface(Surface::exact));
+        const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(kLabelSize),
+                                                  surface(Surface::exact));
         if (words.empty()) {
             words = grid.attributes.read();
             colors = grid.colors.read();

@@ -140,7 +140,7 @@ TEST_F(WorldCacheFiles, LightsMaterialsAndObserversKeepIt) {
 }
 
 /// The values of a track at frames 1 and 3.
-struct Motion {
+struct Movement {
     const char* target;
     const char* from;
     const char* to;
@@ -149,7 +149,7 @@ struct Motion {
 
 class MovingWorldFiles : public WorldCacheFiles {
   protected:
-    Scene moving_scene(const Motion& motion) const {
+    Scene moving_scene(const Movement& motion) const {
         std::string text = text_with(kCachedScene, "SURFACE", "smooth");
         text = text_with(text, "\"name\": \"b\"",
                          fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
@@ -164,11 +164,12 @@ class MovingWorldFiles : public WorldCacheFiles {
 
 TEST_F(MovingWorldFiles, AreNotKeptWhereTracksChangeTheirVoxels) {
     AssetStore meshes(cache());
-    for (const Motion& motion : {Motion{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]"},
-                                 Motion{"objects.b.visible", "true", "false"},
-                                 Motion{"objects.b.model", "\"ball\"", "\"thing\""},
-                                 Motion{"objects.b.material", "\"m\"", "\"n\""},
-                                 Motion{"models.ball.radius", "0.3", "0.2"}})
+    for (const Movement& motion :
+         {Movement{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]"},
+          Movement{"objects.b.visible", "true", "false"},
+          Movement{"objects.b.model", "\"ball\"", "\"thing\""},
+          Movement{"objects.b.material", "\"m\"", "\"n\""},
+          Movement{"models.ball.radius", "0.3", "0.2"}})
         EXPECT_EQ(world_source(moving_scene(motion), meshes), "") << motion.target;
 }
 
@@ -176,23 +177,24 @@ TEST_F(MovingWorldFiles, AreThoseOfAStillWorldWhereTracksLeaveTheirVoxelsAlone) 
     AssetStore meshes(cache());
     const std::string still = world_source(this->scene("smooth"), meshes);
     EXPECT_NE(still, "");
-    for (const Motion& motion : {Motion{"observer.position", "[1.2, 1, -2]", "[-1.2, 1, -2]"},
-                                 Motion{"observer.display.angle", "30", "20"},
-                                 Motion{"lights[0].direction", "[0.3, -1, 0.4]", "[0, -1, 0.4]"},
-                                 Motion{"materials.m.color", "[1, 0, 0]", "[0, 1, 0]"},
-                                 Motion{"world.ambient", "[0, 0, 0]", "[1, 1, 1]"},
-                                 Motion{"world.background", "[0, 0, 0]", "[1, 1, 1]"}})
+    for (const Movement& motion :
+         {Movement{"observer.position", "[1.2, 1, -2]", "[-1.2, 1, -2]"},
+          Movement{"observer.display.angle", "30", "20"},
+          Movement{"lights[0].direction", "[0.3, -1, 0.4]", "[0, -1, 0.4]"},
+          Movement{"materials.m.color", "[1, 0, 0]", "[0, 1, 0]"},
+          Movement{"world.ambient", "[0, 0, 0]", "[1, 1, 1]"},
+          Movement{"world.background", "[0, 0, 0]", "[1, 1, 1]"}})
         EXPECT_EQ(world_source(moving_scene(motion), meshes), still) << motion.target;
     // The world is cached without the ball, which is an instance.
-    const Motion moves{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]", "instance"};
-    const Motion stretches{"models.ball.radius", "0.3", "0.2", "instance"};
+    const Movement moves{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]", "instance"};
+    const Movement stretches{"models.ball.radius", "0.3", "0.2", "instance"};
     EXPECT_NE(world_source(moving_scene(moves), meshes), "");
     EXPECT_EQ(world_source(moving_scene(moves), meshes),
               world_source(moving_scene(stretches), meshes));
 }
 
 TEST_F(MovingWorldFiles, AreReadOnceForAllFrames) {
-    const Motion motion{"objects.b.visible", "true", "false", "instance"};
+    const Movement motion{"objects.b.visible", "true", "false", "instance"};
     const Scene scene = moving_scene(motion);
     for (const bool is_warm : {false, true}) {
         WorldBuilder builder(shared_device(), true, AssetStore(cache()));

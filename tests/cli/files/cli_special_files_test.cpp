@@ -55,12 +55,12 @@ TEST_F(CliSpecialFilesTest, AreRefusedUnderTheNamesOfEveryFormat) {
 
 TEST_F(CliSpecialFilesTest, AreRefusedInScenes) {
     for (const char* target : {"pipe", "/dev/zero", "/proc/self/environ", "folder"})
-        for (const auto& [key, ending] :
+        for (const auto& kind :
              {std::pair("mesh", "obj"), std::pair("voxels", "vxm"), std::pair("voxels", "vdb")}) {
-            const std::string name = std::string("a.") + ending;
+            const std::string name = std::string("a.") + kind.second;
             std::filesystem::create_symlink(target, folder / name);
             write_scene([&](Json& scene) {
-                scene["models"]["thing"] = {{key, name}, {"surface", "cubes"}};
+                scene["models"]["thing"] = {{kind.first, name}, {"surface", "cubes"}};
             });
             expect_refused("check scene.json");
             std::filesystem::remove(folder / name);

@@ -21,7 +21,7 @@ TEST(GltfFile, OfRequiredExtensionsThatAreNotReadIsRefusedAndOthersAreNoted) {
     writer.json["extensionsUsed"] = {"KHR_texture_basisu", "KHR_texture_transform"};
     EXPECT_THAT(gltf_mesh(parsed_gltf(writer), 0).notes,
                 ElementsAre("its extension \"KHR_texture_basisu\" isn't shown"));
-    writer.json["extensionsRequired"] = {"KHR_texture_basisu"};
+    writer.json["extensionsRequired"] = nlohmann::json::array({"KHR_texture_basisu"});
     EXPECT_EQ(refusal_of_gltf(writer),
               "a.gltf: needs the extension \"KHR_texture_basisu\", which isn't read; export it "
               "without");

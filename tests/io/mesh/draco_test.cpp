@@ -62,7 +62,7 @@ GltfWriter draco_gltf(const std::string& data, size_t vertices, size_t indices) 
                                  {"indices", 0},
                                  {"extensions", {{"KHR_draco_mesh_compression", draco}}}}}}}};
     writer.json["nodes"] = {{{"mesh", 0}}};
-    writer.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    writer.json["extensionsRequired"] = nlohmann::json::array({"KHR_draco_mesh_compression"});
     return writer;
 }
 

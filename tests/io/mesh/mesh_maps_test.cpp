@@ -39,7 +39,7 @@ Mesh mesh_with(const Json& material, const std::string& image) {
         primitive["attributes"][set] =
             writer.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 2);
     primitive["material"] = 0;
-    writer.json["materials"] = {material};
+    writer.json["materials"] = nlohmann::json::array({material});
     writer.json["images"] = {{{"uri", image}}};
     writer.json["textures"] = {{{"source", 0}}};
     return gltf_mesh(GltfFile(writer.gltf(), "a.gltf"), 0);

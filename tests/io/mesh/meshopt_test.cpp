@@ -77,7 +77,7 @@ GltfWriter meshopt_gltf(const Sheet& sheet, bool is_sequence, int index_bytes) {
     writer.json["meshes"] = {
         {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", index}}}}}};
     writer.json["nodes"] = {{{"mesh", 0}}};
-    writer.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    writer.json["extensionsRequired"] = nlohmann::json::array({"EXT_meshopt_compression"});
     return writer;
 }
 
@@ -147,7 +147,7 @@ TEST(Meshopt, TheNewNameOfTheExtensionIsRead) {
     for (Json& view : writer.json["bufferViews"])
         view["extensions"] = {
             {"KHR_meshopt_compression", view["extensions"]["EXT_meshopt_compression"]}};
-    writer.json["extensionsRequired"] = {"KHR_meshopt_compression"};
+    writer.json["extensionsRequired"] = nlohmann::json::array({"KHR_meshopt_compression"});
     EXPECT_EQ(gltf_mesh(parsed_gltf(writer), 0).positions, Sheet().positions);
 }
 

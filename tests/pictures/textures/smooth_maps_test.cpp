@@ -55,7 +55,7 @@ class SmoothMaps : public FileTest {
         }
         writer.json["samplers"] = {{{"wrapS", 10497}, {"wrapT", 10497}},
                                    {{"wrapS", 33071}, {"wrapT", 33071}}};
-        writer.json["materials"] = {material};
+        writer.json["materials"] = nlohmann::json::array({material});
         writer.show(p, t, i);
         put_bytes(folder / name, writer.gltf());
     }
