@@ -12,7 +12,8 @@ usage() {
 Usage: ./bootstrap.sh COMMAND
 
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
-  test    run the tests; with --all, every combination of settings too, which takes hours
+  test    run the tests; with --slow, those too that take long, which doubles the time; with --all,
+          every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   trust   kill the program, break its disk, damage its files and tire it, for hours or for a share of
@@ -90,13 +91,16 @@ demo() {
     echo "The pictures are out/bunny.exr and out/bunny.png."
 }
 
-# run_tests [--all]: see tests/README.md for what --all adds.
+# run_tests [--slow | --all]: see tests/README.md for what they add.
 run_tests() {
     local configuration=()
-    if [ "${1:-}" = --all ]; then
-        configuration=(-C exhaustive)
-        export VXL_TEST_ALL=1
-    fi
+    case "${1:-}" in
+        --slow) configuration=(-C slow) ;;
+        --all)
+            configuration=(-C exhaustive)
+            export VXL_TEST_ALL=1
+            ;;
+    esac
     build_targets
     say "Testing"
     ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
@@ -224,7 +228,7 @@ debian_package() {
 }
 
 case "$*" in
-    demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
+    demo | build | test | 'test --slow' | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
     trust | 'trust '[0-9]*) install_packages packages.txt ;;
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;

@@ -69,16 +69,31 @@ endfunction()
 # Tests whose kernels the OpenCL compiler optimizes, as it does for users: device functions, what compares rays with
 # exact answers, and what compiling takes. The optimizer changes no bit (matrix_test, determinism_test), and takes half
 # of the time of most tests.
-set(optimized_tests stress_again_test voxelize_open_test
+set(optimized_tests voxelize_open_test
                     matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test
-                    api_compiling_test cli_cache_test cli_interrupt_test)
+                    cli_cache_test cli_interrupt_test)
 
 set(not_optimized VOXELUME_BUILD_OPTIONS=set:-cl-opt-disable)
+
+# The tests that only `ctest -C slow` and `ctest -C exhaustive` have.
+file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/slow_tests.txt slow_tests REGEX "^[^#]")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/slow_tests.txt)
+list(TRANSFORM slow_tests REPLACE " *\\|.*" "")
+list(JOIN slow_tests ":" slow_tests)
+
+# without_slow(VARIABLE FILTER): a filter of GoogleTest without the slow tests.
+function(without_slow variable filter)
+    if(NOT filter MATCHES "-")
+        string(APPEND filter ":-")
+    endif()
+    set(${variable} "${filter}:${slow_tests}" PARENT_SCOPE)
+endfunction()
 
 # add_run(NAME PROGRAM FILTER): tests of a program as one test of ctest. Where the optimizer is off by default,
 # optimized.NAME has it, with `ctest -C exhaustive` alone.
 function(add_run name program filter)
-    add_test(NAME ${name} COMMAND ${program} --gtest_filter=${filter})
+    without_slow(quick ${filter})
+    add_test(NAME ${name} COMMAND ${program} --gtest_filter=${quick})
     finish_test(${name})
     if(NOT name IN_LIST optimized_tests)
         set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION ${not_optimized})
@@ -108,11 +123,15 @@ function(add_variant name)
         if(variant_EXCEPT)
             string(APPEND patterns ":-${variant_EXCEPT}")
         endif()
-        set(command COMMAND ${variant_COMMAND} $<TARGET_FILE:${program}> --gtest_filter=${patterns})
-        add_test(NAME ${name}.${program} ${configurations} ${command})
+        set(command COMMAND ${variant_COMMAND} $<TARGET_FILE:${program}>)
+        set(quick ${patterns})
+        if(NOT variant_EXHAUSTIVE AND NOT variant_OPTIMIZED)
+            without_slow(quick ${patterns})
+        endif()
+        add_test(NAME ${name}.${program} ${configurations} ${command} --gtest_filter=${quick})
         set(tests ${name}.${program})
         if(NOT variant_EXHAUSTIVE AND NOT variant_OPTIMIZED)
-            add_test(NAME optimized.${name}.${program} CONFIGURATIONS exhaustive ${command})
+            add_test(NAME optimized.${name}.${program} CONFIGURATIONS exhaustive ${command} --gtest_filter=${patterns})
             list(APPEND tests optimized.${name}.${program})
         endif()
         foreach(test IN LISTS tests)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks tests/CASES.md: all 93 stress cases are in it, and every test that it names exists.
+# Checks tests/CASES.md: all 93 stress cases are in it, and every test that it names exists. So does
+# every test that slow_tests.txt names.
 # Usage: cases_test.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1/tests"
@@ -19,4 +20,41 @@ existing=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
 while read -r name; do
     grep -qxF "$name" <<<"$existing" || { echo "CASES.md names $name, which is no test"; failed=1; }
 done < <(grep -oE '`[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*`' CASES.md | tr -d '`' | sort -u)
+
+# What slow_tests.txt leaves out, `Suite.Name` or `Prefix/Suite.Name/2`, and what stays instead.
+rules=$(sed '/^#/d' slow_tests.txt)
+while read -r name; do
+    case $name in
+        *.'*') grep -qF "${name%'*'}" <<<"$existing" ;;
+        *) grep -qxF "$name" <<<"$existing" ;;
+    esac || { echo "slow_tests.txt names $name, which is no test"; failed=1; }
+done < <(grep -oE '[A-Z][A-Za-z0-9]*\.([A-Z][A-Za-z0-9_]*|\*)' <<<"$rules" | sort -u)
+
+# A test without parameters has no slash in its name, one with parameters has two.
+plain=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
+    grep -oE '\bTEST(_F)?\([[:space:]]*[A-Za-z0-9_]+,[[:space:]]*[A-Za-z0-9_]+\)' |
+    sed -E 's/.*\([[:space:]]*([A-Za-z0-9_]+),[[:space:]]*([A-Za-z0-9_]+)\)/\1.\2/' | sort -u)
+left=$(sed 's/ *|.*//' <<<"$rules")
+while read -r pattern; do
+    case $pattern in
+        */*/* | */*.'*') ;;
+        *) grep -qxF "$pattern" <<<"$plain" ||
+            { echo "slow_tests.txt: \"$pattern\" matches no test: is it PREFIX/SUITE.NAME/*?"; failed=1; } ;;
+    esac
+done <<<"$left"
+while read -r name; do
+    echo "slow_tests.txt has $name stay, and leaves it out"
+    failed=1
+done < <(grep -oE '[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*' <<<"$(sed 's/.*|//' <<<"$rules")" | sort -u |
+    grep -xFf <(grep -v / <<<"$left"))
+
+# Each case keeps a test in the default run.
+while read -r case names; do
+    tr ' ' '\n' <<<"$names" | grep -qvxFf <(grep -v / <<<"$left" | sed 's/^/`/; s/$/`/') ||
+        { echo "CASES.md: all tests of $case are slow"; failed=1; }
+done < <(awk '/^- \*\*[VSTPGOXD][0-9]+\*\*/ { case_name = $2 }
+    case_name { while (match($0, /`[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*`/)) {
+        tests[case_name] = tests[case_name] " " substr($0, RSTART, RLENGTH)
+        $0 = substr($0, RSTART + RLENGTH) } }
+    END { for (name in tests) print name tests[name] }' CASES.md)
 exit "$failed"
