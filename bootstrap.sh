@@ -12,8 +12,8 @@ usage() {
 Usage: ./bootstrap.sh COMMAND
 
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
-  test    run the tests; with --slow, those too that take long, which doubles the time; with --all,
-          every combination of settings too, which takes hours
+  test    run the tests; with --slow, those too that take long, which takes half as long again;
+          with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   trust   kill the program, break its disk, damage its files and tire it, for hours or for a share of

@@ -13,10 +13,13 @@ done)
 listed=$(sed -nE 's/^- \*\*([VSTPGOXD][0-9]+)\*\* .*/\1/p' CASES.md)
 diff <(echo "$expected") <(echo "$listed") || { echo "CASES.md lists other cases"; failed=1; }
 
-# The names are `Suite.Name`, from TEST(Suite, Name), TEST_F or TEST_P, however the line is broken.
-existing=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
-    grep -oE '\bTEST(_[FP])?\([[:space:]]*[A-Za-z0-9_]+,[[:space:]]*[A-Za-z0-9_]+\)' |
-    sed -E 's/.*\([[:space:]]*([A-Za-z0-9_]+),[[:space:]]*([A-Za-z0-9_]+)\)/\1.\2/' | sort -u)
+# names_of MACRO: all `Suite.Name`, from MACRO(Suite, Name), however the line is broken.
+sources=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ')
+names_of() {
+    grep -oE "\\b$1\\([[:space:]]*[A-Za-z0-9_]+,[[:space:]]*[A-Za-z0-9_]+[,)]" <<<"$sources" |
+        sed -E 's/.*\([[:space:]]*([A-Za-z0-9_]+),[[:space:]]*([A-Za-z0-9_]+)[,)]/\1.\2/' | sort -u
+}
+existing=$(names_of 'TEST(_[FP])?')
 while read -r name; do
     grep -qxF "$name" <<<"$existing" || { echo "CASES.md names $name, which is no test"; failed=1; }
 done < <(grep -oE '`[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*`' CASES.md | tr -d '`' | sort -u)
@@ -30,27 +33,30 @@ while read -r name; do
     esac || { echo "slow_tests.txt names $name, which is no test"; failed=1; }
 done < <(grep -oE '[A-Z][A-Za-z0-9]*\.([A-Z][A-Za-z0-9_]*|\*)' <<<"$rules" | sort -u)
 
-# A test without parameters has no slash in its name, one with parameters has two.
-plain=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
-    grep -oE '\bTEST(_F)?\([[:space:]]*[A-Za-z0-9_]+,[[:space:]]*[A-Za-z0-9_]+\)' |
-    sed -E 's/.*\([[:space:]]*([A-Za-z0-9_]+),[[:space:]]*([A-Za-z0-9_]+)\)/\1.\2/' | sort -u)
+# A test without parameters has no slash in its name, one with parameters has the name of their list
+# before it, and one of them behind.
+plain=$(names_of 'TEST(_F)?')
+lists=$(names_of INSTANTIATE_TEST_SUITE_P)
 left=$(sed 's/ *|.*//' <<<"$rules")
 while read -r pattern; do
+    suite=${pattern#*/}
+    suite=${suite%%.*}
     case $pattern in
-        */*/* | */*.'*') ;;
-        *) grep -qxF "$pattern" <<<"$plain" ||
-            { echo "slow_tests.txt: \"$pattern\" matches no test: is it PREFIX/SUITE.NAME/*?"; failed=1; } ;;
-    esac
+        '*'/*/*) ;;
+        */*/* | */*.'*') grep -qxF "${pattern%%/*}.$suite" <<<"$lists" ;;
+        *) grep -qxF "$pattern" <<<"$plain" ;;
+    esac || { echo "slow_tests.txt: \"$pattern\" matches no test: is it LIST/SUITE.NAME/*?"; failed=1; }
 done <<<"$left"
+whole=$(sed -nE '/^[^\/]+$/p; s#^[^/]+/([^/]+)/\*$#\1#p' <<<"$left") # left out with all parameters
 while read -r name; do
     echo "slow_tests.txt has $name stay, and leaves it out"
     failed=1
 done < <(grep -oE '[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*' <<<"$(sed 's/.*|//' <<<"$rules")" | sort -u |
-    grep -xFf <(grep -v / <<<"$left"))
+    grep -xFf <(echo "$whole"))
 
 # Each case keeps a test in the default run.
 while read -r case names; do
-    tr ' ' '\n' <<<"$names" | grep -qvxFf <(grep -v / <<<"$left" | sed 's/^/`/; s/$/`/') ||
+    tr ' ' '\n' <<<"$names" | grep -qvxFf <(sed 's/^/`/; s/$/`/' <<<"$whole") ||
         { echo "CASES.md: all tests of $case are slow"; failed=1; }
 done < <(awk '/^- \*\*[VSTPGOXD][0-9]+\*\*/ { case_name = $2 }
     case_name { while (match($0, /`[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*`/)) {
