@@ -112,14 +112,17 @@ run_fuzzers() {
     [ -f build/fuzz/build.ninja ] || CC=clang CXX=clang++ cmake --preset release -B build/fuzz \
         -DVXL_FUZZ=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
     ninja -C build/fuzz fuzzers
-    tests/fuzz/make_seeds.py build/fuzz/seeds
-    local fuzzer format
+    build_targets voxelume
+    tests/fuzz/make_seeds.py build/fuzz/seeds "$build/voxelume"
+    local fuzzer format words
     for fuzzer in build/fuzz/tests/*_fuzz_*; do
         [ -x "$fuzzer" ] || continue
         format=${fuzzer##*_}
         say "Fuzzing .$format"
         mkdir -p "build/fuzz/corpus/$format" "build/fuzz/seeds/$format"
-        "$fuzzer" -max_total_time="$1" -rss_limit_mb=8192 -timeout=60 -verbosity=0 \
+        words=build/fuzz/seeds/$format.dict
+        [ -f "$words" ] && words=-dict=$words || words=-verbosity=0
+        "$fuzzer" -max_total_time="$1" -rss_limit_mb=8192 -timeout=60 -verbosity=0 "$words" \
             -artifact_prefix="build/fuzz/$format-" "build/fuzz/corpus/$format" \
             "build/fuzz/seeds/$format"
     done

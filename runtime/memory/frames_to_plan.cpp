@@ -93,8 +93,8 @@ void fill_evenly(FramesToPlan& found) {
         found.chosen.push_back(place);
     found.chosen.push_back(found.changed.size() - 1);
     std::ranges::sort(found.chosen);
-    const auto doubled = std::ranges::unique(found.chosen);
-    found.chosen.erase(doubled.begin(), doubled.end());
+    // Not std::ranges::unique, which clang 14 can't compile with GCC's library.
+    found.chosen.erase(std::unique(found.chosen.begin(), found.chosen.end()), found.chosen.end());
 }
 
 }  // namespace

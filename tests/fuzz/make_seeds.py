@@ -1,14 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a small valid file of each format that has a fuzzer: FOLDER/FORMAT/seed.
+"""Writes small valid files of each format that has a fuzzer, FOLDER/FORMAT/seed, and the words that
+texts are made of, FOLDER/FORMAT.dict. The program `voxelume` makes some of them.
 """
 import argparse
 import base64
 import bz2
 import gzip
+import json
 import pathlib
+import re
 import struct
+import subprocess
+import tempfile
 import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 
 def npy(version=1, descr="<u2"):
@@ -41,11 +48,10 @@ def nii():
 
 
 def nifti_pair():
-    """The number of the header's bytes, the header, and the data."""
     head = bytearray(nii()[:352])
     struct.pack_into("<f", head, 108, 0)
     head[344:347] = b"ni1"
-    return struct.pack("<H", len(head)) + bytes(head) + bytes(range(48))
+    return pair(bytes(head), bytes(range(48)))
 
 
 def qb(packed):
@@ -209,6 +215,41 @@ MESHOPT = ["00a0013c000000080800013c000000080800013c000000080800013c000000080800
            "04e0f0007687566778a9866589689801690000",
            "05d000040400000000"]
 
+def pair(first, second):
+    """Two files as one input, see write_pair in fuzz_file.hpp."""
+    return struct.pack("<H", len(first)) + first + second
+
+
+def nhdr():
+    head, data = nrrd("raw").split(b"\n\n", 1)
+    return pair(head + b"\ndata file: data\n\n", data)
+
+
+def model(surface, header, arrays):
+    """The content of a .vxm of one brick, see model_fuzz.cpp."""
+    header = {"format": "voxelume bricks 1", "surface": surface, "size": "8 8 8",
+              "origin": "0 0 0", "voxel_edge": "1 1 1", **header}
+
+    def text(of):
+        return bytes([len(of)]) + of.encode()
+    content = bytes([len(header)]) + b"".join(text(k) + text(v) for k, v in header.items())
+    arrays = {"slots": ("I", [0]), "coordinates": ("I", [0]), **arrays}
+    content += bytes([len(arrays)])
+    for name, (letter, values) in arrays.items():
+        content += text(name) + bytes(["BhIQf".index(letter)])
+        content += struct.pack(f"<H{len(values)}{letter}", len(values), *values)
+    return content
+
+
+CELLS = range(512)
+MODELS = [
+    model("cubes", {"set": "solid", "groups": "a\nb\n"},
+          {"occupancy": ("Q", [2**64 - 1] * 8), "colors": ("I", [0x10203 * (c % 9) for c in CELLS]),
+           "attributes": ("I", [c % 2 for c in CELLS])}),
+    model("smooth", {}, {"distance": ("h", [900 * (c % 8) - 3000 for c in CELLS])}),
+    model("exact", {}, {"occupancy": ("Q", [255] * 8), "triangles": ("f", [1, 1, 1, 7, 1, 1, 1, 7, 1])}),
+]
+
 SEEDS = {
     "obj": [OBJ], "ply": PLYS, "stl": STLS, "glb": [glb(TRIANGLE)],
     "gltf": [gltf("data:application/octet-stream;base64," +
@@ -220,19 +261,92 @@ SEEDS = {
     "binvox": [binvox()], "gox": [gox()], "vox": [vox()], "png": [png(5, 3)], "mtl": [MTL],
     "draco": [bytes.fromhex(text) for text in DRACO],
     "meshopt": [bytes.fromhex(text) for text in MESHOPT],
-    "1.png": [png(5, 3)], "hdr": [hdr(FLAT), hdr(PLANES)],
+    "nhdr": [nhdr()], "1.png": [png(5, 3)], "hdr": [hdr(FLAT), hdr(PLANES)],
+    "vxm": MODELS,
     "schem": [schem(), schematic(), litematic(), gzip.compress(schem(), mtime=0)],
 }
+
+# A small picture and volumetric image, whose display has two voxels of surface.
+SCENE = """{"voxelume": 1, "models": {"ball": {"shape": "sphere", "radius": 0.3}},
+  "world": {"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}, "voxel_size": 0.25},
+  "objects": [{"model": "ball", "position": [0.5, 0.5, 0.5]}],
+  "observer": {"position": [0.5, 0.5, 3], "look_at": [0.5, 0.5, 0.5], "display": {
+    "shape": "box", "size": [1, 1, 1], "near": 2, "layout": "%s", "voxels": [4, 4, 4]}},
+  "render": {"size": [6, 5]}}"""
+
+
+def made_by(program):
+    """Files that the program writes: images, volumetric images and a model."""
+    seeds = {}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+
+        def run(*words):
+            subprocess.run([program, *words], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        for layout, volumes in (("lattice", ["a.nrrd", "fuzz.raw"]), ("rays", ["volume.exr"])):
+            (folder / "scene.json").write_text(SCENE % layout)
+            run("render", "-q", "scene.json", "-o", "a.exr",
+                *(word for name in volumes for word in ("--volume", name)))
+            for name in "a.exr", *volumes:
+                kind = {"a.nrrd": "volume.nrrd"}.get(name, name.split(".")[-1])
+                content = (folder / name).read_bytes()
+                if kind == "raw":
+                    content = pair((folder / "fuzz.json").read_bytes(), content)
+                seeds.setdefault(kind, []).append(content)
+        (folder / "a.ply").write_bytes(PLYS[0])
+        for surface in "cubes", "smooth", "exact":
+            run("voxelize", "-q", "a.ply", "--resolution", "4", "--surface", surface, "-o", "a.vxm")
+            seeds.setdefault("vxm", []).append(b"\0" + (folder / "a.vxm").read_bytes())
+    return seeds
+
+
+def words_of_schema():
+    """The keys and the values of scenes that have names."""
+    words = set()
+
+    def look(value):
+        if isinstance(value, dict):
+            words.update(value.get("properties", {}))
+            words.update(v for v in value.get("enum", []) if isinstance(v, str))
+        for part in value.values() if isinstance(value, dict) else value:
+            if isinstance(part, (dict, list)):
+                look(part)
+    look(json.loads((ROOT / "scenes/voxelume.schema.json").read_text()))
+    return {f'"{word}"' for word in words} | {"1e308", "-0", "null", "[", "]", "{", "}", ": ", ", "}
+
+
+def words_of_help(program):
+    """The options of all commands."""
+    page = subprocess.run([program, "man"], check=True, capture_output=True, text=True).stdout
+    return {word.replace("\\", "") for word in re.findall(r"(?:\\-){1,2}[a-z]+(?:\\-[a-z]+)*", page)}
+
+
+def write_dictionary(file, words):
+    quoted = (word.replace("\\", "\\\\").replace('"', '\\"') for word in sorted(words))
+    file.write_text("".join(f'"{word}"\n' for word in quoted))
+
+
+COMMANDS = [bytes([i]) + b"a.json\n-o\nb.exr\n--size\n64x48\n--frames\n1-9x2" for i in range(17)]
+SETTINGS = b'# settings\ndevice = cpu\ncache_size = 4GB\ncache_dir = "~/a"\n'
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("folder", type=pathlib.Path)
-    folder = arguments.parse_args().folder
-    for name, files in SEEDS.items():
+    arguments.add_argument("program", type=pathlib.Path)
+    given = arguments.parse_args()
+    folder, program = given.folder, given.program.resolve()
+    seeds = dict(SEEDS, words=[*COMMANDS, SETTINGS])
+    seeds["json"] = [file.read_bytes() for file in sorted((ROOT / "scenes").glob("*.json"))
+                     if not file.name.endswith("schema.json")]
+    for name, files in made_by(program).items():
+        seeds[name] = [*seeds.get(name, []), *files]
+    for name, files in seeds.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         for i, content in enumerate(files):
             (folder / name / f"seed{i}").write_bytes(content)
+    write_dictionary(folder / "json.dict", words_of_schema())
+    write_dictionary(folder / "words.dict", words_of_help(program))
 
 
 if __name__ == "__main__":

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any bytes in a file of voxels give a valid model or an error's sentence. It
-// is built once per format. Of a NIfTI pair, the first two bytes of the input say how many bytes
-// after them are the header, .hdr; the others are the data, .img.
-#include <unistd.h>
-
+// is built once per format. A NIfTI pair is the header, .hdr, and the data, .img, as write_pair has
+// them; an NRRD header, .nhdr, may name what follows it, "data".
 #include <algorithm>
-#include <fstream>
-#include <span>
 
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/import/scene_of_file.hpp"
@@ -14,6 +10,7 @@
 #include "runtime/io/arrays/array_voxels.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "runtime/scene_file/read_scene.hpp"
+#include "tests/fuzz/fuzz_file.hpp"
 #include "tests/fuzz/refusals.hpp"
 #include "tests/support/voxel_invariants.hpp"
 
@@ -21,31 +18,20 @@ namespace {
 
 using namespace voxelume;
 
-/// A file in memory that each input replaces.
-std::filesystem::path input_file() {
-    const std::filesystem::path shared = "/dev/shm";
-    const std::filesystem::path folder =
-        std::filesystem::is_directory(shared) ? shared : std::filesystem::temp_directory_path();
-    return folder / (std::to_string(getpid()) + "." VXL_FUZZ_NAME);
-}
-
-void write_bytes(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-}
-
-/// The file, and of a pair the one with its header, too.
+/// The file, and of a pair the one with its header or with its data, too.
 void write_input(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
-    if (file.extension() != ".img") return write_bytes(file, bytes);
-    const size_t wanted = bytes.size() < 2 ? 0 : bytes[0] + 256u * bytes[1];
-    const auto parts = bytes.subspan(std::min<size_t>(2, bytes.size()));
-    const size_t header = std::min(wanted, parts.size());
-    write_bytes(std::filesystem::path(file).replace_extension(".hdr"), parts.first(header));
-    write_bytes(file, parts.subspan(header));
+    const std::string ending = file.extension();
+    if (ending == ".img")
+        write_pair(std::filesystem::path(file).replace_extension(".hdr"), file, bytes);
+    else if (ending == ".nhdr")
+        write_pair(file, file.parent_path() / "data", bytes);
+    else
+        write_bytes(file, bytes);
 }
 
 /// What a refusal begins with: the name of either file of a pair.
 std::string name_in_front(const std::filesystem::path& file) {
+    if (file.extension() == ".nhdr") return file.parent_path();
     return file.extension() == ".img" ? file.parent_path() / file.stem() : file;
 }
 
@@ -70,7 +56,7 @@ void check_scene(const std::filesystem::path& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const std::filesystem::path file = input_file();
+    static const std::filesystem::path file = fuzz_file(VXL_FUZZ_NAME);
     write_input(file, {data, size});
     VoxelValues above, labels;
     above.iso = 3;

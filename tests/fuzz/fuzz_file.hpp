@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The file in memory that each input of a fuzz target replaces.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+
+namespace voxelume {
+
+/// The file of a target's name, in a folder that no other process has.
+inline std::filesystem::path fuzz_file(const char* name) {
+    const std::filesystem::path shared = "/dev/shm";
+    const std::filesystem::path folder =
+        (std::filesystem::is_directory(shared) ? shared : std::filesystem::temp_directory_path()) /
+        ("voxelume_fuzz." + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    return folder / name;
+}
+
+inline void write_bytes(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+}
+
+/// Writes an input into two files. Its first two bytes say how many bytes after them are of the
+/// first.
+inline void write_pair(const std::filesystem::path& first, const std::filesystem::path& second,
+                       std::span<const uint8_t> bytes) {
+    const size_t wanted = bytes.size() < 2 ? 0 : bytes[0] + 256u * bytes[1];
+    const auto parts = bytes.subspan(std::min<size_t>(2, bytes.size()));
+    const size_t length = std::min(wanted, parts.size());
+    write_bytes(first, parts.first(length));
+    write_bytes(second, parts.subspan(length));
+}
+
+}  // namespace voxelume
