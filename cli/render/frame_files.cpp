@@ -223,15 +223,19 @@ void check_options(const RenderCommand& options) {
     progress_style(options.progress);
     if (!options.shard.empty()) parse_shard(options.shard);
     overwrite_of(options);
-    if (!options.earlier.empty() && !(options.shard.empty() && options.quilt.views.empty()))
+    if (!options.earlier.empty() && !(options.shard.empty() && !options.quilt.is_asked_for()))
         fail_usage("render: --continue adds samples to whole images of one view: leave out {}",
-                   options.shard.empty() ? "--quilt" : "--shard");
+                   !options.shard.empty()        ? "--shard"
+                   : options.quilt.views.empty() ? "--stereo"
+                                                 : "--quilt");
     if (!options.earlier.empty() && options.plan_only)
         fail_usage("render: --dry-run tells of whole images: leave out --continue");
     check_stream(options);
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))
-            check_image_output(frame_path(pattern, first, animation), "render");
+            for (const std::filesystem::path& file :
+                 files_of_eyes(frame_path(pattern, first, animation)))
+                check_image_output(file, "render");
     if (options.stats == "-")
         fail_usage("render: --stats-json -: statistics go to a file, not to standard output");
     if (!options.stats.empty()) check_output(options.stats, {}, "render");

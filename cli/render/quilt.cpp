@@ -17,8 +17,23 @@
 namespace voxelume::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// The option that asks for it.
+const char* option_of(const QuiltChoices& choices) {
+    return choices.stereo > 0 ? "--stereo" : "--quilt";
+}
+
 Quilt quilt_of(const QuiltChoices& choices) {
     Quilt quilt;
+    quilt.cone = choices.cone;
+    quilt.focus = choices.focus;
+    if (choices.stereo > 0) {
+        quilt.columns = 2;
+        quilt.rows = 1;
+        quilt.separation = choices.stereo;
+        return quilt;
+    }
     int end = 0;
     const std::string& text = choices.views;
     if (std::sscanf(text.c_str(), "%4d%*1[xX]%4d%n", &quilt.columns, &quilt.rows, &end) != 2 ||
@@ -26,8 +41,6 @@ Quilt quilt_of(const QuiltChoices& choices) {
         quilt.columns * quilt.rows > 1000)
         fail_usage("render: --quilt {}: give COLUMNSxROWS, as in 8x6; at most 1000 views",
                    quote(text));
-    quilt.cone = choices.cone;
-    quilt.focus = choices.focus;
     return quilt;
 }
 
@@ -43,33 +56,75 @@ void refuse_others(const RenderCommand& command) {
          {"--resume", command.resume},
          {"--dry-run", command.plan_only}}};
     for (const auto& [name, is_given] : others)
-        if (is_given) fail_usage("render: --quilt: {} can't be had of a quilt yet", name);
+        if (is_given)
+            fail_usage("render: {}: {} can't be had of {} yet", option_of(command.quilt), name,
+                       command.quilt.stereo > 0 ? "stereo pairs" : "a quilt");
     for (const std::string& output : command.outputs)
         if (output.starts_with('-'))
-            fail_usage("render: --quilt: a quilt needs a name that says what is in it, not {}",
-                       output);
+            fail_usage("render: {}: it goes to a file with a name, not to {}",
+                       option_of(command.quilt), output);
 }
 
 /// The file's name with what tells players of the quilt.
-std::filesystem::path named(const std::filesystem::path& file, const std::string& suffix) {
+fs::path named(const fs::path& file, const std::string& suffix) {
     const std::string stem = file.stem().string();
     if (stem.ends_with(suffix)) return file;
     return file.parent_path() / (stem + suffix + file.extension().string());
 }
 
+/// Writes the views to a file, or to one for each eye. Returns the files.
+std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& quilt,
+                                  const fs::path& file, const ImageFileOptions& options) {
+    const std::vector<fs::path> files = files_of_eyes(file);
+    if (files.size() == 1)
+        join_views(views, quilt).write(file, options);
+    else
+        for (size_t eye = 0; eye < files.size(); ++eye) views[eye].write(files[eye], options);
+    return files;
+}
+
+std::string kind_of(const QuiltChoices& choices, size_t frames) {
+    const char* kind = choices.stereo > 0 ? "stereo pair" : "quilt";
+    return frames == 1 ? kind : fmt::format("{} {}s", frames, kind);
+}
+
 }  // namespace
 
+std::vector<fs::path> files_of_eyes(const fs::path& file) {
+    std::vector<fs::path> files;
+    for (const char* eye : {"left", "right"}) {
+        std::string name = file.string();
+        for (size_t at = name.find(kEye); at != std::string::npos; at = name.find(kEye))
+            name.replace(at, std::string_view(kEye).size(), eye);
+        if (name == file) return {file};
+        files.emplace_back(name);
+    }
+    return files;
+}
+
 void add_quilt_options(CLI::App& app, QuiltChoices& choices) {
-    app.add_option("--quilt", choices.views,
-                   "render COLUMNSxROWS views of a light-field display into one image; --size is "
-                   "that of one view, and _qs8x6a0.75 is added to the file's name")
-        ->type_name("COLUMNSxROWS");
-    app.add_option("--cone", choices.cone,
-                   "of a quilt: degrees between its outermost views, as seen from the screen; 40 "
-                   "by default")
-        ->check(in_range(0, 120));
+    CLI::Option* quilt =
+        app.add_option(
+               "--quilt", choices.views,
+               "render COLUMNSxROWS views of a light-field display into one image; --size is "
+               "that of one view, and _qs8x6a0.75 is added to the file's name")
+            ->type_name("COLUMNSxROWS");
+    CLI::Option* cone =
+        app.add_option(
+               "--cone", choices.cone,
+               "of a quilt: degrees between its outermost views, as seen from the screen; 40 "
+               "by default")
+            ->check(in_range(0, 120));
+    app.add_option("--stereo", choices.stereo,
+                   "render a view for each of two eyes, so many metres apart, like 0.064: beside "
+                   "one another, the left one first, or into two files whose names have left and "
+                   "right in place of {eye}")
+        ->check(in_range(1e-6, 1e6))
+        ->excludes(quilt)
+        ->excludes(cone);
     app.add_option("--focus", choices.focus,
-                   "of a quilt: metres from the observer to what lies in the screen; by default "
+                   "of a quilt or a stereo pair: metres from the observer to what lies in the "
+                   "screen; by default "
                    "what the observer looks at")
         ->check(in_range(1e-6, 1e6));
 }
@@ -79,7 +134,7 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     refuse_others(command);
     const Quilt quilt = quilt_of(command.quilt);
     const Size size = scene.size();
-    const std::string suffix = quilt_suffix(quilt, size);
+    const std::string suffix = command.quilt.stereo > 0 ? "" : quilt_suffix(quilt, size);
     const auto start = std::chrono::steady_clock::now();
     const ProgressStyle style = progress_style(command.progress);
     RenderProgress progress(
@@ -98,12 +153,15 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     options.progress = [&](double of_frame, int frame) {
         progress.advance((done + of_frame) / count, frame);
     };
+    std::string written;
     for (FrameFiles frame : job.frames) {
-        const Image image = render_quilt(scene, devices, quilt, frame.frame, options);
-        for (std::filesystem::path& file : frame.images) {
-            file = named(file, suffix);
-            image.write(file, job.image_files);
-        }
+        const std::vector<Image> views = render_views(scene, devices, quilt, frame.frame, options);
+        std::vector<fs::path> files;
+        for (const fs::path& file : frame.images)
+            for (fs::path& part : write_views(views, quilt, named(file, suffix), job.image_files))
+                files.push_back(std::move(part));
+        if (written.empty() && !files.empty()) written = files.front().string();
+        frame.images = std::move(files);
         progress.written(frame);
         options.warn = {};
         ++done;
@@ -111,12 +169,8 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     progress.clear();
     if (!command.quiet)
-        tell("{} of {} views of {}x{} in {:.2f} s: {}\n",
-             job.frames.size() == 1 ? "quilt" : fmt::format("{} quilts", job.frames.size()),
-             quilt.columns * quilt.rows, size[0], size[1], passed.count(),
-             job.frames.front().images.empty()
-                 ? ""
-                 : named(job.frames.front().images.front(), suffix).string());
+        tell("{} of {} views of {}x{} in {:.2f} s: {}\n", kind_of(command.quilt, job.frames.size()),
+             quilt.columns * quilt.rows, size[0], size[1], passed.count(), written);
 }
 
 }  // namespace voxelume::cli

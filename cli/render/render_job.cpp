@@ -119,7 +119,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     Scene scene = read_with(command.scene, "render");
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
-    if (!command.quilt.views.empty())
+    if (command.quilt.is_asked_for())
         return render_quilts(command, scene, job, lazy_devices.open(), label);
     if (!command.crop.empty() && command.outputs.empty() && !command.volumes.empty())
         fail_usage("render: --crop is of images, and no -o names one; --volume is whole anyway");

@@ -60,6 +60,7 @@ class JobList {
             list.emplace_back("view", padded(variant.view + 1, views_));
         else if (!command_.scene.import.view.empty())
             list.emplace_back("view", file_part(command_.scene.import.view));
+        if (command_.quilt.stereo > 0) list.emplace_back("eye", kEye);  // known when it is written
         if (sweeps_.empty()) return list;
         list.emplace_back("sweep", padded(variant.number + 1, combinations_.size()));
         for (size_t i = 0; i < sweeps_.size(); ++i) {
@@ -116,7 +117,7 @@ class JobList {
         const std::string key = last_key(sweep.path);
         std::set<std::string> parts;
         for (const std::string& value : sweep.values) parts.insert(file_part(value));
-        const bool is_taken = key == "name" || key == "frame" || key == "view";
+        const bool is_taken = key == "name" || key == "frame" || key == "view" || key == "eye";
         return is_taken || parts.size() < sweep.values.size() ? "sweep" : key;
     }
 

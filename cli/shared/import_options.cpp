@@ -108,7 +108,7 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
     app.add_option(
            "--view", choices.view,
            "of a model file: from where: front, back, left, right, side, top, iso (parallel "
-           "rays), or LONGITUDE,LATITUDE in degrees; 35,25 by default")
+           "rays), or LONGITUDE,LATITUDE in degrees; 35,25 by default, -40,30 of a .vox")
         ->type_name("VIEW");
     app.add_option("--fov", choices.angle,
                    "of a model file: horizontal angle of the picture in degrees; 40 by default")

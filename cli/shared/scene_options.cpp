@@ -135,7 +135,7 @@ v1::SceneOptions files_of(const SceneOptions& options, bool is_model, Size size,
 ImportOptions import_of(const SceneOptions& options, Size size, const char* command) {
     ImportOptions import = options_of(options.import, size, command);
     import.turns = options.has_views;
-    import.longitude += options.orbit;
+    import.orbit = options.orbit;
     return import;
 }
 

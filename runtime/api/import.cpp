@@ -24,7 +24,9 @@ glm::dvec3 color_of(const v1::Color& color) {
 
 ImportOptions options_of(const v1::ImportOptions& options) {
     ImportOptions inside;
-    inside.from = {options.longitude, options.latitude};
+    inside.longitude = options.longitude;
+    inside.latitude = options.latitude;
+    inside.orbit = options.orbit;
     inside.is_parallel = options.parallel;
     inside.is_lattice = options.lattice;
     inside.has_own_camera = options.own_camera;

@@ -2,6 +2,7 @@
 // Quilts of light-field displays, for callers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -27,9 +28,35 @@ void check_quilt(const Quilt& quilt) {
         throw voxelume::Error(voxelume::ErrorKind::usage,
                               "a quilt has from 1 to {} views, not {}x{}", kMaxViews, quilt.columns,
                               quilt.rows);
-    if (!(quilt.cone >= 0 && quilt.cone <= 120) || !(quilt.focus >= 0 && quilt.focus < 1e9))
+    if (!(quilt.cone >= 0 && quilt.cone <= 120) || !(quilt.focus >= 0 && quilt.focus < 1e9) ||
+        !(quilt.separation >= 0 && quilt.separation < 1e9))
         throw voxelume::Error(voxelume::ErrorKind::usage,
-                              "a quilt's cone has up to 120 degrees, and its focus is at least 0");
+                              "a quilt's cone has up to 120 degrees, and its focus and its places' "
+                              "separation are at least 0");
+}
+
+std::string hash_of(const CacheKey& key) {
+    const std::array<std::string_view, 1> parts = {key.bytes()};
+    return cache_key(parts);
+}
+
+/// Whether the images have one size and the same channels.
+bool are_alike(const voxelume::Image& a, const voxelume::Image& b) {
+    const auto name = [](const auto& channel) -> const std::string& { return channel.first; };
+    return a.width == b.width && a.height == b.height &&
+           std::ranges::equal(a.planes, b.planes, {}, name, name) &&
+           std::ranges::equal(a.id_planes, b.id_planes, {}, name, name);
+}
+
+void check_views(const std::vector<Image>& views, const Quilt& quilt) {
+    const auto is_like_first = [&](const Image& view) {
+        return are_alike(*view.implementation().image, *views.front().implementation().image);
+    };
+    const int count = quilt.columns * quilt.rows;
+    if (views.size() != size_t(count) || !std::ranges::all_of(views, is_like_first))
+        throw voxelume::Error(voxelume::ErrorKind::usage,
+                              "this quilt is made of {} images of one size and the same channels",
+                              count);
 }
 
 /// Progress of one view as that of all.
@@ -49,32 +76,55 @@ std::string quilt_suffix(const Quilt& quilt, Size view) {
     return fmt::format("_qs{}x{}a{:.4g}", quilt.columns, quilt.rows, double(view[0]) / view[1]);
 }
 
-Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
-                   int frame, const RenderOptions& options) {
+std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& devices,
+                                const Quilt& quilt, int frame, const RenderOptions& options) {
     return api::guarded([&] {
         check_quilt(quilt);
         const voxelume::Scene now = scene_at(api::inside(scene), frame);
         const int views = quilt.columns * quilt.rows;
-        std::vector<std::shared_ptr<const voxelume::Image>> images;
-        api::Attributes attributes;
+        const ViewRow row{views, quilt.cone, quilt.focus, quilt.separation};
+        std::vector<Image> images;
         for (int number = 0; number < views; ++number) {
             const Scene view =
-                api::handle_of(view_of_row(now, {views, quilt.cone, quilt.focus}, number),
-                               scene.implementation().hash, scene.implementation().read);
+                api::handle_of(view_of_row(now, row, number), scene.implementation().hash,
+                               scene.implementation().read);
             const Image image =
                 render_image(view, devices, 1, options_of_view(options, number, views));
-            images.push_back(image.implementation().image);
-            if (number == 0) attributes = image.implementation().attributes;
+            api::Attributes attributes = image.implementation().attributes;
+            CacheKey key;
+            key.add_text(attributes[api::kFrameHash]).add(frame).add(number).add(views);
+            key.add(quilt.cone).add(quilt.focus).add(quilt.separation);
+            attributes[api::kFrameHash] = hash_of(key);
+            images.push_back(api::handle_of(image.implementation().image, std::move(attributes)));
         }
+        return images;
+    });
+}
+
+Image join_views(const std::vector<Image>& views, const Quilt& quilt) {
+    return api::guarded([&] {
+        check_quilt(quilt);
+        check_views(views, quilt);
+        std::vector<std::shared_ptr<const voxelume::Image>> images;
         CacheKey key;
-        key.add_text(attributes[api::kFrameHash]).add(frame);
-        key.add(quilt.columns).add(quilt.rows).add(quilt.cone).add(quilt.focus);
-        const std::array<std::string_view, 1> parts = {key.bytes()};
-        attributes[api::kFrameHash] = cache_key(parts);
+        for (const Image& view : views) {
+            images.push_back(view.implementation().image);
+            const api::Attributes& attributes = view.implementation().attributes;
+            const auto hash = attributes.find(api::kFrameHash);
+            key.add_text(hash == attributes.end() ? "" : hash->second);
+        }
+        key.add(quilt.columns);
+        api::Attributes attributes = views.front().implementation().attributes;
+        attributes[api::kFrameHash] = hash_of(key);
         return api::handle_of(
             std::make_shared<const voxelume::Image>(quilt_of(images, quilt.columns)),
             std::move(attributes));
     });
+}
+
+Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
+                   int frame, const RenderOptions& options) {
+    return join_views(render_views(scene, devices, quilt, frame, options), quilt);
 }
 
 }  // namespace voxelume::v1

@@ -27,6 +27,7 @@ struct Contents {
     int frames = 1;                      ///< of the animation
     double fps = 24;
     std::string observer;                 ///< `"observer": {...}` of the file's camera; empty: none
+    ViewFrom from;                        ///< where others look from who see all of it
     std::vector<std::string> lights;      ///< items; none: those of a studio
     std::optional<FileLight> file_light;  ///< none: the studio's own
     bool has_glass = false;               ///< shadows are to let light through

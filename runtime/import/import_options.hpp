@@ -15,7 +15,8 @@ namespace voxelume {
 enum class UpAxis : uint8_t { automatic, y, z };
 
 struct ImportOptions {
-    ViewFrom from{};
+    std::optional<double> longitude{}, latitude{};  ///< of ViewFrom; none: as the file has them
+    double orbit = 0;                               ///< degrees, added to the longitude
     bool is_parallel = false;  ///< the observer's rays are parallel, as in isometric drawings
     /// The observer's display is a lattice around all that is shown, for a volumetric image, and
     /// there is no ground.

@@ -75,8 +75,9 @@ std::string observer_text(const glm::dvec3& position, const glm::dvec3& look_at,
 }
 
 /// An observer with a pyramid who sees all of the box.
-std::string pyramid_observer(const Bounds& box, const ImportOptions& options) {
-    const glm::dmat3 axes = view_axes(options.from);
+std::string pyramid_observer(const Bounds& box, const ViewFrom& from,
+                             const ImportOptions& options) {
+    const glm::dmat3 axes = view_axes(from);
     const double slope = std::tan(glm::radians(options.angle / 2)) * kFilledShare;
     const glm::dvec2 slopes(slope, slope * options.size.y / options.size.x);
     const glm::dvec3 position = framing_position(box, axes, slopes);
@@ -88,9 +89,9 @@ std::string pyramid_observer(const Bounds& box, const ImportOptions& options) {
 
 /// An observer with parallel rays who sees all of the box. His display reaches through all of
 /// `around`.
-std::string parallel_observer(const Bounds& box, const Bounds& around,
+std::string parallel_observer(const Bounds& box, const Bounds& around, const ViewFrom& from,
                               const ImportOptions& options) {
-    const glm::dmat3 axes = view_axes(options.from);
+    const glm::dmat3 axes = view_axes(from);
     const Bounds seen = extent_along(box, axes), all = extent_along(around, axes);
     const glm::dvec3 side = (seen.max - seen.min) / kFilledShare;
     const double aspect = double(options.size.x) / options.size.y;
@@ -127,13 +128,19 @@ Bounds turned_box(const Bounds& box) {
     return {middle - reach, middle + reach};
 }
 
+/// Where the observer looks from.
+ViewFrom view_from(const Contents& contents, const ImportOptions& options) {
+    return {options.longitude.value_or(contents.from.longitude) + options.orbit,
+            options.latitude.value_or(contents.from.latitude)};
+}
+
 /// The observer that the options ask for.
-std::string observer_of(const Bounds& contents, const Bounds& around,
+std::string observer_of(const Bounds& contents, const Bounds& around, const ViewFrom& from,
                         const ImportOptions& options) {
     const Bounds box = options.turns ? turned_box(contents) : contents;
     if (options.is_lattice) return lattice_observer(box);
-    return options.is_parallel ? parallel_observer(box, around, options)
-                               : pyramid_observer(box, options);
+    return options.is_parallel ? parallel_observer(box, around, from, options)
+                               : pyramid_observer(box, from, options);
 }
 
 /// `, "bounds": {...}` where the voxels of the file don't lie on multiples of their size, as those
@@ -159,8 +166,9 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const bool has_camera = is_own && !contents.observer.empty();
     const bool has_lights = !contents.lights.empty();
     // A file's own camera may be in a closed room, and its lights may leave much in the dark.
-    Studio studio = make_studio(contents.box, contents.voxel_size, options, contents.file_light,
-                                has_camera || has_lights ? kAmbientInside : 0);
+    const ViewFrom from = view_from(contents, options);
+    Studio studio = make_studio(contents.box, contents.voxel_size, from, options,
+                                contents.file_light, has_camera || has_lights ? kAmbientInside : 0);
     if (has_lights) studio.sky.clear();
     std::string text = "{\n  \"voxelume\": 1,\n";
     text += fmt::format(
@@ -177,7 +185,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
         text += fmt::format(
             "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",
             contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
-    text += has_camera ? contents.observer : observer_of(contents.box, studio.box, options);
+    text += has_camera ? contents.observer : observer_of(contents.box, studio.box, from, options);
     // Volumetric images are in local light.
     const bool is_global =
         contents.emissive_objects > kEmissiveObjectsInLocalLight && !options.is_lattice;

@@ -170,15 +170,15 @@ glm::dvec3 ground_color(const std::optional<glm::dvec3>& own, const glm::dvec3& 
 
 }  // namespace
 
-Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options,
-                   const std::optional<FileLight>& file_light, double ambient) {
+Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ViewFrom& from,
+                   const ImportOptions& options, const std::optional<FileLight>& file_light,
+                   double ambient) {
     constexpr double kFarGround = 30;  // longest sides to the end of a ground that has an end
     Studio studio;
     studio.box = box;
     const FileLight around = file_light.value_or(FileLight());
-    const double longitude = options.from.longitude;
-    const glm::dvec3 on_ground = file_light ? add_light_of(around, box, longitude, studio)
-                                            : add_own_light(box, longitude, ambient, studio);
+    const glm::dvec3 on_ground = file_light ? add_light_of(around, box, from.longitude, studio)
+                                            : add_own_light(box, from.longitude, ambient, studio);
     studio.background = kBackground;
     if (around.background) studio.background = *around.background;
     if (options.background) studio.background = *options.background;
@@ -186,8 +186,7 @@ Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const Import
     const double radius = ground_radius(box), most = max_radius(voxel_size);
     const bool has_ground =
         options.has_ground.value_or(around.has_ground && !options.is_transparent);
-    if (!has_ground || options.is_lattice || options.from.latitude < 0 || radius > most)
-        return studio;
+    if (!has_ground || options.is_lattice || from.latitude < 0 || radius > most) return studio;
     const glm::dvec3 color = ground_color(around.ground, studio.background, on_ground, options);
     const bool ends = around.ground && !options.background;
     add_ground(box, ends ? std::min(rounded(kFarGround * longest_side(box), 3), most) : radius,

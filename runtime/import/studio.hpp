@@ -23,7 +23,8 @@ struct Studio {
 /// falls on the ground without hindrance, the ground has the radiance of the background, so that
 /// only shadows tell them apart. A file's light comes before all of that, and what the
 /// options say of ground and background before them. `ambient` is added to the room's own light.
-Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options,
-                   const std::optional<FileLight>& file_light, double ambient);
+Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ViewFrom& from,
+                   const ImportOptions& options, const std::optional<FileLight>& file_light,
+                   double ambient);
 
 }  // namespace voxelume

@@ -82,6 +82,7 @@ class VoxContents {
         contents_.models = parts_.models();
         contents_.materials = parts_.materials();
         contents_.has_glass = parts_.has_glass();
+        contents_.from = {-40, 30};  // as in the editor; see vox_light_test.cpp
         contents_.observer = vox_observer(vox_, contents_.box, file_.options.size);
         contents_.file_light = vox_file_light(vox_.render);
         return std::move(contents_);

@@ -47,15 +47,18 @@ Scene view_of_row(const Scene& scene, const ViewRow& row, int number) {
     const glm::ivec2 size = scene.render.size;
     const double along = row.views > 1 ? 2.0 * number / (row.views - 1) - 1 : 0;
     const double pixel = 2 * std::tan(half.x) / size.x;  // at distance 1
-    const double aside = along * std::tan(glm::radians(row.cone / 2));
+    const double aside = along * (row.separation > 0 ? row.separation / 2 / focus
+                                                     : std::tan(glm::radians(row.cone / 2)));
     const double pixels = std::round(aside / pixel);
     if (size.x + 2 * std::abs(pixels) > kMaxImageSide)
-        throw Error(ErrorKind::limit,
-                    "views of {} pixels over {} degrees are parts of images of {:.0f}, and {} are "
-                    "the most; make the cone or the views narrower",
-                    size.x, row.cone, size.x + 2 * std::abs(pixels), kMaxImageSide);
+        throw Error(
+            ErrorKind::limit,
+            "views of {} pixels from places so far apart are parts of images of {:.0f}, and "
+            "{} are the most; make the cone, the distance of the eyes or the views smaller",
+            size.x, size.x + 2 * std::abs(pixels), kMaxImageSide);
     // The right-hand side of images is -X_E.
-    observer.position -= observer.world_from_observer[0] * (pixels * pixel * focus);
+    const double moved = row.separation > 0 ? aside : pixels * pixel;
+    observer.position -= observer.world_from_observer[0] * (moved * focus);
     const int wider = int(std::abs(pixels));
     half.x = std::atan(std::tan(half.x) * (size.x + 2.0 * wider) / size.x);
     observer.display.square_pixels = false;

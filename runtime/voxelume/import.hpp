@@ -21,10 +21,13 @@ enum class UpAxis {
 
 /// What the scene of a model file is like. By default it stands on a ground without a visible end,
 /// in soft light that comes from the observer's left, seen from the right of its front and from
-/// above.
+/// above; a .vox from the left, as in its editor.
 struct ImportOptions {
-    double longitude = 35;  ///< where the observer is: degrees to the right of the front
-    double latitude = 25;   ///< degrees above the horizon, -90..90
+    /// Where the observer is: degrees to the right of the front; 35 by default, -40 of a .vox.
+    std::optional<double> longitude{};
+    /// Degrees above the horizon, -90..90; 25 by default, 30 of a .vox.
+    std::optional<double> latitude{};
+    double orbit = 0;       ///< degrees that are added to the longitude, whichever it is
     bool parallel = false;  ///< parallel rays, as in isometric drawings, instead of a pyramid
     /// The display is a lattice of voxels around all that is shown, for render_volume. The observer
     /// is before the front then, and there is no ground.

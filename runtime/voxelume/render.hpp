@@ -69,6 +69,9 @@ struct Quilt {
     double cone = 40;  ///< degrees between the outermost places, as seen from the window
     double focus = 0;  ///< metres before the observer to the window, where what is seen lies in the
                        ///< screen; 0: to what the observer looks at
+    /// Metres between the outermost places, instead of `cone`, as between the eyes of a stereo pair
+    /// that has two columns and a row; 0: `cone` counts.
+    double separation = 0;
 };
 
 /// What the names of a quilt's files end with before ".png", by which players know it: its columns,
@@ -80,6 +83,15 @@ std::string quilt_suffix(const Quilt& quilt, Size view);
 /// that is a pyramid. Throws as render_image does, and Error::usage for other quilts or observers.
 Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,
                    int frame = 1, const RenderOptions& options = {});
+
+/// The views of a quilt as images of their own, from left to right. Throws as render_quilt does.
+std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& devices,
+                                const Quilt& quilt, int frame = 1,
+                                const RenderOptions& options = {});
+
+/// The image that render_quilt makes of the views that render_views has given. Throws Error::usage
+/// for other numbers or sizes of images.
+Image join_views(const std::vector<Image>& views, const Quilt& quilt);
 
 /// A frame that was rendered. What the job doesn't ask for is empty.
 struct RenderedFrame {

@@ -47,6 +47,30 @@ TEST_F(CliQuiltTest, ViewsLieFromTheBottomLeftToTheTopRight) {
     EXPECT_NE(tile(0, 12), tile(20, 0));
 }
 
+TEST_F(CliQuiltTest, EyesLieBesideOneAnotherOrInFilesOfTheirOwn) {
+    const ProgramResult result =
+        run("render scene.json -o pair.exr -o {eye}.exr -o {eye}/{eye}.png --stereo 1.5 "
+            "--channels RGBA,objectId");
+    EXPECT_EQ(result.exit_code, 5) << "there is no folder left";
+    std::filesystem::create_directory(folder / "left");
+    std::filesystem::create_directory(folder / "right");
+    const ProgramResult done =
+        run("render scene.json -o pair.exr -o {eye}.exr -o {eye}/{eye}.png --stereo 1.5 "
+            "--channels RGBA,objectId");
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("stereo pair of 2 views of 20x12"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "right/right.png"));
+    const Image pair = read_exr(folder / "pair.exr");
+    ASSERT_EQ(pair.width, 40);
+    ASSERT_EQ(pair.height, 12);
+    const Image eyes[] = {read_exr(folder / "left.exr"), read_exr(folder / "right.exr")};
+    EXPECT_NE(eyes[0].planes, eyes[1].planes);
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 40; ++x)
+            EXPECT_EQ(pair.planes.at("G")[size_t(40 * y + x)],
+                      eyes[x / 20].planes.at("G")[size_t(20 * y + x % 20)]);
+}
+
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
     for (const char* option : {"--crop 0,0,4,4", "--shard 1/2", "--noise 0.1", "--resume",
                                "--stats-json s.json", "--volume v.vdb"})
@@ -56,7 +80,14 @@ TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
     for (const char* views : {"0x2", "2", "2x", "99x99", "x2", "2x2x2"})
         EXPECT_THAT(expect_failure(2, fmt::format("render scene.json -o q.png --quilt {}", views)),
                     HasSubstr("COLUMNSxROWS"));
-    EXPECT_THAT(expect_failure(2, "render scene.json -o - --quilt 2x2"), HasSubstr("needs a name"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o - --quilt 2x2"),
+                HasSubstr("goes to a file with a name"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --quilt 2x2 --stereo 0.06"),
+                HasSubstr("--stereo"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --stereo 0.06 --noise 0.1"),
+                HasSubstr("can't be had of stereo pairs"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o {eye}.png"),
+                HasSubstr("no placeholder \"eye\""));
 }
 
 }  // namespace voxelume

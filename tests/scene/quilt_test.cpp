@@ -70,6 +70,25 @@ TEST(Quilt, TheWindowHasOnePlaceInAllViews) {
     EXPECT_EQ(view_of_row(scene, {1, 50, 0}, 0).observer.position, observer.position);
 }
 
+TEST(Quilt, EyesAreAsFarApartAsAskedForAndSeeTheWindowInOnePlaceToHalfAPixel) {
+    const Scene scene = seen_by(kAside);
+    const Observer& observer = scene.observer;
+    for (const double focus : {0.0, 2.5, 40.0}) {
+        const double distance = focus > 0 ? focus : glm::length(glm::dvec3(2.5, 2, 4.75));
+        const ViewRow eyes{2, 40, focus, 0.064};
+        const glm::dvec3 point =
+            observer.position + observer.world_from_observer * glm::dvec3(0.1, -0.05, 1) * distance;
+        for (int number = 0; number < 2; ++number) {
+            const Scene view = view_of_row(scene, eyes, number);
+            const glm::dvec3 place =
+                observer.position - observer.world_from_observer[0] * (0.064 * (number - 0.5));
+            EXPECT_LE(glm::length(view.observer.position - place), 1e-12);
+            EXPECT_NEAR(pixel_of(view, point).x, pixel_of(scene, point).x, 0.5 + 1e-9);
+            EXPECT_NEAR(pixel_of(view, point).y, pixel_of(scene, point).y, 1e-9);
+        }
+    }
+}
+
 TEST(Quilt, OtherObserversAreRefused) {
     const auto refusal = [](const std::string& observer, const ViewRow& row) {
         try {
