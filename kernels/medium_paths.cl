@@ -11,31 +11,9 @@
 #include "lib/light/light_rays.h"
 #include "lib/light/sent_rays.h"
 #include "lib/medium/flight.h"
+#include "lib/medium/medium_point.h"
 #include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
-
-/// What a point in the medium begins with: the way on which the path came, with no surface around.
-static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float t, lane_uint target,
-                               lane_uint state) {
-    const float one = shape.fixed_point;
-    const lane_float zero = (lane_float)0.0f;
-    NewRays r;
-    // Rounded back along the way, so that no point comes to lie in what is ahead.
-    const Vector at = add_scaled(s->origin, s->direction, t), d = s->direction;
-    r.origin.x = clamp(snap_position(at.x, -d.x, one), 0.0f, (float)shape.size_x);
-    r.origin.y = clamp(snap_position(at.y, -d.y, one), 0.0f, (float)shape.size_y);
-    r.origin.z = clamp(snap_position(at.z, -d.z, one), 0.0f, (float)shape.size_z);
-    r.direction = s->direction;
-    r.t_end = (lane_float)INFINITY;
-    r.source = (lane_uint)VXL_NO_PRIMITIVE;
-    r.instance = (lane_uint)VXL_NO_INSTANCE;
-    r.flags = r.emitter = r.cell_xy = r.cell_z = r.medium = (lane_uint)0;
-    r.travelled = r.width = r.start = r.clear = r.weight = zero;
-    r.media = empty_medium_set();
-    r.target = target;
-    r.state = state;
-    return r;
-}
 
 /// Finds the paths that the medium scatters before the surfaces that their rays have met, among
 /// entries 0 .. count-1: puts the points, with the throughput of the light from there, into a
@@ -86,12 +64,12 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     if (!lanes_any(flight.ends)) return;
     LANES_STORE(flight.t, transmittance, first);
     const Slots slots = reserve_slots(flight.ends, counters + VXL_COUNT_CHILDREN);
-    put_rays(&points, &point, &slots);
-    put_uint(point_hits + VXL_HIT_VOXEL * points.stride, (lane_uint)VXL_NO_VOXEL, &slots);
-    if (VXL_INSTANCES)
-        put_uint(point_hits + VXL_HIT_INSTANCE * points.stride, (lane_uint)VXL_NO_INSTANCE, &slots);
-    for (uint c = 0; c < 3; ++c)
-        put_float(point_radiance + c * points.stride, (lane_float)0.0f, &slots);
+    put_points(&points, &point, &slots, point_hits, point_radiance);
+    if (!VXL_NEAR_LIGHT) return;
+    const Segment part = part_in_world(shape, segment);
+    const lane_float thick = density_at(&density, &segment, flight.t, flight.ends);
+    put_ways(point_hits, points.stride, (flight.t - part.t_first) * metres,
+             (part.t_last - flight.t) * metres, chance_density(&medium, depth, thick), &slots);
 }
 
 /// Adds the light that a source sends from the points `from` and the medium scatters towards the
@@ -117,7 +95,13 @@ static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vect
     if (!lanes_any(i.lit)) return;
     LitRays r;
     aim_at_light(shape, light, &i, at, nowhere, &r);
-    const lane_float scattered = 3.14159265f * phase_density(g, dot_product(way, i.l)) * i.falloff;
+    lane_float scattered = 3.14159265f * phase_density(g, dot_product(way, i.l)) * i.falloff;
+    if (VXL_NEAR_LIGHT && light.kind != VXL_LIGHT_DIRECTIONAL) {
+        const Vector middle = {(lane_float)light.position.x, (lane_float)light.position.y,
+                               (lane_float)light.position.z};
+        scattered *= share_of_chance(light, scaled(difference(middle, at), edge), way, batch->hits,
+                                     stride, first, i.lit);
+    }
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     for (int c = 0; c < 3; ++c) r.contribution[c] = scattered * intensity[c];
     queue_rays(queue, &r, i.lit, (lane_uint)VXL_NO_PRIMITIVE, stride, first);

@@ -219,7 +219,7 @@ std::vector<KnownPicture> known_pictures() {
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
-         false, "a5b9f7b087340160"},
+         false, "3e964a51b23e2189"},
         {"meshes", kMeshes, false, "ae7d5428b2dd3899"},
         {"mixed meshes", kMixed, false, "e569fc0943dbb7eb"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},

@@ -59,6 +59,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
 #define VXL_DECISION_DIRECTION 1u           // of diffuse light
+#define VXL_DECISION_NEAR 0xFFF9u           // where a light shines on its way
 #define VXL_DECISION_FLIGHT 0xFFFAu         // how far light comes in a scattering medium
 #define VXL_DECISION_SKY 0xFFFBu            // whether a ray is sent to the sky or to an emitter
 #define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter

@@ -143,6 +143,10 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
                 }));
     if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
     features.scattering = scatters_paths(scene, world);
+    features.near_light =
+        features.scattering && std::ranges::any_of(scene.lights, [](const Light& light) {
+            return shines(light) && light.kind != LightKind::directional;
+        });
     features.medium =
         features.scattering || (scene.world.medium.absorption != glm::vec3(0) && !world.clear);
     features.medium_grid = features.medium && has_density(scene.world.medium);

@@ -81,6 +81,7 @@ void build_programs(const Device& device, const Features& features, const Scene&
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.scattering) files.push_back("medium_paths.cl");
+    if (features.near_light) files.push_back("near_light.cl");
     if (features.paths) files.push_back("scatter.cl");
     if (features.global) files.push_back("extend.cl");
     if (features.global && features.area_samples) files.push_back("area_light.cl");
@@ -219,11 +220,15 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer)
 /// Brings the light of all lights to points, whose shadow rays to a light `add` queues.
 void Illumination::bring_each_light(RayBatch& points, uint32_t count,
                                     const std::function<void(const PathLight&)>& add) {
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        add(lights_[i]);
-        if (!beams_.empty()) queue_.beams = beams_[i];
-        bring_light(points, count);
-    }
+    for (size_t i = 0; i < lights_.size(); ++i) bring_light_of(i, points, count, add);
+}
+
+/// Brings the light of light number `i` to points.
+void Illumination::bring_light_of(size_t i, RayBatch& points, uint32_t count,
+                                  const std::function<void(const PathLight&)>& add) {
+    add(lights_[i]);
+    if (!beams_.empty()) queue_.beams = beams_[i];
+    bring_light(points, count);
     if (!beams_.empty()) queue_.beams = {};
 }
 

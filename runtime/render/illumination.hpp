@@ -89,8 +89,12 @@ class Illumination {
     void bring_light(RayBatch& entries, uint32_t count);
     void bring_each_light(RayBatch& points, uint32_t count,
                           const std::function<void(const PathLight&)>& add);
+    void bring_light_of(size_t i, RayBatch& points, uint32_t count,
+                        const std::function<void(const PathLight&)>& add);
     void trace_to_emitters(PathDepth& depth, uint32_t count);
     uint32_t scatter_in_medium(RayBatch& entries, uint32_t count, PathDepth& depth);
+    void send_to_points(const PathLight& light, uint32_t count, PathDepth& depth);
+    void light_near_points(RayBatch& entries, uint32_t count, bool is_first, PathDepth& depth);
     NextRays light_medium(uint32_t count, uint32_t taken, PathDepth& depth);
     void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,

@@ -28,16 +28,38 @@ uint32_t Illumination::scatter_in_medium(RayBatch& entries, uint32_t count, Path
     return medium_paths_->scatter(world_, sampling_, entries, count, depth.points);
 }
 
+/// Queues shadow rays from the points in the medium to a light.
+void Illumination::send_to_points(const PathLight& light, uint32_t count, PathDepth& depth) {
+    if (light.area)
+        medium_paths_->add_area_light(world_, light.record, *light.area, sampling_, light.number,
+                                      depth.points, count, queue_);
+    else
+        medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
+}
+
+/// Adds what the medium scatters on the rays' ways of the light of lights that aren't infinitely
+/// far away, from the points that each of them shines on most. Paths that the medium scatters find
+/// the rest.
+void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_first,
+                                     PathDepth& depth) {
+    if (!features_.near_light) return;
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        const LightRecord& light = lights_[i].record;
+        if (light.kind == VXL_LIGHT_DIRECTIONAL) continue;
+        const uint32_t found =
+            medium_paths_->near(world_, light, sampling_, is_first, entries, count, depth.points);
+        if (found == 0) continue;
+        bring_light_of(i, depth.points, found,
+                       [&](const PathLight& of) { send_to_points(of, found, depth); });
+        medium_paths_->add_near(depth.points, found, depth.nodes);
+    }
+}
+
 /// Lights the points where the medium scatters paths, and sends these on behind `taken` rays.
 NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& depth) {
     if (count == 0) return {};
-    bring_each_light(depth.points, count, [&](const PathLight& light) {
-        if (light.area)
-            medium_paths_->add_area_light(world_, light.record, *light.area, sampling_,
-                                          light.number, depth.points, count, queue_);
-        else
-            medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
-    });
+    bring_each_light(depth.points, count,
+                     [&](const PathLight& light) { send_to_points(light, count, depth); });
     return medium_paths_->paths(world_, sampling_, emitters_, depth.points, count, depth.nodes,
                                 depth.next, taken, depth.next_to_emitters);
 }
@@ -50,6 +72,7 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     RayBatch* entries = &batch;
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
+        if (!is_first) light_near_points(*entries, count, false, depth);
         const uint32_t scattered = scatter_in_medium(*entries, count, depth);
         direct(*entries, count, is_first);
         const NextRays sent =
@@ -58,6 +81,8 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
         trace_to_emitters(depth, sent.to_emitters);
         const NextRays in_medium = light_medium(scattered, sent.paths, depth);
         trace_to_emitters(depth, in_medium.to_emitters);
+        // The light of the nodes begins with their rays' own hits.
+        if (is_first) light_near_points(*entries, count, true, depth);
         count = sent.paths + in_medium.paths;
         if (count > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;

@@ -29,6 +29,7 @@ struct Features {
     bool medium_grid = false;     ///< ... and its density varies
     bool medium_colors = false;   ///< ... and so does its colour
     bool scattering = false;      ///< ... and paths are scattered in it
+    bool near_light = false;      ///< ... and some light isn't infinitely far away
     bool shadows = false;         ///< lights can be hidden
     bool area_samples = false;    ///< some light has an area
     bool checker = false;         ///< some material changes its colour from block to block
@@ -108,6 +109,7 @@ struct Features {
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_MEDIUM_COLORS", medium_colors},
                 {"VXL_SCATTERING", scattering},
+                {"VXL_NEAR_LIGHT", near_light},
                 {"VXL_SHADOWS", shadows},
                 {"VXL_AREA_SAMPLES", area_samples},
                 {"VXL_CHECKER", checker},

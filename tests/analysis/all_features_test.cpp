@@ -139,7 +139,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     const std::set<std::string> of_global = {"VXL_GLOBAL",     "VXL_EMITTERS",    "VXL_PHYSICAL",
                                              "VXL_SKY_RAYS",   "VXL_ROUGH_GLASS", "VXL_COAT",
-                                             "VXL_SCATTERING", "VXL_WEAK_FACETS"};
+                                             "VXL_SCATTERING", "VXL_WEAK_FACETS", "VXL_NEAR_LIGHT"};
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device)) {
         const bool is_absent =
             is_global ? name == std::string("VXL_TINTED") : of_global.contains(name);
@@ -166,8 +166,9 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     for (const char* kernel : {"add_light", "pass_layer", "scatter_rays", "gather_light",
                                "add_sky_light", "mean_emission_maps"})
         EXPECT_EQ(counters.launches[kernel] > 0, !is_global) << kernel;
-    for (const char* kernel : {"add_area_light", "extend_paths", "scatter_in_medium",
-                               "add_area_light_to_medium", "extend_in_medium"})
+    for (const char* kernel :
+         {"add_area_light", "extend_paths", "scatter_in_medium", "add_area_light_to_medium",
+          "extend_in_medium", "find_near_points", "add_near_light"})
         EXPECT_EQ(counters.launches[kernel] > 0, is_global) << kernel;
     EXPECT_EQ(report.not_finite, 0u);
     const Plane<float>& red = image.planes.at("R");

@@ -73,6 +73,26 @@ static inline lane_float sought_depth(const MediumScattering* m, SquarePoint p) 
     return LANES_SELECT(some, fmax(depth, 0.0f), (lane_float)INFINITY);
 }
 
+/// The density of the medium on the segments at `t`; 1 without a lattice.
+static inline lane_float density_at(const DensityView* density, const Segment* s, lane_float t,
+                                    lane_int active) {
+    if (!VXL_MEDIUM_GRID) return (lane_float)1.0f;
+    const Vector o = s->origin, d = s->direction;
+    const Vector at = {fma(t, d.x, o.x), fma(t, d.y, o.y), fma(t, d.z, o.z)};
+    const DensityCell cell = look_up_density(
+        density, LANES_INT(floor(at.x)), LANES_INT(floor(at.y)), LANES_INT(floor(at.z)), active);
+    return LANES_SELECT(active, cell.density, (lane_float)0.0f);
+}
+
+/// The density per metre with which paths are scattered behind `depth` of the medium, where it has
+/// this density.
+static inline lane_float chance_density(const MediumScattering* m, lane_float depth,
+                                        lane_float density) {
+    lane_float sum = (lane_float)0.0f;
+    for (int c = 0; c < 3; ++c) sum += m->per_metre[c] * exact_exp(-m->per_metre[c] * depth);
+    return sum * density * 0.333333333f;
+}
+
 /// Multiplies the throughput of paths by what each colour has of those that come through `depth`,
 /// and are scattered there in the `ends` lanes, over what their sampling has of all colours.
 static inline void weigh_colors(const MediumScattering* m, lane_float depth, lane_int ends,

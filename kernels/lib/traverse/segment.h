@@ -40,8 +40,8 @@ static inline lane_int scatters_before(const RayBatch* batch, uint first) {
 }
 
 /// The rays' parts up to what they met. A ray that met nothing goes on to the far surface, or to
-/// the world's end. Where the medium scatters its path, `transmittance` has the end.
-static inline Segment sight_segment(const RayBatch* batch, uint first) {
+/// the world's end.
+static inline Segment whole_segment(const RayBatch* batch, uint first) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
     const lane_int hit =
@@ -52,6 +52,12 @@ static inline Segment sight_segment(const RayBatch* batch, uint first) {
                        load_vector(batch->rays + VXL_RAY_DX * stride, stride, first),
                        (lane_float)0.0f, LANES_SELECT(hit, t_hit, t_end)};
     if (VXL_TRANSMISSION) segment.t_first = LANES_LOAD(batch->starts, first);
+    return segment;
+}
+
+/// The same, but where the medium scatters a path, `transmittance` has the end.
+static inline Segment sight_segment(const RayBatch* batch, uint first) {
+    Segment segment = whole_segment(batch, first);
     if (VXL_SCATTERING)
         segment.t_last = LANES_SELECT(scatters_before(batch, first),
                                       LANES_LOAD(batch->transmittance, first), segment.t_last);

@@ -20,6 +20,10 @@ MediumPathStage::MediumPathStage(const Device& device, const Features& features,
       add_light_(program_.kernel("add_light_to_medium")),
       extend_(program_.kernel("extend_in_medium")) {
     if (features.area_samples) add_area_light_.emplace(program_.kernel("add_area_light_to_medium"));
+    if (!features.near_light) return;
+    const Program program(device, "near_light.cl", features.defines(device));
+    near_.emplace(NearLightKernels{program, program.kernel("find_near_points"),
+                                   program.kernel("add_near_light")});
 }
 
 uint32_t MediumPathStage::scatter(const Pyramid& pyramid, const PathSampling& sampling,
@@ -29,6 +33,20 @@ uint32_t MediumPathStage::scatter(const Pyramid& pyramid, const PathSampling& sa
                             entries, count, counters_, static_cast<const RayQueue&>(points),
                             points.hits, points.radiance);
     return counters_.read()[kCountChildren];
+}
+
+uint32_t MediumPathStage::near(const Pyramid& pyramid, const LightRecord& light,
+                               const PathSampling& sampling, bool from_observer, RayBatch& entries,
+                               uint32_t count, RayBatch& points) {
+    counters_.fill(0);
+    near_->find.launch_packets(count, shape_of(pyramid), light, absorption_, scattering_, density_,
+                               sampling, uint32_t(from_observer), entries, count, counters_,
+                               static_cast<const RayQueue&>(points), points.hits, points.radiance);
+    return counters_.read()[kCountChildren];
+}
+
+void MediumPathStage::add_near(RayBatch& points, uint32_t count, NodeLight& nodes) {
+    near_->add.launch_packets(count, points.paths, points.radiance, points.stride, count, nodes);
 }
 
 void MediumPathStage::add_light(const Pyramid& pyramid, const LightRecord& light, RayBatch& points,

@@ -20,6 +20,12 @@
 
 namespace voxelume {
 
+/// The kernels of near_light.cl.
+struct NearLightKernels {
+    Program program;
+    Kernel find, add;
+};
+
 /// The kernels of medium_paths.cl for one feature set with `scattering`.
 class MediumPathStage {
   public:
@@ -35,6 +41,14 @@ class MediumPathStage {
     /// Returns their number.
     uint32_t scatter(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& entries,
                      uint32_t count, RayBatch& points);
+
+    /// Chooses points that a light is near to on entries 0 .. count-1, whose hits are known, and
+    /// writes them to `points`. Returns their number. Call it for an observer's rays at any time,
+    /// for others before `scatter`, and only for features with `near_light`.
+    uint32_t near(const Pyramid& pyramid, const LightRecord& light, const PathSampling& sampling,
+                  bool from_observer, RayBatch& entries, uint32_t count, RayBatch& points);
+    /// Adds the light of these points to the nodes of their sight rays.
+    void add_near(RayBatch& points, uint32_t count, NodeLight& nodes);
 
     /// Queues rays from points 0 .. count-1 to a light without an area, or to one with it.
     void add_light(const Pyramid& pyramid, const LightRecord& light, RayBatch& points,
@@ -60,6 +74,7 @@ class MediumPathStage {
     Kernel scatter_, add_light_;
     std::optional<Kernel> add_area_light_;  ///< only for features with `area_samples`
     Kernel extend_;
+    std::optional<NearLightKernels> near_;  ///< only for features with `near_light`
 };
 
 }  // namespace voxelume

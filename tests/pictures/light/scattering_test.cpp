@@ -8,40 +8,10 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "tests/pictures/light/global_light.hpp"
+#include "tests/pictures/light/medium_cube.hpp"
 
 namespace voxelume {
 namespace {
-
-/// A cube of a medium with sides of 2 m, seen along -z.
-Json cube_of_medium(const Json& medium, const Json& lights, int bounces, int samples) {
-    Json scene = Json::parse(R"({"voxelume": 1,
-"world": {"voxel_size": 0.125, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
-"observer": {"position": [0.0625, 0.1875, 5], "look_at": [0.0625, 0.1875, 0],
-             "projection": "orthographic", "width": 1e-4},
-"render": {"size": [16, 16], "light": "global"}})");
-    scene["world"]["medium"] = medium;
-    scene["lights"] = lights;
-    scene["render"]["bounces"] = bounces;
-    scene["render"]["samples"] = samples;
-    return scene;
-}
-
-Image image_of(const Json& json, int lanes = 0) {
-    RenderReport report;
-    return render(test_device(lanes), parse_scene(json.dump(), "medium", {}), report);
-}
-
-Estimate estimate_of_channel(const Image& image, const char* channel) {
-    std::vector<double> values;
-    for (size_t i = 0; i < 256; ++i) values.push_back(double(image.planes.at(channel)[i]));
-    return estimate_of(values);
-}
-
-/// Henyey and Greenstein's phase function.
-double phase(double g, double cosine) {
-    return (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
-}
 
 Json directional(const glm::dvec3& way, double intensity) {
     return Json::array({{{"type", "directional"},
@@ -61,10 +31,10 @@ class ScatteredOnce : public testing::TestWithParam<Once> {};
 TEST_P(ScatteredOnce, FollowsTheIntegralInEachColour) {
     const auto [scattering, absorption, g, way] = GetParam();
     const auto json_of = [](const glm::dvec3& v) { return Json{v.x, v.y, v.z}; };
-    const Image image = image_of(cube_of_medium({{"scattering", json_of(scattering)},
-                                                 {"absorption", json_of(absorption)},
-                                                 {"anisotropy", g}},
-                                                directional(way, 2), 0, 256));
+    const Image image = image_of_medium(cube_of_medium({{"scattering", json_of(scattering)},
+                                                        {"absorption", json_of(absorption)},
+                                                        {"anisotropy", g}},
+                                                       directional(way, 2), 0, 256));
     const double to_viewer = phase(g, glm::dot(glm::normalize(way), glm::dvec3(0, 0, 1)));
     constexpr const char* kChannels[] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
@@ -98,7 +68,7 @@ TEST(Scattering, FollowsTheDensityOfEachVoxel) {
         {"absorption", {0.5, 0.5, 0.5}},
         {"anisotropy", 0.25},
         {"density", {{"kind", "ball"}, {"center", {0, 0, 0}}, {"radius", 0.8}, {"falloff", 0.5}}}};
-    const Image image = image_of(cube_of_medium(medium, directional({0, -1, 0}, 3), 0, 256));
+    const Image image = image_of_medium(cube_of_medium(medium, directional({0, -1, 0}, 3), 0, 256));
     constexpr double kEdge = 0.125, kX = 0.0625, kY = 0.1875;
     const auto density = [](double y, double z) {
         const double distance = std::sqrt(kX * kX + y * y + z * z);
@@ -127,7 +97,7 @@ TEST(Scattering, SeesLightsWithAnArea) {
                                     {"direction", {0, -1, 0}},
                                     {"radius", kRadius},
                                     {"intensity", kIntensity}}});
-    const Image image = image_of(cube_of_medium(
+    const Image image = image_of_medium(cube_of_medium(
         {{"scattering", {1, 1, 1}}, {"absorption", {0.5, 0.5, 0.5}}, {"anisotropy", kG}}, disk, 0,
         256));
     constexpr int kSteps = 200, kRings = 40, kTurns = 80;
@@ -174,7 +144,7 @@ TEST(Scattering, WeighsTheMediumsOwnLight) {
         {{"scattering", {0.1, 0.2, 0.8}}, {"absorption", {0.3, 0.3, 0.3}}, {"color", {1, 1, 1}}},
         Json::array(), 16, 256);
     scene["world"]["background"] = {1, 1, 1};
-    const Image image = image_of(scene);
+    const Image image = image_of_medium(scene);
     for (const char* channel : {"R", "G", "B"})
         expect_mean(estimate_of_channel(image, channel), 1, channel);
 }
@@ -190,7 +160,7 @@ TEST(Scattering, FindsLampsByAllWays) {
         scene["render"]["lamps"] = kWays[i];
         add_thing(scene, {{"shape", "sphere"}, {"radius", 0.4}, {"surface", "cubes"}}, "lamp",
                   {0, -0.5, 0});
-        found[i] = estimate_of_channel(image_of(scene), "R");
+        found[i] = estimate_of_channel(image_of_medium(scene), "R");
         fmt::print("{}: {:.5f} +- {:.5f}\n", kWays[i], found[i].mean, found[i].error);
     }
     for (size_t i = 1; i < 3; ++i)
@@ -205,7 +175,7 @@ TEST(Scattering, CoversNothing) {
     for (const char* material : {"matt", "veil"}) {
         Json with = scene;
         add_thing(with, {{"shape", "sphere"}, {"radius", 0.2}}, material, {0.5, 0.5, 0.5});
-        EXPECT_EQ(estimate_of_channel(image_of(with), "A").mean, 0) << material;
+        EXPECT_EQ(estimate_of_channel(image_of_medium(with), "A").mean, 0) << material;
     }
 }
 
@@ -224,8 +194,9 @@ TEST(Scattering, HasTheSameBitsForAllLanes) {
     add_thing(scene, {{"shape", "box"}, {"size", {0.3, 0.1, 0.2}}, {"surface", "cubes"}}, "chalk",
               {0.2, -0.2, 0}, {{"placement", "instance"}});
     send_rays(scene, {0, 0, -0.55}, {0.05, 0.1, 1}, 0.8, 10);
-    const Image image = image_of(scene);
-    for (const int lanes : {1, 4, 16}) EXPECT_TRUE(image_of(scene, lanes).planes == image.planes);
+    const Image image = image_of_medium(scene);
+    for (const int lanes : {1, 4, 16})
+        EXPECT_TRUE(image_of_medium(scene, lanes).planes == image.planes);
 }
 
 TEST(Scattering, CostsNothingWhereItIsNotFollowed) {

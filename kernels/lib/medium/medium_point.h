@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points in a medium that light comes from: as rays of a queue that begin there.
+#ifndef VXL_MEDIUM_POINT_H
+#define VXL_MEDIUM_POINT_H
+
+#include "lib/lanes/exact_exp.h"
+#include "lib/light/child_rays.h"
+#include "lib/medium/near_light.h"
+#include "lib/traverse/segment.h"
+
+/// What a point in the medium begins with: the way on which the path came, with no surface around.
+static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float t, lane_uint target,
+                               lane_uint state) {
+    const float one = shape.fixed_point;
+    const lane_float zero = (lane_float)0.0f;
+    NewRays r;
+    // Rounded back along the way, so that no point comes to lie in what is ahead.
+    const Vector at = add_scaled(s->origin, s->direction, t), d = s->direction;
+    r.origin.x = clamp(snap_position(at.x, -d.x, one), 0.0f, (float)shape.size_x);
+    r.origin.y = clamp(snap_position(at.y, -d.y, one), 0.0f, (float)shape.size_y);
+    r.origin.z = clamp(snap_position(at.z, -d.z, one), 0.0f, (float)shape.size_z);
+    r.direction = s->direction;
+    r.t_end = (lane_float)INFINITY;
+    r.source = (lane_uint)VXL_NO_PRIMITIVE;
+    r.instance = (lane_uint)VXL_NO_INSTANCE;
+    r.flags = r.emitter = r.cell_xy = r.cell_z = r.medium = (lane_uint)0;
+    r.travelled = r.width = r.start = r.clear = r.weight = zero;
+    r.media = empty_medium_set();
+    r.target = target;
+    r.state = state;
+    return r;
+}
+
+/// Puts points into a queue, with the throughput of the light from there.
+static inline void put_points(const RayQueue* points, const NewRays* point, const Slots* slots,
+                              global uint* restrict hits, global float* restrict radiance) {
+    put_rays(points, point, slots);
+    put_uint(hits + VXL_HIT_VOXEL * points->stride, (lane_uint)VXL_NO_VOXEL, slots);
+    if (VXL_INSTANCES)
+        put_uint(hits + VXL_HIT_INSTANCE * points->stride, (lane_uint)VXL_NO_INSTANCE, slots);
+    for (uint c = 0; c < 3; ++c) put_float(radiance + c * points->stride, (lane_float)0.0f, slots);
+}
+
+// What points have in place of a hit where lights that aren't far away matter: how far the path
+// came to the point in the medium, and how far it would have gone on there, in metres, and the
+// density per metre of its being scattered there. All are 0 where a light needs no other density.
+#define VXL_POINT_CAME VXL_HIT_T
+#define VXL_POINT_AHEAD VXL_HIT_CELL
+#define VXL_POINT_DENSITY VXL_HIT_FACE
+
+static inline void put_ways(global uint* restrict hits, uint stride, lane_float came,
+                            lane_float ahead, lane_float density, const Slots* slots) {
+    put_uint(hits + VXL_POINT_CAME * stride, LANES_AS_UINT(came), slots);
+    put_uint(hits + VXL_POINT_AHEAD * stride, LANES_AS_UINT(ahead), slots);
+    put_uint(hits + VXL_POINT_DENSITY * stride, LANES_AS_UINT(density), slots);
+}
+
+/// The part that a point found by chance has of a light's estimate: the other points have the rest.
+static inline lane_float share_of_chance(LightRecord light, Vector to_light, Vector way,
+                                         global const uint* restrict hits, uint stride, uint first,
+                                         lane_int valid) {
+    const lane_float came = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_CAME * stride + first));
+    const lane_float ahead = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_AHEAD * stride + first));
+    const lane_float density = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_DENSITY * stride + first));
+    valid &= LANE_MASK(density > 0.0f);
+    const NearPart part = near_part(light, to_light, way, -came, ahead, valid);
+    const lane_float other = near_density(&part, -dot_product(to_light, way));
+    return LANES_SELECT(
+        valid, exact_divide(density, LANES_SELECT(valid, density + other, (lane_float)1.0f)),
+        (lane_float)1.0f);
+}
+
+#endif
