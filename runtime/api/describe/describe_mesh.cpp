@@ -11,6 +11,7 @@
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/mesh/material_library.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/memory/plan.hpp"
 
@@ -70,6 +71,24 @@ std::vector<std::string> unshown_materials(const GltfFile& file) {
     return notes;
 }
 
+/// The same of the libraries of an OBJ file.
+std::vector<std::string> unshown_maps(const std::filesystem::path& path, const Mesh& mesh) {
+    bool has_bumps = false, has_specular = false;
+    std::vector<std::string> faults;  // the mesh's summary has them, too
+    for (const MtlMaterial& m : read_material_libraries(path, mesh.material_libraries, faults)) {
+        has_bumps |= m.has_bumps;
+        has_specular |= m.has_specular_maps;
+    }
+    std::vector<std::string> notes;
+    if (has_bumps)
+        notes.emplace_back(
+            "its textures map_Bump, norm and disp aren't shown: surfaces have no bumps");
+    if (has_specular)
+        notes.emplace_back(
+            "its textures map_Ks and map_Ns aren't shown: all of a surface has one highlight");
+    return notes;
+}
+
 /// What of the file isn't shown.
 std::vector<std::string> notes_of(const MeshSummary& mesh, std::vector<std::string> notes) {
     notes.insert(notes.begin(), mesh.notes.begin(), mesh.notes.end());
@@ -92,6 +111,7 @@ Report describe_mesh(const std::filesystem::path& path) {
         unshown = unshown_materials(file);
     } else {
         mesh = read_mesh(path);
+        unshown = unshown_maps(path, mesh);
     }
     const MeshSummary summary = summary_of(mesh);
     const Bounds& box = summary.surface;

@@ -112,7 +112,16 @@ MtlTexture* map_named(const std::string& word, MtlMaterial& m) {
     if (word == "map_Kd") return &m.diffuse_map;
     if (word == "map_Ke") return &m.emission_map;
     if (word == "map_Pr") return &m.roughness_map;
+    if (word == "map_d") return &m.opacity_map;
     return word == "map_Pm" ? &m.metallic_map : nullptr;
+}
+
+/// Notes the statements of textures that nothing shows.
+void read_unshown(const std::string& word, MtlMaterial& m) {
+    constexpr std::array<std::string_view, 7> kBumps = {"map_Bump", "map_bump", "bump",    "norm",
+                                                        "map_Kn",   "disp",     "map_disp"};
+    m.has_bumps |= std::ranges::find(kBumps, word) != kBumps.end();
+    m.has_specular_maps |= word == "map_Ks" || word == "map_Ns";
 }
 
 void read_statement(const Statement& statement, MtlMaterial& m) {
@@ -143,6 +152,8 @@ void read_statement(const Statement& statement, MtlMaterial& m) {
         m.metallic = statement.number(1);
     } else if (MtlTexture* const map = map_named(word, m)) {
         *map = texture_of(statement);
+    } else {
+        read_unshown(word, m);
     }
 }
 

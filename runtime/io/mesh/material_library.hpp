@@ -31,6 +31,9 @@ struct MtlMaterial {
     MtlTexture diffuse_map;                             ///< map_Kd
     MtlTexture emission_map;                            ///< map_Ke
     MtlTexture roughness_map, metallic_map;             ///< map_Pr, map_Pm
+    MtlTexture opacity_map;                             ///< map_d
+    bool has_bumps = false;                             ///< map_Bump, norm, disp: not shown
+    bool has_specular_maps = false;                     ///< map_Ks, map_Ns: not shown
 
     /// Whether it is described by roughness and metalness.
     bool is_physical() const {

@@ -20,28 +20,43 @@ std::array<float, 6> places_by(const MtlTexture& map, const MtlTexture& base) {
     return {float(ratio.x), 0, float(u), 0, float(ratio.y), float(v)};
 }
 
-/// A channel at a place of a picture of another size, or a number where there is no picture.
+using Pixel = std::array<uint8_t, 4>;
+
+/// The pixel that a picture has at a place of one of another size.
+const Pixel& pixel_at(const Picture& picture, int x, int y, glm::ivec2 size) {
+    const auto at_x = size_t((2 * int64_t{x} + 1) * picture.width / (2 * int64_t{size.x}));
+    const auto at_y = size_t((2 * int64_t{y} + 1) * picture.height / (2 * int64_t{size.y}));
+    return picture.pixels[at_y * size_t(picture.width) + at_x];
+}
+
+/// Its red channel, or a number where there is no picture.
 uint8_t value_at(const std::optional<Picture>& picture, int x, int y, glm::ivec2 size,
                  uint8_t otherwise) {
-    if (!picture) return otherwise;
-    const auto at_x = size_t((2 * int64_t{x} + 1) * picture->width / (2 * int64_t{size.x}));
-    const auto at_y = size_t((2 * int64_t{y} + 1) * picture->height / (2 * int64_t{size.y}));
-    return picture->pixels[at_y * size_t(picture->width) + at_x][0];
+    return picture ? pixel_at(*picture, x, y, size)[0] : otherwise;
+}
+
+/// The size of the picture of more texels; 1 x 1 without pictures.
+glm::ivec2 larger_size(std::initializer_list<const Picture*> pictures) {
+    glm::ivec2 size(1);
+    int64_t texels = 0;
+    for (const Picture* picture : pictures)
+        if (picture && int64_t{picture->width} * picture->height > texels) {
+            size = {picture->width, picture->height};
+            texels = int64_t{size.x} * size.y;
+        }
+    return size;
+}
+
+const Picture* pointer_to(const std::optional<Picture>& picture) {
+    return picture ? &*picture : nullptr;
 }
 
 /// One picture as glTF has it, of the larger one's size: roughness is green, and metalness blue.
 Picture joined(const std::optional<Picture>& rough, uint8_t no_rough,
                const std::optional<Picture>& metal, uint8_t no_metal) {
-    Picture picture{1, 1, {}};
-    int64_t texels = 0;
-    for (const auto* part : {&rough, &metal})
-        if (*part && int64_t{(*part)->width} * (*part)->height > texels) {
-            picture.width = (*part)->width;
-            picture.height = (*part)->height;
-            texels = int64_t{picture.width} * picture.height;
-        }
-    picture.pixels.reserve(size_t(picture.width) * size_t(picture.height));
-    const glm::ivec2 size(picture.width, picture.height);
+    const glm::ivec2 size = larger_size({pointer_to(rough), pointer_to(metal)});
+    Picture picture{size.x, size.y, {}};
+    picture.pixels.reserve(size_t(size.x) * size_t(size.y));
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             picture.pixels.push_back({255, value_at(rough, x, y, size, no_rough),
@@ -54,6 +69,32 @@ Picture joined(const std::optional<Picture>& rough, uint8_t no_rough,
 bool has_maps(const MtlMaterial& m) {
     return !m.emission_map.file.empty() || !m.roughness_map.file.empty() ||
            !m.metallic_map.file.empty();
+}
+
+Picture covered_by(const Picture& cover, const std::optional<Picture>& colors) {
+    const bool has_alpha = lets_through(cover);
+    const auto share = [&](const Pixel& p) {
+        return has_alpha ? p[3] : uint8_t((int{p[0]} + p[1] + p[2] + 1) / 3);
+    };
+    const glm::ivec2 size = larger_size({&cover, pointer_to(colors)});
+    Picture picture{size.x, size.y, {}};
+    picture.pixels.reserve(size_t(size.x) * size_t(size.y));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            Pixel pixel = colors ? pixel_at(*colors, x, y, size) : Pixel{255, 255, 255, 255};
+            pixel[3] = share(pixel_at(cover, x, y, size));
+            picture.pixels.push_back(pixel);
+        }
+    return picture;
+}
+
+bool lets_through(const Picture& picture) {
+    const auto alpha = [](const Pixel& p) { return p[3]; };
+    const auto& pixels = picture.pixels;
+    return std::ranges::any_of(
+               pixels, [](int a) { return a < 255; }, alpha) &&
+           std::ranges::any_of(
+               pixels, [](int a) { return a > 0; }, alpha);
 }
 
 void LibraryMaps::add(const MtlMaterial& material, Texture& texture) {

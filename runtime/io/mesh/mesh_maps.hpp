@@ -17,6 +17,14 @@ namespace voxelume {
 
 bool has_maps(const MtlMaterial& material);
 
+/// What `colors`, or white, becomes where another picture says how much of it covers: by its alpha
+/// or, if that is 255 everywhere, by the mean of its channels. It is of the larger one's size.
+Picture covered_by(const Picture& cover, const std::optional<Picture>& colors);
+
+/// Whether the alpha of some pixels is below 255. A picture whose alpha is 0 everywhere counts as
+/// one without: nobody paints what isn't there.
+bool lets_through(const Picture& picture);
+
 /// The maps of a library's materials as textures of a mesh, each pair of pictures once.
 class LibraryMaps {
   public:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <string_view>
+#include <tuple>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
@@ -53,9 +54,19 @@ std::string without_places(const std::string& texture) {
 
 /// The first picture that a material names.
 std::string first_file(const MtlMaterial& m) {
-    for (const MtlTexture* map : {&m.diffuse_map, &m.emission_map, &m.roughness_map})
+    for (const MtlTexture* map :
+         {&m.diffuse_map, &m.opacity_map, &m.emission_map, &m.roughness_map})
         if (!map->file.empty()) return map->file;
     return m.metallic_map.file;
+}
+
+/// The material with the options of map_d for its colours, too, where it has no picture of them:
+/// the places on all of its textures follow from theirs.
+MtlMaterial with_base(MtlMaterial m) {
+    if (!m.diffuse_map.file.empty()) return m;
+    m.diffuse_map = m.opacity_map;
+    m.diffuse_map.file.clear();
+    return m;
 }
 
 /// Gives the materials of a library the textures of a mesh, each picture once.
@@ -67,18 +78,54 @@ class LibraryTextures {
     /// The number of a material's texture, or kNoTexture.
     uint32_t of(const MtlMaterial& material) {
         const MtlTexture& map = material.diffuse_map;
+        const std::string cover = cover_of(material);
         uint32_t colors = kNoTexture;
-        if (!map.file.empty()) {
-            const auto [entry, is_new] = known_.try_emplace({map.file, map.clamps}, kNoTexture);
-            if (is_new)
-                entry->second = append_texture(
-                    name_, map.file, map.clamps ? TextureWrap::clamp : TextureWrap::repeat, mesh_);
+        if (!map.file.empty() || !cover.empty()) {
+            const auto [entry, is_new] =
+                known_.try_emplace({map.file, cover, map.clamps}, kNoTexture);
+            if (is_new) entry->second = append_colors(map, cover);
             colors = entry->second;
         }
+        if (colors != kNoTexture) note_missing_alpha(material, mesh_.textures[colors]);
         return has_maps(material) ? with_maps(material, colors) : colors;
     }
 
   private:
+    /// The picture that says how much the material covers, besides that of its colours.
+    std::string cover_of(const MtlMaterial& material) {
+        const MtlTexture &map = material.diffuse_map, &cover = material.opacity_map;
+        if (cover.file.empty() || cover.file == map.file) return "";
+        if (cover.offset == map.offset && cover.scale == map.scale && cover.clamps == map.clamps)
+            return cover.file;
+        mesh_.notes.push_back(
+            fmt::format("its texture {} isn't shown: map_d has other options "
+                        "than map_Kd",
+                        quote(cover.file)));
+        return "";
+    }
+
+    void note_missing_alpha(const MtlMaterial& material, const Texture& texture) {
+        const std::string& file = material.opacity_map.file;
+        if (file.empty() || file != material.diffuse_map.file || texture.alpha != kAlphaOpaque)
+            return;
+        mesh_.notes.push_back(fmt::format(
+            "its texture {} shows no opacity, as map_d wants: it has no alpha", quote(file)));
+    }
+
+    /// Appends a texture of colours, which are white without a file, and of what they cover.
+    uint32_t append_colors(const MtlTexture& map, const std::string& cover) {
+        std::optional<Picture> colors, share;
+        if (!map.file.empty()) colors = companion_picture(name_, map.file, mesh_);
+        if (!cover.empty()) share = companion_picture(name_, cover, mesh_);
+        if (share) colors = covered_by(*share, colors);
+        if (!colors) return kNoTexture;
+        const TextureWrap wrap = map.clamps ? TextureWrap::clamp : TextureWrap::repeat;
+        const uint32_t alpha = lets_through(*colors) ? kAlphaBlend : kAlphaOpaque;
+        mesh_.textures.push_back(
+            {std::make_shared<const TextureImage>(with_levels(*colors)), wrap, wrap, alpha});
+        return uint32_t(mesh_.textures.size() - 1);
+    }
+
     /// A texture with the material's maps, and the colours of another one, or white.
     uint32_t with_maps(const MtlMaterial& material, uint32_t colors) {
         Texture texture;
@@ -94,7 +141,8 @@ class LibraryTextures {
     const fs::path& name_;
     Mesh& mesh_;
     LibraryMaps maps_;
-    std::map<std::pair<std::string, bool>, uint32_t> known_;
+    /// By the files of colours and of what they cover, and by being clamped.
+    std::map<std::tuple<std::string, std::string, bool>, uint32_t> known_;
 };
 
 /// True for the names by which programs say that faces have no material.
@@ -109,21 +157,21 @@ void read_library_textures(const fs::path& name, Mesh& mesh) {
     LibraryTextures textures(name, mesh);
     for (uint32_t group = 0; group < groups && group < mesh.group_names.size(); ++group) {
         const std::string& wanted = mesh.group_names[group];
-        const auto material = std::ranges::find(library, wanted, &MtlMaterial::name);
-        if (material == library.end()) {
+        const auto found = std::ranges::find(library, wanted, &MtlMaterial::name);
+        if (found == library.end()) {
             if (!names_no_material(wanted)) mesh.missing_materials.push_back(wanted);
             continue;
         }
-        const MtlTexture& map = material->diffuse_map;
-        if (map.file.empty() && !has_maps(*material)) continue;
+        if (first_file(*found).empty()) continue;
         if (mesh.uvs.empty()) {
-            mesh.notes.push_back(without_places(first_file(*material)));
+            mesh.notes.push_back(without_places(first_file(*found)));
             continue;
         }
-        const uint32_t number = textures.of(*material);
+        const MtlMaterial material = with_base(*found);
+        const uint32_t number = textures.of(material);
         mesh.group_textures.resize(groups, kNoTexture);
         mesh.group_textures[group] = number;
-        if (number != kNoTexture) move_uvs(mesh, group, map);
+        if (number != kNoTexture) move_uvs(mesh, group, material.diffuse_map);
     }
 }
 
@@ -230,8 +278,9 @@ std::vector<fs::path> companion_files(const std::string& bytes, const fs::path& 
         files = material_library_files(name, libraries);
         std::vector<std::string> faults;
         for (const MtlMaterial& material : read_material_libraries(name, libraries, faults))
-            for (const MtlTexture* map : {&material.diffuse_map, &material.emission_map,
-                                          &material.roughness_map, &material.metallic_map})
+            for (const MtlTexture* map :
+                 {&material.diffuse_map, &material.opacity_map, &material.emission_map,
+                  &material.roughness_map, &material.metallic_map})
                 if (!map->file.empty()) add(map->file);
     }
     return files;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alpha of glTF textures where rays meet exact triangles: what is seen through sheets that
-// stand one behind the other, and the light that falls through them.
+// The alpha of textures where rays meet exact triangles, as glTF files and libraries of OBJ files
+// have it: what is seen through sheets that stand one behind the other, and the light that falls
+// through them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
 #include "tests/support/writers/gltf_writer.hpp"
+#include "tests/support/writers/png_writer.hpp"
 
 namespace voxelume {
 namespace {
@@ -77,18 +79,43 @@ class TextureAlpha : public FileTest {
         put_bytes(folder / "sheets.gltf", writer.gltf());
     }
 
-    Scene scene_of(const char* placement, double eye, const char* light) const {
+    /// The same sheets in an OBJ file, whose library has the alpha in map_Kd, or as grey in map_d.
+    void write_obj(bool by_map_d, uint8_t grey) const {
+        const std::string options = " -clamp on ";
+        std::vector<std::string> colors(kTexels), shares(kTexels);
+        for (int k = 0; k < kTexels * kTexels; ++k) {
+            const int x = k % kTexels, y = k / kTexels;
+            const auto alpha = char(std::lround(255 * texel_alpha(x, y)));
+            colors[size_t(y)] += std::string(3, char(grey)) + alpha;
+            shares[size_t(y)] += alpha;
+        }
+        put_bytes(folder / "colors.png", png_of_rows(kTexels, 8, 6, colors));
+        put_bytes(folder / "shares.png", png_of_rows(kTexels, 8, 0, shares));
+        put_bytes(folder / "a.mtl", "newmtl a\nmap_Kd" + options + "colors.png\n");
+        if (by_map_d) {
+            const std::string code = std::to_string(grey / 255.0);
+            put_bytes(folder / "a.mtl",
+                      "newmtl a\nKd " + code + "\nmap_d" + options + "shares.png\n");
+        }
+        put_bytes(folder / "sheets.obj",
+                  "mtllib a.mtl\nv -1 -1 0\nv -1 1 0\nv 1 1 0\nv 1 -1 0\nv -0.7 -1 0.5\n"
+                  "v -0.7 1 0.5\nv 1.3 1 0.5\nv 1.3 -1 0.5\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\n"
+                  "usemtl a\nf 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n");
+    }
+
+    Scene scene_of(const char* placement, double eye, const char* light,
+                   const char* mesh = "sheets.gltf") const {
         return parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.05, "bounds": {{"min": [-2, -2, -0.3], "max": [2, 2, 1.6]}}, {}}},
 "materials": {{"sheet": {{"color": [1, 1, 1]}}, "wall": {{"color": [0.25, 0.5, 1]}}}},
-"models": {{"sheets": {{"mesh": "sheets.gltf", "surface": "exact", "voxel_size": 0.05}},
+"models": {{"sheets": {{"mesh": "{}", "surface": "exact", "voxel_size": 0.05}},
            "wall": {{"shape": "box", "size": [3.8, 3.8, 0.2], "surface": "exact"}}}},
 "objects": [{{"model": "sheets", "material": "sheet", "placement": "{}"}},
             {{"model": "wall", "material": "wall", "position": [0, 0, 1.4]}}],
 "observer": {{"position": [0, 0, {}], "look_at": [0, 0, 9],
              "display": {{"shape": "box", "size": [2.8, 2.4, 6]}}}},
 "lights": [], "render": {{"size": [56, 48]}}}})",
-                                       light, placement, eye),
+                                       light, mesh, placement, eye),
                            folder / "scene.json", {});
     }
 };
@@ -132,6 +159,21 @@ TEST_F(TextureAlpha, ShowsWhatLiesBehindSheetsOfOneObject) {
             });
             EXPECT_LT(off, 6) << mode << placement;
         }
+    }
+}
+
+TEST_F(TextureAlpha, OfLibrariesIsThatOfBlends) {
+    // sRGB 188 is 0.5028 in linear light. map_d alone leaves the color to the scene's material.
+    const char* const ambient = R"("ambient": [1, 1, 1])";
+    for (const bool by_map_d : {false, true}) {
+        write_obj(by_map_d, 188);
+        const double own = by_map_d ? 1 : 0.5028;
+        const Scene scene = scene_of("world", -3, ambient, "sheets.obj");
+        const double off = difference(image_of_scene(scene), [&](double x, double y) {
+            const double front = sheet_at("BLEND", x, y, 0), next = sheet_at("BLEND", x, y, 0.3);
+            return front * own + (1 - front) * (next * own + (1 - next) * 0.25);
+        });
+        EXPECT_LT(off, 6) << by_map_d;
     }
 }
 
