@@ -83,12 +83,12 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
                 "\"color\": [1, 1, 1], \"emission\": {}",
                 json_list(
                     rounded(linear * double(m.weight) * double((1 + m.flux) * (1 + m.flux)), 3)));
-        case VoxMaterialKind::media:
-            if (is_clear_medium(m, linear))
-                return "\"color\": [1, 1, 1], \"diffuse\": 0, \"refraction\": 1, \"ior\": 1, " +
-                       absorption_member(m, linear);
-            return fmt::format("\"color\": [1, 1, 1], \"opacity\": {}",
-                               rounded(0.2 + 0.8 * m.density, 3));
+        case VoxMaterialKind::media: {
+            const double matt = is_clear_medium(m, linear) ? 0 : 0.2 + 0.8 * double(m.density);
+            return fmt::format(
+                "\"color\": [1, 1, 1], \"diffuse\": {}, \"refraction\": {}, \"ior\": 1, {}",
+                rounded(matt, 3), rounded(1 - matt, 3), absorption_member(m, linear));
+        }
         case VoxMaterialKind::diffuse:
             break;
     }
@@ -98,9 +98,8 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
 bool VoxParts::has_glass() const {
     return std::ranges::any_of(entries_, [&](int entry) {
         const VoxMaterial& m = vox_.materials[size_t(entry)];
-        return m.kind == VoxMaterialKind::glass ||
-               (m.kind == VoxMaterialKind::blend && m.weight > 0) ||
-               is_clear_medium(m, linear_color(vox_.palette[size_t(entry)]));
+        return m.kind == VoxMaterialKind::glass || m.kind == VoxMaterialKind::media ||
+               (m.kind == VoxMaterialKind::blend && m.weight > 0);
     });
 }
 

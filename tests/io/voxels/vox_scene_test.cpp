@@ -120,8 +120,8 @@ TEST_F(VoxSceneTest, BlendsLetLightThroughAsFarAsTheySay) {
     EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), HasSubstr("\"shadow\": \"filtered\""));
 }
 
-// Faces within what absorbs light aren't seen, as those within glass; others have an opacity.
-TEST_F(VoxSceneTest, MediaThatAbsorbAreClearBodies) {
+// Faces within media aren't seen, as those within glass; those that scatter have a matt surface.
+TEST_F(VoxSceneTest, MediaAreBodiesThatAreClearWhereTheyAbsorb) {
     VoxWriter writer;
     writer.model({4, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}, {2, 0, 0, 3}, {3, 0, 0, 4}});
     std::array<uint32_t, 256> palette = odd_palette();
@@ -148,8 +148,10 @@ TEST_F(VoxSceneTest, MediaThatAbsorbAreClearBodies) {
     const Object& ground = *std::ranges::find(scene.objects, "ground", &Object::name);
     EXPECT_NEAR(ground.world_from_object[3].y + 0.000488 / 2, -0.01, 1e-9);
     for (const char* name : {"media 2", "media 3", "media 4"}) {
-        EXPECT_EQ(material(name).refraction, 0) << name;
-        EXPECT_FLOAT_EQ(material(name).opacity, 0.4f) << name;
+        EXPECT_FLOAT_EQ(material(name).diffuse, 0.4f) << name;
+        EXPECT_FLOAT_EQ(material(name).refraction, 0.6f) << name;
+        EXPECT_EQ(material(name).ior, 1) << name;
+        EXPECT_EQ(material(name).opacity, 1) << name;
     }
 }
 
