@@ -54,6 +54,8 @@ struct Mesh {
     std::string texture = {};  ///< of PLY's first comment TextureFile
     /// What isn't shown of the file, a sentence each without its full stop.
     std::vector<std::string> notes = {};
+    /// What was assumed where the file doesn't say it, as sentences for descriptions alone.
+    std::vector<std::string> assumptions = {};
 };
 
 }  // namespace voxelume

@@ -2,7 +2,7 @@
 // Wavefront OBJ -> Mesh, in one pass over the text.
 #include "runtime/base/decimal.hpp"
 #include "runtime/base/utf8.hpp"
-#include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/io/mesh/mesh_obj_colors.hpp"
 #include "runtime/io/mesh/mesh_obj_normals.hpp"
 #include "runtime/io/mesh/mesh_obj_uvs.hpp"
 #include "runtime/io/mesh/mesh_obj_words.hpp"
@@ -29,6 +29,7 @@ class ObjParser {
         while (p_ != source_.end()) {
             parse_statement();
         }
+        colors_.settle(source_, mesh_);
         if (mesh_.triangles.empty()) {
             source_.fail("the mesh has no triangles: no 'f' statement in the file");
         }
@@ -92,9 +93,7 @@ class ObjParser {
         }
         mesh_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (count == 6) {
-            append_color({numbers[3], numbers[4], numbers[5]});
-        } else if (!mesh_.vertex_colors.empty()) {
-            mesh_.vertex_colors.emplace_back(1.0f);
+            colors_.append(source_, p_, {numbers[3], numbers[4], numbers[5]}, mesh_);
         }
     }
 
@@ -102,18 +101,6 @@ class ObjParser {
         source_.fail_at_line(p_, fmt::format("'v' has {} numbers; it needs x y z, x y z w or x y z "
                                              "red green blue",
                                              count));
-    }
-
-    void append_color(const glm::dvec3& color) {
-        for (int i = 0; i < 3; ++i) {
-            if (!(color[i] >= 0.0 && color[i] <= 1.0)) {
-                source_.fail_at_line(
-                    p_,
-                    fmt::format("the vertex's colour has a {}; colours are from 0 to 1", color[i]));
-            }
-        }
-        mesh_.vertex_colors.resize(mesh_.positions.size() - 1, glm::vec3(1.0f));
-        mesh_.vertex_colors.push_back(linear_from_srgb(color));
     }
 
     /// Reads a normal. One that isn't three numbers becomes a vector of length 0.
@@ -271,6 +258,7 @@ class ObjParser {
     const MeshSource& source_;
     const char* p_;
     Mesh mesh_;
+    ObjColors colors_;
     PolygonCutter cutter_;
     std::vector<uint32_t> corners_;
     std::vector<uint32_t> normals_, uvs_;  ///< indices of the face's corners

@@ -117,4 +117,21 @@ TEST(MeshColors, OfMagicsHaveRedInTheLowestBitsAndOneOfThePartInTheHeader) {
     EXPECT_EQ(mesh.triangle_colors.size(), 6u);
 }
 
+TEST(MeshColors, OfObjFromZeroTo255AreBytesWhichIsAssumed) {
+    const Mesh mesh = parse_mesh("v 0 0 0 255 0 51\nv 5 0 0\nv 0 3 1 0 255 1\nf 1 2 3\n", "a.obj");
+    EXPECT_EQ(mesh.vertex_colors.at(0), vec3(1, 0, 0.033104766f));
+    EXPECT_EQ(mesh.vertex_colors.at(1), vec3(1)) << "no colour of its own";
+    EXPECT_THAT(mesh.vertex_colors.at(2).z, FloatNear(1 / 255.0f / 12.92f, 1e-8f));
+    EXPECT_THAT(mesh.assumptions, ElementsAre(HasSubstr("colours of vertices from 0 to 255")));
+    const Mesh plain = parse_mesh("v 0 0 0 1 0 0.2\nv 5 0 0\nv 0 3 1 0 1 0\nf 1 2 3\n", "a.obj");
+    EXPECT_EQ(plain.vertex_colors, (std::vector<vec3>{{1, 0, 0.033104766f}, vec3(1), {0, 1, 0}}));
+    EXPECT_THAT(plain.assumptions, IsEmpty());
+    EXPECT_EQ(refusal("v 0 0 0 0 0 0\nv 5 0 0 0 256 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
+              "a.obj:2: the vertex's colour has a 256; colours are from 0 to 1, or to 255");
+    EXPECT_THAT(refusal("v 0 0 0 0 0 -1\nv 5 0 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
+                HasSubstr("a.obj:1: the vertex's colour has a -1;"));
+    EXPECT_THAT(refusal("v 0 0 0 1 0 0\nv 5 0 0 0.5 1.25 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
+                HasSubstr("a.obj:2: the vertex's colour has a part above 1"));
+}
+
 }  // namespace voxelume

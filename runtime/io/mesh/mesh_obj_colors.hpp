@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours of the vertices of an OBJ file, from 0 to 1 or from 0 to 255.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/io/mesh/mesh_source.hpp"
+
+namespace voxelume {
+
+/// Takes colours as the file has them; what they mean is known when all of them are.
+class ObjColors {
+  public:
+    /// Appends the colour of the last position. `at` lies in its line.
+    void append(const MeshSource& source, const char* at, const glm::vec3& color, Mesh& mesh) {
+        for (int i = 0; i < 3; ++i) {
+            if (!(color[i] >= 0 && color[i] <= kBytes))
+                source.fail_at_line(
+                    at, fmt::format("the vertex's colour has a {}; colours are from 0 to 1, or to "
+                                    "255",
+                                    color[i]));
+            if (color[i] > 1 && !above_) above_ = at;
+            max_ = std::max(max_, color[i]);
+            is_whole_ = is_whole_ && color[i] == std::floor(color[i]);
+        }
+        mesh.vertex_colors.resize(mesh.positions.size() - 1, kNone);
+        mesh.vertex_colors.push_back(color);
+    }
+
+    /// Makes linear colours of all. Fractions that are little above 1 are no bytes: they are
+    /// refused, as dividing them would make the mesh black.
+    void settle(const MeshSource& source, Mesh& mesh) const {
+        if (mesh.vertex_colors.empty()) return;
+        mesh.vertex_colors.resize(mesh.positions.size(), kNone);
+        if (max_ > 1 && max_ < 2 && !is_whole_)
+            source.fail_at_line(above_,
+                                fmt::format("the vertex's colour has a part above 1, and none of "
+                                            "the file is above {}; colours are from 0 to 1, or to "
+                                            "255",
+                                            max_));
+        const double scale = max_ > 1 ? kBytes : 1;
+        for (glm::vec3& color : mesh.vertex_colors)
+            color = color.x < 0 ? glm::vec3(1) : linear_from_srgb(glm::dvec3(color) / scale);
+        if (scale != 1)
+            mesh.assumptions.emplace_back(
+                "assumed: colours of vertices from 0 to 255, for some are above 1");
+    }
+
+  private:
+    static constexpr float kBytes = 255;
+    static constexpr glm::vec3 kNone{-1};  ///< of a vertex without a colour, which is white
+
+    float max_ = 0;
+    bool is_whole_ = true;
+    const char* above_ = nullptr;  ///< in the line of the first colour with a part above 1
+};
+
+}  // namespace voxelume
