@@ -23,7 +23,15 @@ double number_of(const std::string& word) {
     return end == word.c_str() || *end != '\0' ? NAN : value;
 }
 
+bool is_data_file(std::string_view field) {
+    return field == "data file" || field == "datafile";
+}
+
 }  // namespace
+
+void NrrdFields::refuse_several(const InputFile& file) {
+    file.refuse("its data are in several files; join them to one");
+}
 
 NrrdFields::NrrdFields(const InputFile& file) {
     std::string start(std::min(file.size(), kMaxNrrdHeader), '\0');
@@ -45,8 +53,11 @@ NrrdFields::NrrdFields(const InputFile& file) {
         if (colon == std::string_view::npos || colon + 1 >= line.size())
             file.refuse("a line of its header has no value");
         const bool is_key = line[colon + 1] == '=';
-        (is_key ? keys_ : fields_)[std::string(trimmed(line.substr(0, colon)))] =
-            std::string(trimmed(line.substr(colon + (is_key ? 2 : 1))));
+        const std::string name(trimmed(line.substr(0, colon))),
+            value(trimmed(line.substr(colon + (is_key ? 2 : 1))));
+        (is_key ? keys_ : fields_)[name] = value;
+        // The lines behind a list are the names of files.
+        if (!is_key && is_data_file(name) && value.starts_with("LIST")) refuse_several(file);
     }
     if (end_ < file.size() || fields_.empty())
         file.refuse("its header has no end; it is truncated");

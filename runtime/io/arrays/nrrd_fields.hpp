@@ -28,6 +28,9 @@ class NrrdFields {
     bool has_key(std::string_view name) const { return keys_.contains(name); }
     uint64_t end() const { return end_; }  ///< byte behind the header
 
+    /// Throws Error::input for a header whose data are in several files.
+    [[noreturn]] static void refuse_several(const InputFile& file);
+
     /// "(1,0.5,-2)" as a vector; none for "none" and for what isn't three numbers.
     static std::optional<glm::dvec3> vector(std::string_view word);
 

@@ -55,6 +55,12 @@ DataEncoding nrrd_encoding(const std::string& name, const InputFile& file) {
                     quote(name)));
 }
 
+/// Whether the header says that the first axis is that of a colour, as in "RGB-color".
+bool says_colors(const NrrdFields& fields) {
+    const std::vector<std::string> kinds = fields.words("kinds");
+    return !kinds.empty() && kinds[0].find("color") != std::string::npos;
+}
+
 /// Sets the counts and channels. Returns the number of the first axis of space.
 size_t set_sizes(const NrrdFields& fields, const InputFile& file, CellArray& array) {
     const std::vector<double> sizes = fields.numbers("sizes"),
@@ -87,6 +93,9 @@ size_t set_sizes(const NrrdFields& fields, const InputFile& file, CellArray& arr
         }
     }
     for (size_t i = 0; i < 3; ++i) array.counts[int(i)] = int(sizes[first + i]);
+    if (array.channels > 1 && !says_colors(fields))
+        array.notes.push_back(
+            fmt::format("assumed: the {} values of a cell are a colour", array.channels));
     return first;
 }
 
@@ -102,8 +111,7 @@ void set_data(const NrrdFields& fields, const InputFile& file, CellArray& array)
     if (name.empty()) name = fields.text("datafile");
     array.start = fields.end();
     if (!name.empty()) {
-        if (name.starts_with("LIST") || name.find('%') != std::string::npos)
-            file.refuse("its data are in several files; join them to one");
+        if (name.find('%') != std::string::npos) NrrdFields::refuse_several(file);
         const auto found = companion_file(file.path(), name);
         if (!found)
             file.refuse(fmt::format("its data are in {}, which isn't in its folder", quote(name)));
