@@ -28,6 +28,8 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
 
 int run(const ConvertCommand& command) {
     const std::string from = first_slice(command.from);
+    if (is_mesh_name(from))
+        fail_usage("convert: {}: is a mesh, whose voxels `voxelume voxelize` makes", from);
     if (command.format.empty() && can_convert_voxels(from, command.to)) {
         for (const std::string& note : convert_voxels(from, command.to)) tell("note: {}\n", note);
         return 0;

@@ -46,13 +46,14 @@ constexpr std::array kNormals = {std::pair{std::string_view("faces"), CubeNormal
 constexpr std::initializer_list<const char*> kCubeEndings = {".vox", ".kv6", ".binvox", ".npy",
                                                              ".nrrd"};
 
+bool is_cube_name(const std::string& output) {
+    return std::ranges::count(kCubeEndings, ending_of(output)) > 0;
+}
+
 /// Without --surface a mesh is smooth, but in files that hold cubes alone.
 Surface surface_of(const VoxelizeCommand& command) {
     if (!command.surface.empty()) return choose(command.surface, kSurfaces, "voxelize: --surface");
-    const bool all_cubes = std::ranges::all_of(command.outputs, [](const std::string& output) {
-        return std::ranges::count(kCubeEndings, ending_of(output)) > 0;
-    });
-    return all_cubes ? Surface::cubes : Surface::smooth;
+    return std::ranges::all_of(command.outputs, is_cube_name) ? Surface::cubes : Surface::smooth;
 }
 
 VoxelizeOptions options_of(const VoxelizeCommand& command) {
@@ -69,6 +70,10 @@ VoxelizeOptions options_of(const VoxelizeCommand& command) {
         fail_usage(
             "voxelize: --normals {}: only cubes have a choice of normals: add --surface cubes",
             command.normals);
+    for (const std::string& output : command.outputs)
+        if (options.surface != Surface::cubes && is_cube_name(output))
+            fail_usage("voxelize: {}: files of this format hold cubes alone: add --surface cubes",
+                       output);
     return options;
 }
 
@@ -144,10 +149,8 @@ void check_voxels_output(const std::string& path) {
 enum class InputKind : uint8_t { mesh, voxels, scene };
 
 InputKind kind_of(const std::string& file) {
-    constexpr std::array kMeshEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    const std::string ending = ending_of(file);
-    if (ending == ".json" || file == "-") return InputKind::scene;
-    const bool is_mesh = std::ranges::count(kMeshEndings, ending) > 0 || !is_model_file(file);
+    if (ending_of(file) == ".json" || file == "-") return InputKind::scene;
+    const bool is_mesh = is_mesh_name(file) || !is_model_file(file);
     return is_mesh ? InputKind::mesh : InputKind::voxels;
 }
 

@@ -2,6 +2,7 @@
 #include "cli/shared/checks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,11 @@ std::string ending_of(const std::filesystem::path& file) {
     std::ranges::transform(ending, ending.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
+}
+
+bool is_mesh_name(const std::filesystem::path& file) {
+    constexpr std::array kEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    return std::ranges::count(kEndings, ending_of(file)) > 0;
 }
 
 void check_output(const std::string& path, const std::vector<std::string>& extensions,

@@ -25,6 +25,9 @@ template <class... Args>
 /// What a file's name ends with, in small letters: ".png" of "Bunny.PNG".
 std::string ending_of(const std::filesystem::path& file);
 
+/// Whether a file's name ends as those of triangle meshes do.
+bool is_mesh_name(const std::filesystem::path& file);
+
 /// Throws Error::usage when the name has none of the extensions (any will do if there are none),
 /// Error::output when no file can be made there. `command` opens the message about the name.
 void check_output(const std::string& path, const std::vector<std::string>& extensions,

@@ -3,6 +3,8 @@
 #include "runtime/voxelume/scene.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
@@ -11,12 +13,31 @@
 #include "runtime/api/read_handle.hpp"
 #include "runtime/api/tree/tree.hpp"
 #include "runtime/api/voxel_array.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/import/scene_of_file.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/document/document_hash.hpp"
 #include "runtime/scene_file/document/orbit.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
+namespace {
+
+/// Throws Error::input for a file whose name isn't that of a scene and which doesn't begin as one.
+void refuse_other_files(const std::filesystem::path& file) {
+    const std::string ending = ending_of(file);
+    if (ending.empty() || ending == ".json" || !std::filesystem::is_regular_file(file)) return;
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) return;  // reading says why
+    char first = 0;
+    stream >> first;
+    if (first == '{' || first == '\xEF') return;
+    throw Error(ErrorKind::input,
+                "{}: files that end in {} aren't read: scenes end in .json, and models in {}",
+                SourcePlace(file.string()), ending, fmt::join(model_file_endings(), " "));
+}
+
+}  // namespace
 
 std::optional<AssetStore> api::ReadAssets::take(const v1::CacheOptions& cache) {
     const std::lock_guard lock(mutex_);
@@ -81,6 +102,7 @@ namespace v1 {
 
 Scene Scene::load(const std::filesystem::path& file, const SceneOptions& options) {
     return api::read_handle(options, [&](const api::SceneFiles& files) {
+        refuse_other_files(file);
         return api::read_with_changes(read_document(file), file, files);
     });
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "kernels/shared/voxel.h"
 #include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/grid/brick_cells.hpp"
@@ -29,6 +30,11 @@ const char* set_name(VoxelSet set) {
 
 glm::vec3 linear_color(uint32_t code) {
     return linear_from_srgb(glm::dvec3(code & 255, code >> 8 & 255, code >> 16 & 255) / 255.0);
+}
+
+/// What a voxel of a colour covers.
+float opacity_of(uint32_t code) {
+    return float(255 - (code >> VXL_TRANSPARENCY_SHIFT)) / 255;
 }
 
 double shortest_edge(const GridFrame& frame) {
@@ -127,7 +133,7 @@ void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
         } else {
             const size_t leaf = size_t(slot) * kLeavesPerBrick + leaf_in_brick(p);
             if ((occupancy_[leaf] & bit_in_leaf(p)) == 0) continue;
-            cells.values.push_back(1);
+            cells.values.push_back(colors_.empty() ? 1 : opacity_of(colors_[place]));
         }
         cells.cells.push_back(corner + p);
         if (!colors_.empty()) cells.colors.push_back(linear_color(colors_[place]));
@@ -141,12 +147,12 @@ void VoxelExport::add_full_bricks(Cells& cells) const {
         const glm::ivec3 corner = brick_corner(frame_, brick);
         for (uint32_t number = 0; number < kVoxelsPerBrick; ++number)
             cells.cells.push_back(corner + cell_in_brick(number));
+        const bool is_painted = !colors_.empty() && !full_colors_.empty();
+        cells.values.resize(cells.cells.size(), is_painted ? opacity_of(full_colors_[brick]) : 1);
         if (!colors_.empty())
-            cells.colors.resize(cells.cells.size(), full_colors_.empty()
-                                                        ? glm::vec3(1)
-                                                        : linear_color(full_colors_[brick]));
+            cells.colors.resize(cells.cells.size(),
+                                is_painted ? linear_color(full_colors_[brick]) : glm::vec3(1));
     }
-    cells.values.resize(cells.cells.size(), 1);
 }
 
 void VoxelExport::write_vdb(const std::filesystem::path& path) const {

@@ -22,7 +22,7 @@ inline constexpr double kExportBand = 3.0;
 /// A model file has the arrays of BrickGrid under their names, as far as the grid has them, and the
 /// frame, surface and set in its header. A volume has
 ///   smooth        level set `surface`: signed distances at the voxels' minimum corners, metres
-///   cubes, exact  fog `density`: 1 at the middle of each voxel of the set
+///   cubes, exact  fog `density`: what each voxel of the set covers, at its middle
 /// and linear colours `Cd` if the mesh has colours.
 class VoxelExport {
   public:

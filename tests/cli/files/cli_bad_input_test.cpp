@@ -6,8 +6,10 @@
 
 namespace voxelume {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 
 class CliBadInputTest : public SceneProgramTest {};
 
@@ -29,6 +31,29 @@ TEST_F(CliBadInputTest, DamagedMeshesAreInputErrors) {
     std::filesystem::remove(folder / "gone.obj");
     EXPECT_THAT(expect_render_failure(4), HasSubstr("there is no file \"gone.obj\""));
     EXPECT_THAT(expect_failure(4, "render gone.json -o out.exr"), HasSubstr("gone.json"));
+}
+
+TEST_F(CliBadInputTest, FilesThatNothingReadsAreNamedByTheirEnding) {
+    for (const char* ending : {"npz", "dcm", "fbx", "xyz"})
+        for (const std::string& bytes :
+             {std::string("PK\3\4 {}"), std::string("0 0 0\n"), std::string()}) {
+            const std::string file = std::string("a.") + ending;
+            put_bytes(folder / file, bytes);
+            for (const char* command : {"render", "check"}) {
+                const std::string line = std::string(command) + " " + file +
+                                         (command == std::string("render") ? " -o o.png" : "");
+                EXPECT_THAT(expect_failure(4, line),
+                            AllOf(HasSubstr(file + ": files that end in ." + ending +
+                                            " aren't read: scenes end in .json, and models in "
+                                            ".obj .ply .stl"),
+                                  HasSubstr(" .npy"), Not(HasSubstr("JSON"))));
+            }
+        }
+    // A scene may have any name.
+    std::filesystem::rename(folder / "scene.json", folder / "scene.txt");
+    EXPECT_EQ(run("check scene.txt").exit_code, 0);
+    put_bytes(folder / "scene.txt", "{\"voxelume\": 1,,}");
+    EXPECT_THAT(expect_failure(3, "check scene.txt"), HasSubstr("this is not JSON"));
 }
 
 TEST_F(CliBadInputTest, WrongScenesNamePlaceAndNearestName) {

@@ -108,6 +108,29 @@ TEST_F(CliVoxelFilesTest, VoxelizedCubesAreWrittenForOtherPrograms) {
     EXPECT_EQ(run("voxelize a.obj --resolution 20 -o c.vox").exit_code, 0);
     EXPECT_EQ(bytes_of(folder / "a.vox"), bytes_of(folder / "c.vox"));
     EXPECT_THAT(run("voxelize a.obj --surface smooth -o d.vox").err, HasSubstr("cubes alone"));
+    EXPECT_THAT(run("voxelize a.obj --resolution 20 -o e.vxm -o e.vox").err,
+                HasSubstr("e.vox: files of this format hold cubes alone: add --surface cubes"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "e.vxm"));
+    for (const char* output : {"f.vox", "f.nrrd", "f.raw"}) {
+        const ProgramResult converted = run(std::string("convert a.obj ") + output);
+        EXPECT_EQ(converted.exit_code, 2) << output;
+        EXPECT_THAT(converted.err, HasSubstr("a.obj: is a mesh, whose voxels `voxelume voxelize`"));
+    }
+}
+
+TEST_F(CliVoxelFilesTest, OpacityStaysInOpenVdb) {
+    std::vector<uint8_t> values(5 * 4 * 3 * 4);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = uint8_t(1 + i * 37 % 255);
+    put_bytes(folder / "a.npy", npy_bytes("|u1", "5, 4, 3, 4", bytes_of_values(values)));
+    for (const char* pair : {"a.npy a.vdb", "a.vdb b.npy", "a.npy c.npy"}) {
+        const ProgramResult result = run(std::string("convert ") + pair);
+        EXPECT_EQ(result.exit_code, 0) << pair << result.err;
+        EXPECT_THAT(result.err, IsEmpty()) << pair;
+    }
+    EXPECT_EQ(bytes_of(folder / "b.npy"), bytes_of(folder / "c.npy"));
+    const std::string bytes = bytes_of(folder / "b.npy");
+    const std::string kept(values.begin(), values.end());
+    EXPECT_THAT(bytes, HasSubstr(kept)) << "red, green, blue and opacity of each cell";
 }
 
 // The middles of 294 voxels lie in this tetrahedron; a field of distances has its edges rounded.
