@@ -151,7 +151,7 @@ std::string missed_of_textures(const MeshPaint& paint, Surface surface) {
                alpha = surface != Surface::exact && paint.has_alpha;
     if (maps && alpha) return "the alpha, roughness, metalness and emission of its textures aren't";
     if (maps) return "the roughness, metalness and emission of its textures aren't";
-    return alpha ? "the alpha of its textures isn't" : "";
+    return alpha ? "its alpha isn't" : "";
 }
 
 void add_texture_warning(const Scene& scene, const Model& model, const MeshPaint& paint,

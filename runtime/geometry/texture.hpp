@@ -64,6 +64,7 @@ struct Texture {
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     uint32_t alpha = kAlphaOpaque;  ///< what the texels' alpha means
     std::array<TextureMap, kMapCount> maps{};
+    bool is_of_vertices = false;  ///< no picture: it has the alpha of vertices
 
     bool has_maps() const {
         return std::ranges::any_of(maps, [](const auto& m) { return m.texture != kNoTexture; });

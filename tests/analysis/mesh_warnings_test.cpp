@@ -237,7 +237,7 @@ TEST_F(MeshWarnings, NameWhatASurfaceDoesNotShowOfTextures) {
         "\"m.gltf\": the roughness, metalness and emission of its textures aren't shown on "
         "\"cubes\": give the model \"surface\": \"smooth\" or \"exact\"";
     const std::string alpha =
-        "\"m.gltf\": the alpha of its textures isn't shown on \"smooth\": give the model "
+        "\"m.gltf\": its alpha isn't shown on \"smooth\": give the model "
         "\"surface\": \"exact\"";
     const std::tuple<nlohmann::json, const char*, std::string> cases[] = {
         {plain, "cubes", ""},     {mapped, "cubes", maps}, {mapped, "smooth", ""},

@@ -11,6 +11,7 @@
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/gltf/gltf_unshown.hpp"
 #include "runtime/io/mesh/material_library.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/memory/plan.hpp"
@@ -53,25 +54,8 @@ Report clips_in(const GltfFile& file) {
     return clips;
 }
 
-/// What of the materials of a glTF file no surface shows. Nearly every file has some such textures,
+/// What of the libraries of an OBJ file no surface shows. Nearly every file has some such textures,
 /// so rendering says nothing.
-std::vector<std::string> unshown_materials(const GltfFile& file) {
-    bool has_bumps = false, has_occlusion = false, is_unlit = false;
-    for (const GltfValue& material : file.root().items("materials")) {
-        has_bumps |= material.has("normalTexture");
-        has_occlusion |= material.has("occlusionTexture");
-        is_unlit |= material.has_extension("KHR_materials_unlit");
-    }
-    std::vector<std::string> notes;
-    if (has_bumps) notes.emplace_back("its normal textures aren't shown: surfaces have no bumps");
-    if (has_occlusion)
-        notes.emplace_back("its occlusion textures aren't shown: rays find what is occluded");
-    if (is_unlit)
-        notes.emplace_back("its materials of KHR_materials_unlit are matte, and lit as others are");
-    return notes;
-}
-
-/// The same of the libraries of an OBJ file.
 std::vector<std::string> unshown_maps(const std::filesystem::path& path, const Mesh& mesh) {
     bool has_bumps = false, has_specular = false;
     std::vector<std::string> faults;  // the mesh's summary has them, too
@@ -98,6 +82,17 @@ std::vector<std::string> notes_of(const MeshSummary& mesh, std::vector<std::stri
     return notes;
 }
 
+/// Adds the sizes of the mesh's pictures, and whose alpha counts.
+void add_textures(const Mesh& mesh, Report& report) {
+    for (const Texture& texture : mesh.textures) {
+        if (!texture.is_of_vertices)
+            report["textures"].push_back({texture.image->width, texture.image->height});
+        if (texture.alpha != kAlphaOpaque)
+            report[texture.is_of_vertices ? "vertex alpha" : "texture alpha"] =
+                "only \"exact\" surfaces show it";
+    }
+}
+
 }  // namespace
 
 Report describe_mesh(const std::filesystem::path& path) {
@@ -108,7 +103,7 @@ Report describe_mesh(const std::filesystem::path& path) {
         const GltfFile file(read_mesh_bytes(path), path);
         mesh = gltf_mesh(file, 0);
         clips = clips_in(file);
-        unshown = unshown_materials(file);
+        unshown = unshown_of_gltf(file);
     } else {
         mesh = read_mesh(path);
         unshown = unshown_maps(path, mesh);
@@ -130,13 +125,11 @@ Report describe_mesh(const std::filesystem::path& path) {
     report["min"] = {box.min.x, box.min.y, box.min.z};
     report["max"] = {box.max.x, box.max.y, box.max.z};
     if (!mesh.triangle_colors.empty()) report["face colors"] = true;
-    if (!mesh.textures.empty()) report["textures"] = Report::array();
-    for (const Texture& texture : mesh.textures)
-        report["textures"].push_back({texture.image->width, texture.image->height});
+    add_textures(mesh, report);
     if (summary.paint.mapped > 0)
         report["texture maps"] = "roughness, metalness or emission, which \"cubes\" don't show";
-    if (summary.paint.has_alpha) report["texture alpha"] = "only \"exact\" surfaces show it";
     if (!clips.empty()) report["clips"] = clips;
+    unshown.insert(unshown.end(), mesh.assumptions.begin(), mesh.assumptions.end());
     const std::vector<std::string> notes = notes_of(summary, std::move(unshown));
     if (!notes.empty()) report["notes"] = notes;
     if (box.min == box.max) return report;

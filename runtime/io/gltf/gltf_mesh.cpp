@@ -15,6 +15,8 @@
 #include "runtime/io/gltf/gltf_nodes.hpp"
 #include "runtime/io/gltf/gltf_skin.hpp"
 #include "runtime/io/gltf/gltf_textures.hpp"
+#include "runtime/io/gltf/gltf_unshown.hpp"
+#include "runtime/io/mesh/alpha_ramp.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
@@ -44,6 +46,9 @@ void append_triangles(const std::vector<uint32_t>& order, uint64_t mode, uint32_
 class MeshBuilder {
   public:
     explicit MeshBuilder(const GltfFile& file) : file_(file), textures_(file) {}
+
+    /// All meshes are expected before one is added.
+    void expect_mesh(int number) { textures_.expect_mesh(number); }
 
     void add_mesh(int number, const glm::dmat4& map) {
         for (const GltfValue& primitive :
@@ -94,7 +99,11 @@ class MeshBuilder {
         add_normals(attributes, positions.count, base, map);
         add_colors(attributes, positions.count, base);
         const int material = primitive.index("material", file_.root().size("materials"));
-        add_uvs(attributes, material, positions.count, base);
+        if (textures_.shows_vertex_alpha(material))
+            add_alphas(positions.count, base);
+        else
+            add_uvs(attributes, material, positions.count, base);
+        if (lets_through(alphas_)) textures_.note_lost_alpha(material, mesh_);
         add_faces(primitive, mode, positions.count, base, glm::determinant(glm::dmat3(map)) < 0);
         make_room(mesh_.triangle_group, mesh_.triangles.size() - mesh_.triangle_group.size());
         mesh_.triangle_group.resize(mesh_.triangles.size(), group_of(material));
@@ -145,8 +154,9 @@ class MeshBuilder {
         }
     }
 
-    /// Colours of glTF are linear already.
+    /// Colours of glTF are linear already. `alphas_` becomes what they have of alpha.
     void add_colors(const GltfValue& attributes, size_t vertices, size_t base) {
+        alphas_.clear();
         if (!attributes.has("COLOR_0")) return;
         const GltfValues colors = values(attributes, "COLOR_0", vertices, {3, 4});
         mesh_.vertex_colors.resize(base, glm::vec3(1));
@@ -156,7 +166,15 @@ class MeshBuilder {
             const bool is_color = std::isfinite(color.x + color.y + color.z);
             mesh_.vertex_colors.push_back(is_color ? glm::clamp(color, glm::vec3(0), glm::vec3(1))
                                                    : glm::vec3(1));
+            if (colors.components == 4) alphas_.push_back(c[3]);
         }
+    }
+
+    /// Gives vertices the places of their alpha; those of a primitive without any are opaque.
+    void add_alphas(size_t vertices, size_t base) {
+        mesh_.uvs.resize(base, glm::vec2(0));
+        for (size_t i = 0; i < vertices; ++i)
+            mesh_.uvs.push_back(place_on_ramp(alphas_.empty() ? 1 : alphas_[i]));
     }
 
     void add_uvs(const GltfValue& attributes, int material, size_t vertices, size_t base) {
@@ -189,6 +207,8 @@ class MeshBuilder {
         if (is_new) {
             mesh_.group_names.push_back(file_.material_name(material));
             mesh_.group_textures.push_back(textures_.append(material, mesh_));
+            if (material >= 0)
+                note_unshown(file_.root().item("materials", size_t(material)), mesh_.notes);
         }
         return entry->second;
     }
@@ -204,6 +224,7 @@ class MeshBuilder {
     GltfTextures textures_;
     Mesh mesh_;
     std::map<int, uint32_t> groups_;
+    std::vector<float> alphas_;  ///< of the vertices of the primitive that is added
     size_t skipped_ = 0;
 };
 
@@ -221,10 +242,14 @@ Mesh gltf_mesh(const GltfFile& file, int part) {
         throw Error(ErrorKind::input, "{}: has {} meshes, and none of number {}",
                     SourcePlace(file.path().string()), meshes, part);
     if (part > 0) {
+        builder.expect_mesh(part - 1);
         builder.add_mesh(part - 1, glm::dmat4(1));
         return builder.mesh();
     }
-    for (const GltfNode& node : gltf_nodes(file))
+    const std::vector<GltfNode> nodes = gltf_nodes(file);
+    for (const GltfNode& node : nodes)
+        if (node.mesh >= 0) builder.expect_mesh(node.mesh);
+    for (const GltfNode& node : nodes)
         if (node.skin >= 0)
             builder.add_skinned_mesh(node);
         else if (node.mesh >= 0)

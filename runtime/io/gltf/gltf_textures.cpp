@@ -9,6 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/io/image/picture.hpp"
+#include "runtime/io/mesh/alpha_ramp.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 #include "runtime/io/mesh/texture_levels.hpp"
 
@@ -44,7 +45,37 @@ TextureImage without_map(size_t map) {
 
 constexpr std::array<const char*, kMapCount> kMapNames = {"metallic-roughness", "emissive"};
 
+/// Whether the colours of a primitive's vertices have an alpha.
+bool has_alpha(const GltfValue& root, const GltfValue& primitive) {
+    const int colors = primitive.at("attributes").index("COLOR_0", root.size("accessors"));
+    return colors >= 0 && root.item("accessors", size_t(colors)).text("type") == "VEC4";
+}
+
 }  // namespace
+
+void GltfTextures::expect_mesh(int number) {
+    if (!meshes_.insert(number).second) return;
+    const GltfValue root = file_.root();
+    for (const GltfValue& primitive : root.item("meshes", size_t(number)).items("primitives"))
+        if (has_alpha(root, primitive))
+            vertex_alphas_.insert(primitive.index("material", root.size("materials")));
+}
+
+bool GltfTextures::shows_vertex_alpha(int material) const {
+    if (material < 0 || !vertex_alphas_.contains(material)) return false;
+    const GltfValue item = file_.root().item("materials", size_t(material));
+    return alpha_of(item) != kAlphaOpaque && of_material(material).texture < 0;
+}
+
+void GltfTextures::note_lost_alpha(int material, Mesh& mesh) {
+    if (material < 0 || shows_vertex_alpha(material)) return;
+    const GltfValue item = file_.root().item("materials", size_t(material));
+    if (alpha_of(item) == kAlphaOpaque || !lost_alphas_.insert(material).second) return;
+    mesh.notes.push_back(
+        fmt::format("the alpha of its vertices isn't shown where they have its {}: that has "
+                    "textures",
+                    item.place()));
+}
 
 GltfTextureUse GltfTextures::of_material(int material) const {
     if (material < 0) return {};
@@ -58,6 +89,10 @@ GltfTextureUse GltfTextures::of_material(int material) const {
 uint32_t GltfTextures::append(int material, Mesh& mesh) {
     if (material < 0) return kNoTexture;
     const GltfValue item = file_.root().item("materials", size_t(material));
+    if (shows_vertex_alpha(material)) {
+        mesh.textures.push_back(alpha_ramp(alpha_of(item)));
+        return uint32_t(mesh.textures.size() - 1);
+    }
     const int number = gltf_base_texture(file_, item).texture;
     std::array<TextureMap, kMapCount> maps;
     for (size_t map = 0; map < kMapCount; ++map) maps[map] = map_of(material, map, mesh);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY -> Mesh.
+#include "runtime/io/mesh/alpha_ramp.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/mesh/mesh_paint.hpp"
 #include "runtime/io/mesh/mesh_ply_layout.hpp"
@@ -33,6 +34,8 @@ class BodyParser {
         }
         require_end();
         fill_corner_lists(mesh_);
+        if (has_face_alpha_) mesh_.notes.emplace_back("the alpha of its faces isn't shown");
+        show_vertex_alpha(alphas_, !header.texture.empty(), mesh_);
         return std::move(mesh_);
     }
 
@@ -61,7 +64,7 @@ class BodyParser {
         if (role == kPlySkipped) {
             skip_property(property);
         } else {
-            const bool may_be_any = is_ply_normal(role) || role == kPlyU || role == kPlyV;
+            const bool may_be_any = is_ply_normal(role) || role >= kPlyAlpha;
             row_[role] =
                 may_be_any ? rows_.number_or_nan(property.type) : rows_.number(property.type);
         }
@@ -82,6 +85,7 @@ class BodyParser {
         if (layout.has_normal) append_normal();
         if (layout.has_uv) mesh_.uvs.push_back(upright_uv(row_[kPlyU], row_[kPlyV]));
         if (layout.has_color) mesh_.vertex_colors.push_back(color_of_row(layout, "vertex"));
+        if (layout.has_alpha) alphas_.push_back(float(row_[kPlyAlpha] / layout.scale[kPlyAlpha]));
     }
 
     glm::vec3 color_of_row(const PlyLayout& layout, const char* what) const {
@@ -171,6 +175,8 @@ class BodyParser {
         if (layout.has_color) {
             append_face_color(mesh_, color_of_row(layout, "face"), before);
         }
+        has_face_alpha_ |=
+            layout.has_color && layout.has_alpha && row_[kPlyAlpha] < layout.scale[kPlyAlpha];
         if (corner_uvs_.size() != 2 * corners_.size()) return;
         mesh_.triangle_uvs.resize(before, glm::uvec3(kNoUv));
         const auto first = static_cast<uint32_t>(mesh_.uvs.size());
@@ -252,6 +258,8 @@ class BodyParser {
     PolygonCutter cutter_;
     std::vector<uint32_t> corners_;
     std::vector<double> corner_uvs_;  ///< u and v of the face's corners, if it has them
+    std::vector<float> alphas_;       ///< one a vertex, if they have any
+    bool has_face_alpha_ = false;     ///< of some that don't cover all
     PlyRow row_{};
 };
 

@@ -12,11 +12,11 @@ struct RoleName {
 };
 
 /// Programs that write textured meshes don't agree on the names of texture coordinates.
-constexpr RoleName kRoleNames[] = {{"x", kPlyX},     {"y", kPlyY},         {"z", kPlyZ},
-                                   {"nx", kPlyNx},   {"ny", kPlyNy},       {"nz", kPlyNz},
-                                   {"red", kPlyRed}, {"green", kPlyGreen}, {"blue", kPlyBlue},
-                                   {"u", kPlyU},     {"v", kPlyV},         {"s", kPlyU},
-                                   {"t", kPlyV},     {"texture_u", kPlyU}, {"texture_v", kPlyV}};
+constexpr RoleName kRoleNames[] = {
+    {"x", kPlyX},       {"y", kPlyY},         {"z", kPlyZ},         {"nx", kPlyNx},
+    {"ny", kPlyNy},     {"nz", kPlyNz},       {"red", kPlyRed},     {"green", kPlyGreen},
+    {"blue", kPlyBlue}, {"alpha", kPlyAlpha}, {"u", kPlyU},         {"v", kPlyV},
+    {"s", kPlyU},       {"t", kPlyV},         {"texture_u", kPlyU}, {"texture_v", kPlyV}};
 
 PlyRole role_of(const PlyProperty& property) {
     std::string_view name = property.name;
@@ -49,6 +49,7 @@ void note_what_is_whole(const std::array<int, kPlyRoles>& found, PlyLayout& layo
     };
     layout.has_normal = has({kPlyNx, kPlyNy, kPlyNz});
     layout.has_color = has({kPlyRed, kPlyGreen, kPlyBlue});
+    layout.has_alpha = has({kPlyAlpha});
     layout.has_uv = has({kPlyU, kPlyV});
 }
 
@@ -58,14 +59,15 @@ PlyLayout ply_vertex_layout(const MeshSource& source, const PlyElement& element)
     PlyLayout layout;
     std::array<int, kPlyRoles> found{};
     for (const PlyProperty& property : element.properties) {
-        const PlyRole role = role_of(property);
+        PlyRole role = role_of(property);
+        if (role == kPlyAlpha && color_scale(property.type) == 0.0) role = kPlySkipped;
         layout.roles.push_back(role);
         if (role == kPlySkipped) {
             continue;
         }
         layout.scale[role] = is_ply_color(role) ? color_scale(property.type) : 1.0;
         if (++found[role] > 1) {
-            if (role < kPlyU)
+            if (role < kPlyAlpha)
                 source.fail(fmt::format("the vertices have two properties '{}'", property.name));
             layout.roles.back() = kPlySkipped;
         }

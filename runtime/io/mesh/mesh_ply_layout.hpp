@@ -22,6 +22,7 @@ enum PlyRole : size_t {
     kPlyRed,
     kPlyGreen,
     kPlyBlue,
+    kPlyAlpha,
     kPlyU,
     kPlyV,
     kPlyRoles,
@@ -35,6 +36,7 @@ struct PlyLayout {
     std::vector<PlyRole> roles;  ///< one per property
     PlyRow scale{};              ///< what stands for 1
     bool has_color = false;
+    bool has_alpha = false;
     bool has_normal = false;
     bool has_uv = false;
 };
@@ -44,14 +46,15 @@ inline bool is_ply_normal(PlyRole role) {
 }
 
 inline bool is_ply_color(PlyRole role) {
-    return role >= kPlyRed && role <= kPlyBlue;
+    return role >= kPlyRed && role <= kPlyAlpha;
 }
 
 /// The layout of vertices. Throws Error::input where they have no position, a property twice or
-/// colours of another type than uchar, ushort, float and double.
+/// colours of another type than uchar, ushort, float and double; alpha of another one is skipped.
 PlyLayout ply_vertex_layout(const MeshSource& source, const PlyElement& element);
 
-/// The layout of faces, of which nothing but the colour counts. Colours of other types are skipped.
+/// The layout of faces, of which nothing but the colour and its alpha counts. Colours of other
+/// types are skipped.
 PlyLayout ply_face_layout(const PlyElement& element);
 
 /// The linear colour of a row; a negative first component where it is out of range, with the value

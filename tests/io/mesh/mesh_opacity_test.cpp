@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the materials of OBJ files cover: the alpha of their pictures, and map_d.
+// How much the surfaces of meshes cover: the alpha of the pictures of OBJ files, map_d, and the
+// alpha of vertices.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 #include "tests/support/writers/png_writer.hpp"
 
 namespace voxelume {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -118,7 +124,81 @@ TEST_F(MeshOpacity, IsReadOnceForMaterialsThatShareItAndIsACompanionOfItsMesh) {
     std::vector<std::string> names;
     for (const auto& file : companion_files("mtllib a.mtl\n", folder / "b.obj"))
         names.push_back(file.filename());
-    EXPECT_THAT(names, testing::Contains("grey.png"));
+    EXPECT_THAT(names, Contains("grey.png"));
+}
+
+/// A triangle in PLY with a property of its vertices; `comment` is a line of the header.
+std::string ply_of(const std::string& property, const std::vector<std::string>& values,
+                   const std::string& comment = "") {
+    return "ply\nformat ascii 1.0\n" + comment +
+           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty " +
+           property +
+           "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " +
+           values[0] + "\n1 0 0 " + values[1] + "\n0 1 0 " + values[2] + "\n3 0 1 2\n";
+}
+
+TEST_F(MeshOpacity, OfVerticesOfPlyIsAPlaceOnARampOfAlphas) {
+    for (const auto& [type, scale] : {std::pair("uchar alpha", 255.0),
+                                      {"float alpha", 1.0},
+                                      {"ushort diffuse_alpha", 65535.0}}) {
+        std::vector<std::string> values;
+        for (const double share : {1.0, 0.2, 0.0})
+            values.push_back(fmt::format("{}", share * scale));
+        const Mesh mesh = parse_mesh(ply_of(type, values), "a.ply");
+        ASSERT_EQ(mesh.textures.size(), 1u) << type;
+        EXPECT_EQ(mesh.textures[0].alpha, kAlphaBlend);
+        const TextureImage& image = *mesh.textures[0].image;
+        const int expected[] = {255, 51, 0};
+        for (size_t i = 0; i < 3; ++i) {
+            const auto texel = size_t(mesh.uvs.at(i).x * float(image.width));
+            EXPECT_EQ(image.texels.at(texel) >> 24, unsigned(expected[i])) << type << i;
+        }
+    }
+}
+
+TEST_F(MeshOpacity, OfVerticesThatAllAreOpaqueOrAllAreNothingIsNone) {
+    EXPECT_THAT(parse_mesh(ply_of("uchar alpha", {"255", "255", "255"}), "a.ply").textures,
+                IsEmpty());
+    EXPECT_THAT(parse_mesh(ply_of("uchar alpha", {"0", "0", "0"}), "a.ply").textures, IsEmpty());
+    EXPECT_THAT(parse_mesh(ply_of("char alpha", {"7", "0", "0"}), "a.ply").textures, IsEmpty());
+}
+
+TEST_F(MeshOpacity, OfVerticesBesideATextureIsNoted) {
+    const Mesh mesh = parse_mesh(
+        ply_of("uchar alpha", {"255", "9", "255"}, "comment TextureFile grey.png\n"), "a.ply");
+    EXPECT_THAT(mesh.textures, IsEmpty());
+    EXPECT_THAT(mesh.notes, Contains(HasSubstr("the alpha of its vertices isn't shown")));
+}
+
+/// A glTF triangle whose vertices have these alphas, of a material.
+Mesh gltf_with(const nlohmann::json& material) {
+    GltfWriter writer = triangle_gltf();
+    nlohmann::json& primitive = writer.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["COLOR_0"] =
+        writer.accessor(std::vector<float>{1, 1, 1, 1, 1, 1, 1, 0.5f, 1, 1, 1, 0}, "VEC4", 4);
+    primitive["attributes"]["TEXCOORD_0"] =
+        writer.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 2);
+    primitive["material"] = 0;
+    writer.json["materials"] = nlohmann::json::array({material});
+    writer.json["images"] = {
+        {{"uri", "data:image/png;base64," + GltfWriter::base64(rgba_row({0x112233FF}))}}};
+    writer.json["textures"] = {{{"source", 0}}};
+    return gltf_mesh(GltfFile(writer.gltf(), "a.gltf"), 0);
+}
+
+TEST_F(MeshOpacity, OfVerticesOfGltfCountsWhereAlphaModeAsksForIt) {
+    EXPECT_THAT(gltf_with({{"name", "m"}}).textures, IsEmpty());
+    EXPECT_EQ(gltf_with({{"alphaMode", "BLEND"}}).textures.at(0).alpha, kAlphaBlend);
+    const Mesh mesh = gltf_with({{"alphaMode", "MASK"}, {"alphaCutoff", 0.2}});
+    EXPECT_EQ(mesh.textures.at(0).alpha, 51u);
+    EXPECT_THAT(mesh.notes, IsEmpty());
+    ASSERT_EQ(mesh.uvs.size(), 3u);
+    EXPECT_FLOAT_EQ(mesh.uvs[1].x, 128.0f / 256);
+    const Mesh both = gltf_with(
+        {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    EXPECT_EQ(both.textures.at(0).image->width, 1);
+    EXPECT_THAT(both.notes, ElementsAre("the alpha of its vertices isn't shown where they have its "
+                                        "materials[0]: that has textures"));
 }
 
 }  // namespace

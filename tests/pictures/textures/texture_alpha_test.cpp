@@ -34,6 +34,11 @@ double alpha_at(double u, double v) {
     return sum;
 }
 
+/// The alpha between vertices at the corners of the sheet, which is linear.
+double vertex_alpha(double u, double v) {
+    return 0.1 + 0.6 * u + 0.2 * v;
+}
+
 /// What a sheet of a mode covers there.
 double covered(const std::string& mode, double u, double v) {
     const double alpha = alpha_at(u, v);
@@ -101,6 +106,28 @@ class TextureAlpha : public FileTest {
                   "mtllib a.mtl\nv -1 -1 0\nv -1 1 0\nv 1 1 0\nv 1 -1 0\nv -0.7 -1 0.5\n"
                   "v -0.7 1 0.5\nv 1.3 1 0.5\nv 1.3 -1 0.5\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\n"
                   "usemtl a\nf 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n");
+    }
+
+    /// The same sheets without a texture. Their vertices have the alpha of `vertex_alpha`.
+    void write_vertices(const std::string& mode) const {
+        GltfWriter writer;
+        std::vector<float> positions, colors;
+        for (const float z : {0.0f, 0.5f})
+            for (const auto& [u, v] : {std::pair(0, 1), {0, 0}, {1, 0}, {1, 1}}) {
+                const float x = float(2 * u - 1) + (z == 0 ? 0.0f : 0.3f);
+                positions.insert(positions.end(), {x, float(1 - 2 * v), z});
+                colors.insert(colors.end(), {0.5f, 0.5f, 0.5f, float(vertex_alpha(u, v))});
+            }
+        const int p = writer.accessor(positions, "VEC3", 3);
+        const int c = writer.accessor(colors, "VEC4", 4);
+        const int i =
+            writer.accessor(std::vector<uint16_t>{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7}, "SCALAR", 1);
+        writer.json["materials"] = {{{"alphaMode", mode}, {"alphaCutoff", 0.4}}};
+        writer.show(p, -1, i);
+        nlohmann::json& primitive = writer.json["meshes"][0]["primitives"][0];
+        primitive["attributes"].erase("TEXCOORD_0");
+        primitive["attributes"]["COLOR_0"] = c;
+        put_bytes(folder / "sheets.gltf", writer.gltf());
     }
 
     Scene scene_of(const char* placement, double eye, const char* light,
@@ -174,6 +201,23 @@ TEST_F(TextureAlpha, OfLibrariesIsThatOfBlends) {
             return front * own + (1 - front) * (next * own + (1 - next) * 0.25);
         });
         EXPECT_LT(off, 6) << by_map_d;
+    }
+}
+
+TEST_F(TextureAlpha, OfVerticesIsLinearBetweenThem) {
+    const auto covered_at = [](const std::string& mode, double x, double y, double middle) {
+        if (std::abs(x - middle) > 1 || std::abs(y) > 1) return 0.0;
+        const double alpha = vertex_alpha((x - middle + 1) / 2, (1 - y) / 2);
+        return mode == "BLEND" ? alpha : double(alpha >= 0.4);
+    };
+    for (const std::string mode : {"MASK", "BLEND"}) {
+        write_vertices(mode);
+        const Scene scene = scene_of("world", -3, R"("ambient": [1, 1, 1])");
+        const double off = difference(image_of_scene(scene), [&](double x, double y) {
+            const double front = covered_at(mode, x, y, 0), next = covered_at(mode, x, y, 0.3);
+            return front * 0.5 + (1 - front) * (next * 0.5 + (1 - next) * 0.25);
+        });
+        EXPECT_LT(off, 6) << mode;
     }
 }
 
