@@ -2,6 +2,7 @@
 // Wavefront OBJ -> Mesh, in one pass over the text.
 #include "runtime/base/decimal.hpp"
 #include "runtime/base/utf8.hpp"
+#include "runtime/io/mesh/material_library.hpp"
 #include "runtime/io/mesh/mesh_obj_colors.hpp"
 #include "runtime/io/mesh/mesh_obj_normals.hpp"
 #include "runtime/io/mesh/mesh_obj_uvs.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/geometry/mesh.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/mesh/mesh_source.hpp"
 
