@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <iterator>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
@@ -117,6 +123,91 @@ TEST(DisplayOfInstances, BehindAPaneIsThatOfTheWorld) {
         lattice_volume(lattice_scene("instance", whole_maps(), "observer", 0.4f), 4);
     EXPECT_EQ(world.indices, instances.indices);
     EXPECT_EQ(world.opacities, instances.opacities);
+}
+
+/// A ball of glass whose index is that of its surroundings, which shine. It has no light of its
+/// own.
+Scene clear_ball(const std::string& surface, const std::string& placement,
+                 const std::string& absorption, const std::string& render) {
+    return parse_scene(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.03, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}},
+          "background": [0.5, 0.25, 0.125]}},
+"materials": {{"clear": {{"color": [0, 0, 0], "refraction": 1, "ior": 1, "absorption": {}}}}},
+"models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "{}"}}}},
+"objects": [{{"model": "ball", "material": "clear", "placement": "{}",
+             "position": [0.12, -0.06, 0.21]}}],
+"observer": {{"position": [0.3, 0.4, 3], "look_at": [0.1, 0, 0],
+             "display": {{"shape": "pyramid", "angles": [24, 22], "near": 2, "far": 3.6,
+                         "layout": "lattice", "voxels": [22, 20, 17], "visibility": "observer"}}}},
+"render": {}}})",
+                                   absorption, surface, placement, render),
+                       "ball.json", {});
+}
+
+/// The least and the greatest way that lines from E through a voxel's points have in the ball.
+std::array<double, 2> ways_in_ball(const VolumeFrame& frame, const glm::ivec3& voxel) {
+    constexpr int kSteps = 8;
+    const glm::dvec3 middle =
+        glm::dvec3(glm::inverse(frame.world_from_observer) * glm::dvec4(0.12, -0.06, 0.21, 1));
+    std::array<double, 2> ways = {INFINITY, 0};
+    for (int i = 0; i < (kSteps + 1) * (kSteps + 1) * (kSteps + 1); ++i) {
+        const glm::dvec3 part = glm::dvec3(i % 9, i / 9 % 9, i / 81) / double(kSteps);
+        const glm::dvec3 way =
+            glm::normalize(frame.origin + frame.edge * (glm::dvec3(voxel) + part));
+        const double squared = 0.25 - glm::dot(glm::cross(way, middle), glm::cross(way, middle));
+        const double length = 2 * std::sqrt(std::max(squared, 0.0));
+        ways = {std::min(ways[0], length), std::max(ways[1], length)};
+    }
+    return ways;
+}
+
+/// Checks that voxels of the ball show the background behind it, by what the ball absorbs of it.
+void expect_background(const Volume& volume, const glm::dvec3& absorption) {
+    constexpr double kFloat = 0.002;  // a smooth ball's radius is that of its field
+    const glm::dvec3 background(0.5, 0.25, 0.125);
+    const glm::ivec3 size = volume.frame.size;
+    size_t outside = 0;
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const int index = int(volume.indices[i]);
+        const std::array<double, 2> ways = ways_in_ball(
+            volume.frame, {index % size.x, index / size.x % size.y, index / size.x / size.y});
+        for (int c = 0; c < 3; ++c) {
+            const double low = background[c] * std::exp(-absorption[c] * ways[1]),
+                         high = background[c] * std::exp(-absorption[c] * ways[0]);
+            outside += volume.colors[i][c] < low - kFloat || volume.colors[i][c] > high + kFloat;
+        }
+        EXPECT_EQ(volume.opacities[i], 1);
+    }
+    EXPECT_EQ(outside, 0u) << "of " << volume.indices.size() << " voxels";
+}
+
+/// Between equal media the refracted ray goes on straight. It once ended where the ray that looked
+/// at the voxel did, shortly behind it, so that nothing was behind glass of the world's voxels.
+/// Rays that graze a field cross it many times.
+TEST(DisplayOfInstances, ShowsWhatIsBehindGlassOfItsSurroundingsIndex) {
+    const std::array<std::pair<const char*, glm::dvec3>, 2> absorptions = {
+        std::pair{"[0, 0, 0]", glm::dvec3(0)}, {"[4, 0.5, 1.5]", {4, 0.5, 1.5}}};
+    for (const char* render :
+         {R"({"samples": 1, "depth": 12})", R"({"light": "global", "samples": 4, "bounces": 12})"})
+        for (const char* surface : {"exact", "smooth"})
+            for (const auto& [text, absorption] : absorptions) {
+                SCOPED_TRACE(fmt::format("{} {} {}", render, surface, text));
+                std::array<std::set<uint64_t>, 2> shown;
+                for (size_t i = 0; i < 2; ++i) {
+                    RenderReport report;
+                    const Volume volume = render_volume(
+                        test_device(),
+                        clear_ball(surface, i == 0 ? "world" : "instance", text, render), report);
+                    EXPECT_EQ(report.world.instances.instances, i);
+                    expect_background(volume, absorption);
+                    shown[i] = {volume.indices.begin(), volume.indices.end()};
+                    EXPECT_GT(shown[i].size(), 200u);
+                }
+                std::vector<uint64_t> others;
+                std::ranges::set_symmetric_difference(shown[0], shown[1],
+                                                      std::back_inserter(others));
+                EXPECT_LE(others.size(), 4u) << shown[0].size();
+            }
 }
 
 }  // namespace

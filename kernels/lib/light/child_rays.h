@@ -125,8 +125,9 @@ static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
                   n, mirrored_direction(p));
 }
 
-/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on
-/// unchanged.
+/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on from where
+/// it began. Like every refracted ray it has no end, though the ray that met the surface may have
+/// one: those that look at the voxels of a display end shortly behind them.
 static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                                 const ScatterPoint* p, const RayBatch* batch, uint first,
                                 NewRays* r) {
@@ -143,11 +144,9 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
     const lane_int same = LANE_MASK(p->eta == 1.0f) & ~are_of_instances(batch, first);
     const Vector o = load_vector(batch->rays, stride, first);
     const Vector d = load_vector(batch->rays + VXL_RAY_DX * stride, stride, first);
-    const lane_float t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);
     const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     r->origin = select_vector(same, o, r->origin);
     r->direction = select_vector(same, d, r->direction);
-    r->t_end = LANES_SELECT(same, t_end, r->t_end);
     r->start = LANES_SELECT(same, t, (lane_float)0.0f);
     r->flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
     r->width = LANES_SELECT(same, width_straight(batch, first, (lane_int)0), r->width);

@@ -146,7 +146,8 @@ static inline void enter_media(PyramidShape shape, const Surroundings* around,
     r->origin = select_vector(same, load_vector(batch->rays, stride, first), r->origin);
     r->direction = select_vector(
         same, load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), r->direction);
-    r->t_end = LANES_SELECT(same, LANES_LOAD(batch->rays, VXL_RAY_END * stride + first), r->t_end);
+    r->t_end = LANES_SELECT(way->straight, LANES_LOAD(batch->rays, VXL_RAY_END * stride + first),
+                            r->t_end);
     r->start = LANES_SELECT(same, LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first)),
                             (lane_float)0.0f);
     r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
