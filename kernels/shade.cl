@@ -254,7 +254,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 /// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           VXL_SKY_PARAMETERS VXL_SKY_DEPTH_PARAMETER VXL_EMITTER_PARAMETERS
-                              VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS
+                              VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS VXL_CUBE_STEPS_PARAMETER
                                   global const float* restrict materials,
                           global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
@@ -269,7 +269,7 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     if (VXL_POSITIONS) store_vector(position, positions, stride, first);
     if (VXL_NORMALS) store_vector(p.normal, normals, stride, first);
     if (VXL_NORMALS && VXL_SHADING_NORMALS) {
-        const ShadingPoint s = shading_point(&world, &h, p.place, p.normal, behind);
+        const ShadingPoint s = shading_point(&world, &h, VXL_CUBE_STEPS, p.place, p.normal, behind);
         store_vector(s.normal, shading, stride, first);
         store_vector(s.offset, shading + VXL_SHADING_OFFSET * stride, stride, first);
     }

@@ -220,7 +220,7 @@ std::vector<KnownPicture> known_pictures() {
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
          false, "3e964a51b23e2189"},
-        {"meshes", kMeshes, false, "ae7d5428b2dd3899"},
+        {"meshes", kMeshes, false, "fad815afde8b740f"},
         {"mixed meshes", kMixed, false, "e569fc0943dbb7eb"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},

@@ -6,11 +6,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/culling_hull.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/analysis/scene_choices.hpp"
 #include "runtime/analysis/scene_features.hpp"
-#include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -95,6 +96,10 @@ bool is_near(const VoxelBox& box, const std::vector<VoxelBox>& emissive_objects)
     });
 }
 
+double longest_of(const glm::dvec3& edges) {
+    return std::max({edges.x, edges.y, edges.z});
+}
+
 bool is_shown_instance(const Scene& scene, const Object& object) {
     return object.visible && is_instanced(scene, object);
 }
@@ -108,26 +113,23 @@ double voxels_per_metre(const Scene& scene, const Object& object) {
     return stretch / std::min({edge.x, edge.y, edge.z});
 }
 
-/// True if the model's cubes may have normals of the surface that they stand for.
-bool gives_cubes_normals(const Model& model, AssetStore& meshes, bool reads) {
-    if (!shows_voxels(model.surface)) return false;
-    if (model.voxels.empty()) return model.normals == CubeNormals::surface;
-    if (model.given || !surface_of_voxel_model(model.voxels)) return false;
-    return !reads || !meshes.voxels(model).normals.empty();
-}
-
 /// The origin offset of cubes with normals: rays begin at most |g|_max + |g|_1 above a face,
-/// where g is a gradient of length 1, and that is below 2.75 voxels.
-double origin_offset_of_cubes(const Scene& scene, const Object& object, const Model& model) {
-    constexpr double kMaxVoxels = 2.75;
-    glm::dvec3 edge = world_frame(scene.world).voxel_edge;
-    double per_metre = 1 / std::min({edge.x, edge.y, edge.z});
+/// where g is a gradient of length 1, and that is below 2.75 voxels; where they are resampled, up
+/// to |h|_1 of a gradient in their object's voxels higher.
+double origin_offset_of_cubes(const Scene& scene, const Object& object, AssetStore& meshes,
+                              bool reads) {
+    constexpr double kMaxVoxels = 2.75, kMaxOwnVoxels = 1.75;
+    const Model& model = scene.models[size_t(object.model)];
     if (is_instanced(scene, object)) {
         if (!model.voxels.empty() || model.voxel_size == glm::dvec3(0)) return INFINITY;
-        edge = model.voxel_size;
-        per_metre = voxels_per_metre(scene, object);
+        return kMaxVoxels * longest_of(model.voxel_size) * voxels_per_metre(scene, object);
     }
-    return kMaxVoxels * std::max({edge.x, edge.y, edge.z}) * per_metre;
+    if (!reads) return INFINITY;
+    const glm::dvec3 edge = world_frame(scene.world).voxel_edge;
+    const double offset = kMaxVoxels * longest_of(edge) / std::min({edge.x, edge.y, edge.z});
+    if (!has_resampled_soft_cubes(scene, object, meshes)) return offset;
+    const glm::dvec3 own = ObjectLattices(scene, meshes).own_frame(object).voxel_edge;
+    return offset + kMaxOwnVoxels * longest_of(own) * voxels_per_metre(scene, object);
 }
 
 /// The longest way, in voxels, from a surface of an object to where its rays to lights begin: the
@@ -136,7 +138,7 @@ double origin_offset_of_cubes(const Scene& scene, const Object& object, const Mo
 double origin_offset(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     const Model& model = scene.models[size_t(object.model)];
     if (object.visible && gives_cubes_normals(model, meshes, reads))
-        return origin_offset_of_cubes(scene, object, model);
+        return origin_offset_of_cubes(scene, object, meshes, reads);
     if (!object.visible || !lists_primitives(model.surface) || model.solid) return 0;
     if (model.shading.kind == ShadingKind::flat) return 0;
     if (!reads) return INFINITY;

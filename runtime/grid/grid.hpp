@@ -162,6 +162,7 @@ struct Pyramid {
     Buffer<uint32_t> solids;
     InstanceSet instances;
     SourceMeshes sources;
+    Buffer<float> cube_steps;  ///< of each of the scene's objects: runtime/analysis/cube_steps.hpp
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
                                          ///< unknown
     bool clear = false;  ///< true if the space between them is known to hold no medium

@@ -44,6 +44,7 @@ uint64_t bytes_of(const Pyramid& pyramid) {
         visit("", pyramid.instances.materials);
         visit("", pyramid.sources.words);
         visit("", pyramid.sources.objects);
+        visit("", pyramid.cube_steps);
     });
 }
 

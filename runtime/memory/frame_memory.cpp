@@ -48,6 +48,7 @@ class FrameWalk {
         Pyramid joined =
             count_joining(device_, instances.listed, placed.pyramid, instances.models, kept);
         joined.sources = std::move(sources);
+        joined.cube_steps = count_cube_steps(device_, scene_, meshes_, objects_.boxes());
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);

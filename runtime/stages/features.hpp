@@ -8,12 +8,13 @@ namespace voxelume {
 
 /// A feature that is false does not exist in the machine code, and its buffers are not allocated.
 struct Features {
-    bool cubes = false;           ///< some voxel is a surface itself
-    bool smooth = false;          ///< some voxel has a distance field
-    bool triangles = false;       ///< some voxel lists triangles
-    bool corner_normals = false;  ///< some triangle has normals at its corners
-    bool voxel_normals = false;   ///< some cube has the normal of the surface it stands for
-    bool solids = false;          ///< some voxel lists analytic solids
+    bool cubes = false;            ///< some voxel is a surface itself
+    bool smooth = false;           ///< some voxel has a distance field
+    bool triangles = false;        ///< some voxel lists triangles
+    bool corner_normals = false;   ///< some triangle has normals at its corners
+    bool voxel_normals = false;    ///< some cube has the normal of the surface it stands for
+    bool resampled_cubes = false;  ///< ... and other voxels than its object's
+    bool solids = false;           ///< some voxel lists analytic solids
     int solid_kinds = 0xFF;     ///< 1 << VXL_SOLID_* of those that there may be, apart from spheres
     bool field_lists = false;   ///< some voxel lists the distance fields in it
     bool field_chains = false;  ///< ... and some of them are of a solid's parts
@@ -91,6 +92,7 @@ struct Features {
                 {"VXL_SHADING_NORMALS", shading_normals()},
                 {"VXL_CORNER_NORMALS", corner_normals},
                 {"VXL_VOXEL_NORMALS", voxel_normals},
+                {"VXL_RESAMPLED_CUBES", resampled_cubes},
                 {"VXL_SOLIDS", solids},
                 {"VXL_SOLID_KINDS", solid_kinds},
                 {"VXL_FIELD_LISTS", field_lists},

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
+#include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/object_lattice.hpp"
 #include "runtime/grid/world_frame.hpp"
 
@@ -97,6 +98,13 @@ SourceMeshes SourceMeshCache::meshes_of(const Scene& scene, AssetStore& meshes,
     return {joined_.words,
             Buffer<SourceRecord>(device_, "source objects", std::span<const SourceRecord>(records)),
             joined_.has_maps};
+}
+
+Buffer<float> cube_steps_on(const Device& device, const Scene& scene, AssetStore& meshes,
+                            std::span<const VoxelBox> boxes) {
+    const std::vector<float> steps = cube_steps(scene, meshes, boxes);
+    if (steps.empty()) return {};
+    return Buffer<float>(device, "cube steps", std::span<const float>(steps));
 }
 
 }  // namespace voxelume

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene -> the meshes at which rays look up what smooth objects with textures show.
+// scene -> what rays look up for each object: the meshes whose textures smooth objects show, and
+// the steps of cubes with normals.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "runtime/analysis/placed_objects.hpp"
@@ -28,5 +30,9 @@ class SourceMeshCache {
     std::vector<Model> models_;  ///< those of the frame before
     JoinedSources joined_;
 };
+
+/// Pyramid::cube_steps of a scene whose objects have these `boxes`.
+Buffer<float> cube_steps_on(const Device& device, const Scene& scene, AssetStore& meshes,
+                            std::span<const VoxelBox> boxes);
 
 }  // namespace voxelume

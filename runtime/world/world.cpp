@@ -14,7 +14,6 @@
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/stages/index/index.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/world/voxel_warnings.hpp"
 #include "runtime/world/world_source.hpp"
@@ -177,6 +176,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     std::vector<InstancePlace> places = instance_places(scene, built.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
+    built.pyramid.cube_steps = cube_steps_on(device_, scene, meshes_, boxes);
     built.pyramid.object_boxes = std::move(boxes);
     built.pyramid.sources = std::move(sources);
     built.pyramid.clear = plan.medium.is_zero;

@@ -66,7 +66,7 @@ std::string scene_text(const std::string& light) {
             {"model": "ice", "material": "glass", "position": [-0.8, -0.5, 0.3]},
             {"model": "floor", "material": "clay", "position": [0, -0.9, 0]},
             {"model": "ice", "material": "glow", "position": [0.9, 0.6, 0.4]},
-            {"model": "ice", "material": "brass", "position": [0.9, -0.5, 0.9]},
+            {"model": "ice", "material": "brass", "position": [0.9, -0.5, 0.9], "turn": [20, 0, 0]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
             {"model": "slick", "material": "glow", "position": [-0.6, 0.6, 0.4]},
             {"model": "nut", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},

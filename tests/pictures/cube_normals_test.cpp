@@ -201,6 +201,50 @@ TEST_F(SoftCubes, LightFadesToTheTerminatorWithoutTheStepsShadows) {
         }
 }
 
+/// A white ball in a world of voxels of 0.05 m, of which its own are `ratio` times as large.
+std::string resampled_ball(double ratio, const char* set, const char* turn) {
+    return fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.05, "bounds": {{"min": [-1.5, -1.5, -1.5], "max": [1.5, 1.5, 1.5]}}}},
+"materials": {{"default": {{"color": [1, 1, 1]}}}},
+"models": {{"thing": {{{}, "set": "{}", "voxel_size": {}, "surface": "cubes",
+                      "normals": "surface"}}}},
+"objects": [{{"model": "thing", "turn": [{}], "placement": "world"}}],
+"lights": [{{"type": "directional", "direction": [-1, 0, 0], "intensity": 1}}],
+"observer": {{"position": [0.3, 0.4, -2.4], "look_at": [0, 0, 0],
+             "display": {{"shape": "pyramid", "angles": [40, 30]}}}},
+"render": {{"size": [160, 120]}}}})",
+                       kSoftBall, set, 0.05 * ratio, turn);
+}
+
+/// The world takes voxels of the model whose steps lie askew to its own, and may be several of its
+/// voxels high. Rays to lights once began as low as above steps of the world's voxels.
+TEST_F(SoftCubes, CastNoShadowsOfTheirStepsWhereTheyAreResampled) {
+    struct Case {
+        double ratio;
+        const char* turn;
+    };
+    for (const auto& [ratio, turn] : {Case{0.5, "30, 20, 10"},
+                                      {1, "30, 20, 10"},
+                                      {1, "-65, 40, 25"},
+                                      {1.7, "10, 80, -50"},
+                                      {2.3, "45, 35, 0"},
+                                      {4, "30, 20, 10"}})
+        for (const char* set : {"supercover", "thin", "solid"}) {
+            const Image image = image_of_scene(
+                parse_scene(resampled_ball(ratio, set, turn), folder / "scene.json", {}));
+            size_t lit = 0, shadowed = 0;
+            for (size_t i = 0; i < image.planes.at("Z").size(); ++i) {
+                if (image.id_planes.at("objectId")[i] == 0) continue;
+                const double cosine = vector_at(image, "N", i).x;
+                if (cosine <= 0 || vector_at(image, "P", i).x <= 0) continue;
+                ++lit;
+                shadowed += std::abs(image.planes.at("R")[i] - cosine) > 1e-4;
+            }
+            EXPECT_GT(lit, 2000u);
+            EXPECT_EQ(shadowed, 0u) << ratio << set << turn << " of " << lit;
+        }
+}
+
 TEST_F(SoftCubes, ChangeNeitherWhatIsSeenNorWhere) {
     for (const char* placement : {"world", "instance"}) {
         const std::string object =

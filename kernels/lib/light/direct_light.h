@@ -209,7 +209,7 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
         behind = LANE_MASK(dot_product(p->normal, incidence->l) <= 0.0f);
         const Vector offset =
             load_vector(batch->shading + VXL_SHADING_OFFSET * stride, stride, first);
-        p->lit &= ~behind | LANE_MASK(dot_product(offset, p->normal) > 0.0f);
+        p->lit &= ~behind | has_length(offset);
         const Vector up = scaled(offset, world->shape.inverse_edge);
         p->start = add_scaled(p->start, up, (lane_float)1.0f);
         if (light.kind != VXL_LIGHT_DIRECTIONAL)

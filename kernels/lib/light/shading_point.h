@@ -7,6 +7,15 @@
 #include "lib/traverse/shaded_hit.h"
 #include "lib/traverse/world.h"
 
+/// What only scenes with resampled cubes need.
+#if VXL_RESAMPLED_CUBES
+#define VXL_CUBE_STEPS_PARAMETER global const float* restrict cube_steps,
+#define VXL_CUBE_STEPS cube_steps
+#else
+#define VXL_CUBE_STEPS_PARAMETER
+#define VXL_CUBE_STEPS 0
+#endif
+
 /// A gradient in the voxels of the hits, in metric space.
 static inline Vector metric_gradient(const WorldView* world, const ShadedHit* h, Vector g) {
     if (VXL_INSTANCES) g = world_gradient(&h->ray, g, h->of_instance);
@@ -50,6 +59,20 @@ static inline void light_triangles(const WorldView* world, const ShadedHit* h, V
         select_vector(curved & LANE_MASK(dot_product(offset, normal) > 0.0f), offset, s->offset);
 }
 
+/// How far a gradient of the world's voxels goes up from side to side of the voxels of an object
+/// whose cubes were resampled into the world's; 0 for others. `cube_steps` are those of
+/// runtime/analysis/cube_steps.hpp.
+static inline lane_float rise_in_own_voxel(global const float* restrict cube_steps,
+                                           const ShadedHit* h, lane_int cubes, Vector g) {
+    lane_float rise = (lane_float)0.0f;
+    const lane_uint first = (h->packed & VXL_OBJECT_MASK & LANES_AS_UINT(cubes)) * 9u;
+    for (uint row = 0; row < 9; row += 3)
+        rise += fabs(fma(LANES_GATHER_FLOAT(cube_steps, first + row), g.x,
+                         fma(LANES_GATHER_FLOAT(cube_steps, first + row + 1u), g.y,
+                             LANES_GATHER_FLOAT(cube_steps, first + row + 2u) * g.z)));
+    return rise;
+}
+
 /// Cubes: the normals of the surface that they stand for, turned over where both the face, whose
 /// normal is `normal`, and the ray are behind it.
 ///
@@ -58,8 +81,14 @@ static inline void light_triangles(const WorldView* world, const ShadedHit* h, V
 /// (of a supercover; less of others) above it. The voxel in front of a face across axis a holds
 /// nothing, so the surface lies so low that no step is higher than |g_a| + |g|_1 / 2 above the
 /// voxel's centre.
-static inline void light_cubes(const WorldView* world, const ShadedHit* h, Vector place,
-                               Vector normal, ShadingPoint* s) {
+///
+/// Cubes that were resampled have the steps of their object's voxels, too, of which a voxel of the
+/// world takes one that its centre lies in, or near: with the gradient h in those, its centre lies
+/// up to |h|_1 higher above the surface than an empty voxel's centre does at least. Some of their
+/// faces look down from steps that overhang, and are lit as the others.
+static inline void light_cubes(const WorldView* world, const ShadedHit* h,
+                               global const float* restrict cube_steps, Vector place, Vector normal,
+                               ShadingPoint* s) {
     const lane_int cubes =
         LANE_MASK((h->packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) & h->hit & ~h->exact;
     const lane_uint code =
@@ -79,23 +108,28 @@ static inline void light_cubes(const WorldView* world, const ShadedHit* h, Vecto
                                            LANES_SELECT(LANE_MASK(axis == 1u), size.y, size.z));
     const Vector from = {place.x - 0.5f, place.y - 0.5f, place.z - 0.5f};
     const lane_float top = fma((lane_float)0.5f, size.x + size.y + size.z, across);
+    lane_float rise = (lane_float)0.0f;
+    if (VXL_RESAMPLED_CUBES) rise = rise_in_own_voxel(cube_steps, h, curved, g);
     const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
-    const lane_float below = fmax(top - dot_product(g, from), 0.0f) * inverse;
+    const lane_float below = fmax(top + rise - dot_product(g, from), 0.0f) * inverse;
     const Vector n = unit(metric);
     const Vector offset = {n.x * below, n.y * below, n.z * below};
+    lane_int begins_above = LANE_MASK(dot_product(offset, normal) > 0.0f);
+    if (VXL_RESAMPLED_CUBES)
+        begins_above |= LANE_MASK(rise > 0.0f) & LANE_MASK(dot_product(metric, way) < 0.0f);
     s->normal = select_vector(curved, n, s->normal);
-    s->offset =
-        select_vector(curved & LANE_MASK(dot_product(offset, normal) > 0.0f), offset, s->offset);
+    s->offset = select_vector(curved & begins_above, offset, s->offset);
 }
 
 /// The normals by which light falls on points whose geometric normals are `normal`, at `place` in
 /// their voxels, and how far above the surface rays to lights begin.
-static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h, Vector place,
+static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h,
+                                         global const float* restrict cube_steps, Vector place,
                                          Vector normal, lane_int behind) {
     const lane_float zero = (lane_float)0.0f;
     ShadingPoint s = {normal, {zero, zero, zero}};
     if (VXL_CORNER_NORMALS) light_triangles(world, h, normal, behind, &s);
-    if (VXL_VOXEL_NORMALS) light_cubes(world, h, place, normal, &s);
+    if (VXL_VOXEL_NORMALS) light_cubes(world, h, cube_steps, place, normal, &s);
     return s;
 }
 

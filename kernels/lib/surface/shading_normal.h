@@ -66,8 +66,8 @@ static inline void corner_shares(const Vector* from, lane_float* share) {
 /// How a surface point is lit.
 typedef struct {
     Vector normal;  // a unit vector in metres' space
-    Vector offset;  // metres: how far from the point rays to lights begin, on the side of the
-                    // geometric normal
+    Vector offset;  // metres: how far from the point rays to lights begin; not 0 if they begin off
+                    // a triangle, on the side of the geometric normal, or above a cube's steps
 } ShadingPoint;
 
 // The batch's `shading` holds six values for each ray, those of ShadingPoint: from 0 on the normal,
@@ -77,6 +77,11 @@ typedef struct {
 /// Mask: lanes whose vectors differ.
 static inline lane_int are_different(Vector a, Vector b) {
     return LANE_MASK(a.x != b.x) | LANE_MASK(a.y != b.y) | LANE_MASK(a.z != b.z);
+}
+
+/// Mask: vectors that aren't 0.
+static inline lane_int has_length(Vector v) {
+    return LANE_MASK(v.x != 0.0f) | LANE_MASK(v.y != 0.0f) | LANE_MASK(v.z != 0.0f);
 }
 
 /// The direction v, moved along the unit normal n so far that v . n is `least` at least.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/memory/count/count_sources.hpp"
 
+#include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/source_objects.hpp"
 #include "runtime/stages/lookup/source_mesh.hpp"
 
@@ -19,6 +20,12 @@ SourceMeshes count_sources(const Device& device, const Scene& scene, AssetStore&
     counted.words = allocate_source_words(device, sizes);
     counted.objects = Buffer<SourceRecord>(device, "source objects", scene.objects.size());
     return counted;
+}
+
+Buffer<float> count_cube_steps(const Device& device, const Scene& scene, AssetStore& meshes,
+                               std::span<const VoxelBox> boxes) {
+    const size_t numbers = cube_steps(scene, meshes, boxes).size();
+    return numbers == 0 ? Buffer<float>() : Buffer<float>(device, "cube steps", numbers);
 }
 
 }  // namespace voxelume

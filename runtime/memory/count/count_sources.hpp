@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The meshes of smooth objects with textures on a counting device.
+// What rays look up for each object, on a counting device: the meshes of smooth objects with
+// textures, and the steps of cubes with normals.
 #pragma once
+
+#include <span>
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/grid/grid.hpp"
@@ -10,5 +13,9 @@ namespace voxelume {
 
 /// Follows SourceMeshCache::meshes_of.
 SourceMeshes count_sources(const Device& device, const Scene& scene, AssetStore& meshes);
+
+/// Follows WorldBuilder::build for Pyramid::cube_steps.
+Buffer<float> count_cube_steps(const Device& device, const Scene& scene, AssetStore& meshes,
+                               std::span<const VoxelBox> boxes);
 
 }  // namespace voxelume

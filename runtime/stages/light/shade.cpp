@@ -16,6 +16,10 @@ void bind(KernelArguments& to, const SourceMeshes& sources) {
     if (!sources.words.empty()) to.add(sources.objects, sources.words);
 }
 
+void bind(KernelArguments& to, const CubeStepsArgument& argument) {
+    if (!argument.steps.empty()) to.add(argument.steps);
+}
+
 Environment environment_of(const World& world) {
     return {to_float4(glm::dvec3(world.background)), to_float4(glm::dvec3(world.ambient)),
             to_float4(glm::dvec3(world.medium.absorption)),
@@ -29,6 +33,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
                  std::span<const MaterialRecord>(material_records(scene, world, features))),
       sky_is_hidden_(features.sky_hidden),
       has_sources_(features.source_meshes),
+      has_cube_steps_(features.resampled_cubes),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
     const Outside outside = outside_of(scene);
@@ -49,12 +54,14 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count,
                          bool from_observer) {
     const SourceMeshes sources = has_sources_ ? pyramid.sources : SourceMeshes();
+    const CubeStepsArgument steps{has_cube_steps_ ? pyramid.cube_steps : Buffer<float>()};
     if (sky_is_hidden_)
         surface_.launch_packets(count, pyramid, environment_, sky_, uint32_t(from_observer),
-                                emitters_, footprint_, sources, materials_, ranks_, batch, count);
+                                emitters_, footprint_, sources, steps, materials_, ranks_, batch,
+                                count);
     else
         surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, footprint_, sources,
-                                materials_, ranks_, batch, count);
+                                steps, materials_, ranks_, batch, count);
 }
 
 }  // namespace voxelume

@@ -18,6 +18,12 @@ namespace voxelume {
 /// VXL_SOURCE_PARAMETERS of kernels: nothing in scenes without such meshes.
 void bind(KernelArguments& to, const SourceMeshes& sources);
 
+/// VXL_CUBE_STEPS_PARAMETER of kernels: nothing in scenes without resampled cubes.
+struct CubeStepsArgument {
+    Buffer<float> steps;
+};
+void bind(KernelArguments& to, const CubeStepsArgument& argument);
+
 /// The world's background, ambient light and medium.
 Environment environment_of(const World& world);
 
@@ -49,7 +55,7 @@ class ShadeStage {
     Buffer<MaterialRecord> materials_;
     Buffer<uint32_t> ranks_;
     SkyView sky_;
-    bool sky_is_hidden_, has_sources_;
+    bool sky_is_hidden_, has_sources_, has_cube_steps_;
     EmitterTable emitters_;
     FootprintArgument footprint_;
     Program program_;

@@ -126,6 +126,19 @@ bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_f
            is_whole(first.z, kOffsetBits);
 }
 
+glm::dmat3 gradients_in_object(const GridFrame& object_frame, const GridFrame& world_frame,
+                               const glm::dmat4& world_from_object) {
+    const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
+    const glm::dmat3 steps = steps_of(object_frame, world_frame, object_from_world);
+    bool is_resampled = false;
+    for (int column = 0; column < 3; ++column)
+        for (int axis = 0; axis < 3; ++axis) {
+            const double step = std::abs(steps[column][axis]);
+            is_resampled |= std::min(step, std::abs(step - 1)) >= std::ldexp(0.5, -kOffsetBits);
+        }
+    return is_resampled ? glm::inverse(glm::transpose(steps)) : glm::dmat3(0);
+}
+
 PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
                            const glm::dmat4& world_from_object, Reach reach, uint32_t object) {
     check_invertible(world_from_object, object);

@@ -40,6 +40,12 @@ double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& wo
 bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_frame,
                          const glm::dmat4& world_from_object);
 
+/// Turns gradients in the world's voxels into those in the object's; 0 for a map by which each
+/// voxel of the world is one of the object's: by whole voxels or parts of them, by quarters or
+/// mirrored.
+glm::dmat3 gradients_in_object(const GridFrame& object_frame, const GridFrame& world_frame,
+                               const glm::dmat4& world_from_object);
+
 /// Refuses a map that is singular, has a condition number above 10^5 or holds an infinity by
 /// Error::scene. `object` is the object's number in messages.
 void check_invertible(const glm::dmat4& map, uint32_t object);

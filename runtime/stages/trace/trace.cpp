@@ -22,6 +22,7 @@ Features features_of(const Pyramid& pyramid) {
         (features.worn_triangles && pyramid.texture_maps) || pyramid.sources.has_maps;
     features.corner_normals = !pyramid.triangle_normals.empty();
     features.voxel_normals = !pyramid.normals.empty();
+    features.resampled_cubes = features.voxel_normals && !pyramid.cube_steps.empty();
     features.solids = !pyramid.solids.empty();
     features.field_lists = pyramid.listed_fields > 0;
     features.field_chains = pyramid.has_chains;
