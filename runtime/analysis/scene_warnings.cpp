@@ -33,8 +33,9 @@ bool has_any_light(const Scene& scene) {
     const bool has_background = world.background != glm::vec3(0) || world.sky;
     const auto shows_light = [&](const Object& object) {
         const uint32_t effects = effects_of(scene.materials[size_t(object.material)]);
-        return has_emission(scene, object) ||
-               (has_background && ((effects & kReflects) != 0 || transmits(scene, object)));
+        return object.visible &&
+               (has_emission(scene, object) ||
+                (has_background && ((effects & kReflects) != 0 || transmits(scene, object))));
     };
     const bool is_global = scene.render.light == LightMode::global && scene.render.bounces > 0;
     const bool has_sky = has_sun(world) || (world.sky && world.sky->samples > 0);

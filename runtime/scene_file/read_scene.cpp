@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/fitted.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 #include "runtime/scene_file/read_motion.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
@@ -83,18 +87,48 @@ void read_or_frame_observer(const SceneFields& fields, Scene& scene) {
     frame_observer(scene);
 }
 
-/// Whether some material shines, in any frame.
-bool has_emission(const Scene& scene, const std::vector<DocumentPart>& parts) {
-    const auto changes_emission = [](const DocumentTrack& track) {
-        return track.target.steps.front().key == "emission";
-    };
-    return std::ranges::any_of(
-               scene.materials,
-               [](const Material& material) { return material.emission != glm::vec3(0); }) ||
-           std::ranges::any_of(parts, [&](const DocumentPart& part) {
-               return part.part == ScenePart::material &&
-                      std::ranges::any_of(part.tracks, changes_emission);
-           });
+/// Calls `action` with the numbers that tracks give a part's value at their keys.
+template <class Part, class Action>
+void for_tracks(const SceneMotion& motion, ScenePart kind, size_t place, std::string_view key,
+                const Action& action) {
+    for (const MovingPart& part : motion.parts) {
+        if (part.part != kind || part.place != place) continue;
+        for (const Track& track : part.tracks) {
+            const auto* row = std::get_if<const ValueRow<Part>*>(&track.value);
+            if (row && (*row)->key == key) action(track.keys.values);
+        }
+    }
+}
+
+bool has_other_than_0(const std::vector<double>& numbers) {
+    return std::ranges::any_of(numbers, [](double number) { return number != 0; });
+}
+
+/// Whether some object is visible in some frame and has a material that shines in some frame.
+bool shows_emission(const Scene& scene, const SceneMotion& motion) {
+    std::vector<bool> shines(scene.materials.size());
+    for (size_t i = 0; i < shines.size(); ++i) {
+        bool is_bright = scene.materials[i].emission != glm::vec3(0);
+        for_tracks<Material>(motion, ScenePart::material, i, "emission",
+                             [&](const auto& values) { is_bright |= has_other_than_0(values); });
+        shines[i] = is_bright;
+    }
+    if (std::ranges::find(shines, true) == shines.end()) return false;
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        bool is_visible = object.visible, is_lamp = shines[size_t(object.material)];
+        for (const GroupMaterial& group : object.groups)
+            is_lamp = is_lamp || shines[size_t(group.material)];
+        for_tracks<Object>(motion, ScenePart::object, i, "visible",
+                           [&](const auto& values) { is_visible = has_other_than_0(values); });
+        for_tracks<Object>(motion, ScenePart::object, i, "material",
+                           [&](const std::vector<double>& values) {
+                               for (const double material : values)
+                                   is_lamp = is_lamp || shines[size_t(material)];
+                           });
+        if (is_visible && is_lamp) return true;
+    }
+    return false;
 }
 
 /// Adds the light that a scene has which says nothing of lights, and some ambient light with it.
@@ -158,7 +192,7 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     read_or_frame_observer(fields, scene);
     for (const DocumentPart& part : parts)
         if (is_observer(part)) add_part(part, search, scene, motion);
-    if (!fields.has("lights") && !scene.world.sky && !has_emission(scene, parts))
+    if (!fields.has("lights") && !scene.world.sky && !shows_emission(scene, motion))
         add_default_light(fields, scene);
     if (!parts.empty()) {
         scene.motion = std::make_shared<const SceneMotion>(std::move(motion));

@@ -130,10 +130,8 @@ TEST(DefaultLight, IsThereOnlyWhereASceneSaysNothingOfLight) {
     };
     EXPECT_EQ(lights_of(R"("render": {})"), 1u);
     EXPECT_EQ(lights_of(R"("lights": [])"), 0u);
-    EXPECT_EQ(lights_of(R"("materials": {"lamp": {"emission": [0, 1, 0]}})"), 0u);
-    EXPECT_EQ(lights_of(R"("materials": {"lamp": {}}, "animation": {"frames": 2, "tracks": [
-        {"target": "materials.lamp.emission", "keys": [{"frame": 2, "value": [1, 1, 1]}]}]})"),
-              0u);
+    EXPECT_EQ(lights_of(R"("materials": {"lamp": {"emission": [0, 1, 0]}})"), 1u)
+        << "no object has it";
     const Scene lit =
         parse_members(fmt::format(R"({}, "world": {{"ambient": [0, 0, 0.5]}})", kBall));
     EXPECT_TRUE(lit.has_default_light);
@@ -142,6 +140,40 @@ TEST(DefaultLight, IsThereOnlyWhereASceneSaysNothingOfLight) {
         {{"target": "lights[0].color", "keys": [{{"frame": 2, "value": [1, 1, 1]}}]}}]}})",
                                           kBall)),
                 HasSubstr("the scene has no \"lights\" to change"));
+}
+
+/// The lamp of a scene whose other object is plain, and the tracks of their values.
+Scene lamp_scene(const std::string& lamp, const std::string& tracks) {
+    return parse_members(fmt::format(
+        R"("materials": {{"plain": {{}}, "bright": {{"emission": [0, 1, 0]}}, "dark": {{}}}},
+"models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "smooth"}}}},
+"objects": [{{"model": "ball", "material": "plain"}}, {{"name": "lamp", "model": "ball", {}}}],
+"animation": {{"frames": 3, "tracks": [{}]}})",
+        lamp, tracks));
+}
+
+TEST(DefaultLight, IsLeftOutForALampThatIsVisibleInSomeFrame) {
+    const std::string bright = R"("material": "bright")", dark = R"("material": "dark")",
+                      hidden = R"(, "visible": false)";
+    const auto track = [](const char* target, const char* first, const char* second) {
+        return fmt::format(R"({{"target": "{}", "keys": [{{"frame": 1, "value": {}}},
+                                                       {{"frame": 2, "value": {}}}]}})",
+                           target, first, second);
+    };
+    const auto has_light = [](const std::string& lamp, const std::string& tracks) {
+        return lamp_scene(lamp, tracks).has_default_light;
+    };
+    EXPECT_FALSE(has_light(bright, ""));
+    EXPECT_TRUE(has_light(bright + hidden, ""));
+    EXPECT_TRUE(has_light(dark, ""));
+    EXPECT_FALSE(has_light(bright + hidden, track("objects.lamp.visible", "false", "true")));
+    EXPECT_TRUE(has_light(bright, track("objects.lamp.visible", "false", "false")));
+    EXPECT_FALSE(has_light(dark, track("objects.lamp.material", "\"dark\"", "\"bright\"")));
+    EXPECT_FALSE(has_light(dark, track("materials.dark.emission", "[0, 0, 0]", "[0, 0, 2]")));
+    EXPECT_TRUE(has_light(dark, track("materials.dark.emission", "[0, 0, 0]", "[0, 0, 0]")));
+    EXPECT_TRUE(
+        has_light(dark + hidden, track("materials.dark.emission", "[0, 0, 0]", "[0, 0, 2]")));
+    EXPECT_TRUE(has_light(dark, track("materials.bright.emission", "[3, 0, 0]", "[0, 0, 2]")));
 }
 
 TEST(FittedScene, CanBeCopied) {
