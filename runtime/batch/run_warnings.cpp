@@ -16,9 +16,13 @@
 namespace voxelume {
 namespace {
 
-/// The box around all visible objects in the world, metres; empty (min > max) without any.
-Bounds box_of_objects(Scene scene, AssetStore meshes) {
-    for (Object& object : scene.objects) object.potentially_visible = true;
+/// The box around all visible objects in the world, metres; empty (min > max) without any. Those at
+/// the places `lost` became no voxels.
+Bounds box_of_objects(Scene scene, AssetStore meshes, const std::vector<SourcePlace>& lost) {
+    for (Object& object : scene.objects) {
+        object.potentially_visible = true;
+        if (std::ranges::find(lost, object.where) != lost.end()) object.visible = false;
+    }
     const GridFrame world = world_frame(scene.world);
     Bounds all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (const VoxelBox& box : object_boxes(scene, meshes)) {
@@ -76,6 +80,11 @@ bool shows_light(const Scene& scene) {
     });
 }
 
+/// True if a warning says why its object is nowhere to be seen.
+bool explains_loss(WarningKind kind) {
+    return kind == WarningKind::outside_world || kind == WarningKind::unlikely_unit;
+}
+
 }  // namespace
 
 RunWarnings::RunWarnings(std::vector<Warning> before, ModelCache cache, BatchWarnings warn)
@@ -92,10 +101,12 @@ bool RunWarnings::has(WarningKind kind) const {
 
 void RunWarnings::add(const FrameResult& result) {
     for (const Warning& warning : result.report.report.world.warnings) {
+        const bool is_lost = warning.kind == WarningKind::no_voxels;
+        if (is_lost && std::ranges::find(lost_, warning.where) == lost_.end())
+            lost_.push_back(warning.where);
         const bool is_explained =
-            warning.kind == WarningKind::no_voxels &&
-            std::ranges::any_of(warnings_, [&](const Warning& known) {
-                return known.where == warning.where && known.kind != WarningKind::no_voxels;
+            is_lost && std::ranges::any_of(warnings_, [&](const Warning& known) {
+                return known.where == warning.where && explains_loss(known.kind);
             });
         if (!is_explained) add_once(warning, warnings_);
     }
@@ -112,9 +123,9 @@ void RunWarnings::add_view_warning(const Scene& scene) {
     const Medium& medium = scene.world.medium;
     if (!has_objects && (medium.color != glm::vec3(0) || has_medium_colors(medium)))
         return;  // a picture of fog, or of a scan
-    const Bounds objects = box_of_objects(scene, AssetStore(cache_));
+    const Bounds objects = box_of_objects(scene, AssetStore(cache_), lost_);
     const bool is_in_world = objects.min.x <= objects.max.x;
-    if (has(WarningKind::no_voxels) || (has_objects && !is_in_world)) return;  // known already
+    if (has_objects && !is_in_world) return;  // known already
     add_once({WarningKind::nothing_in_view, scene.observer.where,
               has_objects ? "no sight ray meets an object: " + view_advice(scene.observer, objects)
                           : "no sight ray meets an object, as the scene has none that is visible: "

@@ -156,6 +156,39 @@ TEST_F(CliWarningsTest, SayThatAnObjectBecameNoVoxelInEveryRun) {
         EXPECT_THAT(kinds("-o a.png"), testing::ElementsAre("no_voxels"));
 }
 
+/// A plate of 1 mm between the middles of two layers of voxels, in the middle of the picture.
+Json thin_plate() {
+    return {{"shape", "box"}, {"size", {0.5, 0.5, 0.001}}, {"surface", "cubes"}, {"set", "solid"}};
+}
+
+TEST_F(CliWarningsTest, SayThatAThinObjectBecameNoVoxelAndNotWhereElseToLook) {
+    write_scene([](Json& scene) {
+        scene["models"]["plate"] = thin_plate();
+        scene["objects"] =
+            Json::array({{{"name", "plate"}, {"model", "plate"}, {"position", {1.5, 1, 0.503}}}});
+    });
+    EXPECT_THAT(kinds("-o a.png"), testing::ElementsAre("thinner_than_voxel", "no_voxels"));
+    EXPECT_THAT(run("render scene.json -o a.png").err,
+                HasSubstr("\"plate\" became no voxel, so nothing shows it"));
+}
+
+TEST_F(CliWarningsTest, SayWhereTheObjectsLieThatBecameVoxels) {
+    write_scene([](Json& scene) {
+        // The world is within the ring, and a part of the ring's box at the world's end.
+        scene["models"]["ring"] = {
+            {"shape", "torus"}, {"radius", 3.3}, {"tube", 0.1}, {"surface", "exact"}};
+        scene["objects"].push_back({{"name", "ring"},
+                                    {"model", "ring"},
+                                    {"turn", {0, 0, 90}},
+                                    {"position", {2.9, 1, 0.5}}});
+        scene["observer"]["look_at"] = {2.7, 1, 0.5};
+        scene["observer"]["display"]["angles"] = {8, 6};
+    });
+    EXPECT_THAT(run("render scene.json -o a.png").err,
+                AllOf(HasSubstr("\"ring\" became no voxel"),
+                      HasSubstr("the objects lie around [1.5, 1, 0.5]")));
+}
+
 TEST_F(CliWarningsTest, SayThatTheCacheCannotBeWritten) {
     write_scene([](Json&) {});
     put_bytes(folder / "file", "no folder");
