@@ -11,10 +11,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "runtime/assets/model_frame.hpp"
+#include "runtime/analysis/warned_object.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
-#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -29,80 +28,12 @@ constexpr double kMaxRatio = 4;
 /// maps and a "resolution" round theirs.
 constexpr double kSizeRounding = 1e-9;
 
-/// From where on a mesh is too large for the world it stands in to be meant so, and too small.
-constexpr double kTooLarge = 100, kTooSmall = 1.0 / 500;
-
-double largest(const glm::dvec3& v) {
-    return std::max({v.x, v.y, v.z});
-}
-double smallest(const glm::dvec3& v) {
-    return std::min({v.x, v.y, v.z});
-}
+/// From where on a mesh is too large for the world it stands in to be meant so, and too small;
+/// instances may show things that are small.
+constexpr double kTooLarge = 100, kTooSmall = 1.0 / 500, kTooSmallInstance = 1.0 / 1000;
 
 std::string point_text(const glm::dvec3& p) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x + 0.0, p.y + 0.0, p.z + 0.0);
-}
-
-/// An object as the world shows it. Lengths are metres.
-struct PlacedModel {
-    const Model& model;
-    bool is_instance = false;
-    bool is_empty = false;  ///< nothing of its solid is left within the world
-    Bounds own{};           ///< box in object space
-    Bounds world{};         ///< box in the world
-    glm::dvec3 scale{1};    ///< by which lengths along the axes of object space grow
-    glm::dvec3 voxel{0};    ///< edges of its voxels, in the world
-};
-
-glm::dvec3 scale_of(const glm::dmat4& map) {
-    return {glm::length(glm::dvec3(map[0])), glm::length(glm::dvec3(map[1])),
-            glm::length(glm::dvec3(map[2]))};
-}
-
-Bounds mapped(const Bounds& box, const glm::dmat4& map) {
-    Bounds image{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 p(map * glm::dvec4(corner(box, i), 1));
-        image.min = glm::min(image.min, p);
-        image.max = glm::max(image.max, p);
-    }
-    return image;
-}
-
-/// Edges of a model's voxels in object space.
-glm::dvec3 own_voxel(const Model& model, const Bounds& own, AssetStore& meshes) {
-    if (!model.voxels.empty()) return meshes.voxels(model).frame.voxel_edge;
-    if (model.resolution == 0) return model.voxel_size;
-    return glm::dvec3(largest(own.max - own.min) / model.resolution);
-}
-
-PlacedModel placed(const Scene& scene, const Object& object, AssetStore& meshes) {
-    PlacedModel result{scene.models[size_t(object.model)]};
-    const Model& model = result.model;
-    result.is_instance = is_instanced(scene, object);
-    result.scale = scale_of(object.world_from_object);
-    if (model.solid) {
-        const Bounds lattice = lattice_bounds(scene.world);
-        const bool is_endless = is_infinite(*model.solid);
-        const SolidBounds clip{lattice.min, lattice.max};
-        const SolidBounds box = bounds(*model.solid, object.world_from_object,
-                                       is_endless ? std::optional(clip) : std::nullopt);
-        result.is_empty = box.is_empty();
-        result.world = {box.min, box.max};
-        if (!is_endless) {
-            const SolidBounds own = bounds(*model.solid, glm::dmat4(1));
-            result.own = {own.min, own.max};
-        }
-    } else if (const MeshSummary* mesh = meshes.summary_of(model)) {
-        result.own = mesh->surface;
-        result.world = mapped(result.own, object.world_from_object);
-    } else {
-        const GridFrame& frame = meshes.voxels(model).frame;
-        result.own = {frame.origin, frame.origin + frame.voxel_edge * glm::dvec3(frame.size)};
-        result.world = mapped(result.own, object.world_from_object);
-    }
-    result.voxel = own_voxel(model, result.own, meshes) * result.scale;
-    return result;
 }
 
 /// What makes a mesh that is too large fit the world.
@@ -128,8 +59,9 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
     const double side = largest(placed.world.max - placed.world.min),
                  world = largest(glm::dvec3(scene.world.voxels) * scene.world.voxel_size),
                  times = side / world;
-    const bool is_tiny = times <= kTooSmall && !placed.is_instance &&
-                         side < 2 * largest(scene.world.voxel_size) && side > 0;
+    const double too_small = placed.is_instance ? kTooSmallInstance : kTooSmall;
+    const bool is_tiny =
+        times <= too_small && side < 2 * largest(scene.world.voxel_size) && side > 0;
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
         is_tiny ? "if the scene is in millimetres, give the object a \"scale\" 1000 times as large"
@@ -140,6 +72,17 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
                      "coordinates are metres; {}",
                      title_of(object), side, world, advice)},
         warnings);
+}
+
+/// Says that a combination of solids has no points, as an intersection of parts that don't meet.
+bool add_void_warning(const Object& object, const PlacedModel& placed,
+                      std::vector<Warning>& warnings) {
+    if (!placed.is_void) return false;
+    return add_once({WarningKind::no_voxels, object.where,
+                     fmt::format("{} is empty, so nothing shows it: the parts of its solid don't "
+                                 "meet where they should; move them, or make them larger",
+                                 title_of(object))},
+                    warnings);
 }
 
 bool add_outside_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
@@ -251,6 +194,15 @@ void add_rounding_warning(const Model& model, std::vector<Warning>& warnings) {
              warnings);
 }
 
+/// What lets an object show all of its cubes. A file's voxels are as large as the file says.
+std::string finer_advice(const Model& model, double voxel_size) {
+    const std::string placement = "the object \"placement\": \"instance\"";
+    if (!model.voxels.empty())
+        return placement + ", or make it larger by its \"scale\" or the model's \"fit\"";
+    return fmt::format("the model a \"voxel_size\" of {:.3g}, or {}", voxel_size, placement);
+}
+
+/// `smooth` objects in the world have voxels of the world's size, but for those that are coarser.
 void add_ratio_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                        std::vector<Warning>& warnings) {
     const Model& model = placed.model;
@@ -260,11 +212,10 @@ void add_ratio_warning(const Scene& scene, const Object& object, const PlacedMod
         fmt::format("voxels of {} are {:.3g} m where it stands, and the world's are {:.3g} m",
                     title_of(object), smallest(placed.voxel), smallest(world));
     const double slack = 1 + kSizeRounding;
-    if (smallest(world) > kMaxRatio * slack * largest(placed.voxel))
+    if (shows_voxels(model.surface) && smallest(world) > kMaxRatio * slack * largest(placed.voxel))
         add_once({WarningKind::finer_than_world, object.where,
-                  fmt::format("{}, which can't show as much: give the model a \"voxel_size\" of "
-                              "{:.3g}, or the object \"placement\": \"instance\"",
-                              sizes, smallest(world) / largest(placed.scale))},
+                  fmt::format("{}, which can't show as much: give {}", sizes,
+                              finer_advice(model, smallest(world) / largest(placed.scale)))},
                  warnings);
     // Large cubes are a style.
     const bool is_coarse = smallest(placed.voxel) > kMaxRatio * slack * largest(world);
@@ -287,6 +238,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     if (!object.visible) return;
     const PlacedModel model = placed(scene, object, meshes);
     if (add_unit_warning(scene, object, model, warnings)) return;
+    if (add_void_warning(object, model, warnings)) return;
     if (add_outside_warning(scene, object, model, warnings)) return;
     add_thin_warning(scene, object, model, warnings);
     add_thin_part_warning(scene, model, meshes, warnings);

@@ -13,6 +13,9 @@ namespace {
 
 /// Why an object may have become no voxel, and what helps.
 const char* advice_for(const Model& model) {
+    if (model.solid && !model.solid->parts.empty())
+        return "its parts leave nothing of each other, it is too small or thin for its voxels, or "
+               "none of it lies in the world; move the parts, or try \"surface\": \"exact\"";
     if (lists_primitives(model.surface))
         return "no part of its surface lies in the world; move it, or enlarge the world's "
                "\"bounds\"";

@@ -41,6 +41,12 @@ TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
     json["objects"].erase(1);
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
     EXPECT_THAT(warnings()[0].text, HasSubstr("a \"scale\" 1000 times as large"));
+    json["objects"][0]["placement"] = "instance";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
+    json["objects"][0]["scale"] = 2;  // an instance may be a small thing
+    EXPECT_THAT(kinds(), testing::Not(testing::Contains(Kind::unlikely_unit)));
+    json["objects"][0]["placement"] = "world";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
 }
 
 TEST_F(MeshWarnings, NameAnOpenMeshWhereAnInsideIsNeeded) {
