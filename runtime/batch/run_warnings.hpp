@@ -31,7 +31,7 @@ class RunWarnings {
 
     std::vector<Warning> warnings_;
     std::vector<SourcePlace> lost_;  ///< of objects that became no voxels in some frame
-    size_t told_ = 0;  ///< number of the first warnings, which `warn_` knows
+    size_t told_ = 0;                ///< number of the first warnings, which `warn_` knows
     ModelCache cache_;
     BatchWarnings warn_;
     ShownContent content_{false, false};

@@ -125,9 +125,9 @@ static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
                   n, mirrored_direction(p));
 }
 
-/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on from where
-/// it began. Like every refracted ray it has no end, though the ray that met the surface may have
-/// one: those that look at the voxels of a display end shortly behind them.
+/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on from
+/// where it began. Like every refracted ray it has no end, though the ray that met the surface may
+/// have one: those that look at the voxels of a display end shortly behind them.
 static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                                 const ScatterPoint* p, const RayBatch* batch, uint first,
                                 NewRays* r) {
