@@ -9,7 +9,7 @@
 
 /// Chooses a point for each of the rays 0 .. count-1 that the light shines on in the medium, before
 /// the surfaces that they have met: puts it, with the throughput of the light from there, into a
-/// queue. Rays that are the `first` of their paths of paths have lost no light, whatever became of
+/// queue. Rays that begin their paths (`is_first`) have lost no light yet, whatever was noted of
 /// them since.
 kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absorption,
                              VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS, PathSampling sampling,
@@ -39,8 +39,8 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
                            (lane_float)light.position.z};
     const Vector way = unit(scaled(segment.direction, shape.edge));
     const Vector to_light = scaled(difference(middle, segment.origin), shape.edge);
-    const NearPart part =
-        near_part(light, to_light, way, segment.t_first * metres, segment.t_last * metres, active);
+    const NearPart part = near_part(light, shape.edge, to_light, way, segment.t_first * metres,
+                                    segment.t_last * metres, active);
     active &= part.some;
     if (!lanes_any(active)) return;
     const PathSamples samples = path_samples(&sampling, target, state);

@@ -234,7 +234,7 @@ void check_options(const RenderCommand& options) {
     for (const std::string& pattern : options.outputs)
         if (!is_stream(pattern))
             for (const std::filesystem::path& file :
-                 files_of_eyes(frame_path(pattern, first, animation)))
+                 files_of_eyes(frame_path(pattern, first, animation), options.quilt))
                 check_image_output(file, "render");
     if (options.stats == "-")
         fail_usage("render: --stats-json -: statistics go to a file, not to standard output");
@@ -249,7 +249,9 @@ void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
     std::vector<std::string> names{options.stats};
     for (const FrameFiles& files : list) {
         for (const auto* paths : {&files.images, &files.volumes})
-            for (const std::filesystem::path& path : *paths) names.push_back(path.string());
+            for (const std::filesystem::path& path : *paths)
+                for (const std::filesystem::path& file : files_of_eyes(path, options.quilt))
+                    names.push_back(file.string());
         for (const std::filesystem::path& path : files.volumes) check_volume_file(path, scene);
     }
     check_distinct(names, "render");

@@ -74,10 +74,10 @@ fs::path named(const fs::path& file, const std::string& suffix) {
 
 /// Writes the views to a file, or to one for each eye. Returns the files.
 std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& quilt,
-                                  const fs::path& file, const ImageFileOptions& options) {
-    const std::vector<fs::path> files = files_of_eyes(file);
+                                  const std::vector<fs::path>& files,
+                                  const ImageFileOptions& options) {
     if (files.size() == 1)
-        join_views(views, quilt).write(file, options);
+        join_views(views, quilt).write(files.front(), options);
     else
         for (size_t eye = 0; eye < files.size(); ++eye) views[eye].write(files[eye], options);
     return files;
@@ -90,7 +90,8 @@ std::string kind_of(const QuiltChoices& choices, size_t frames) {
 
 }  // namespace
 
-std::vector<fs::path> files_of_eyes(const fs::path& file) {
+std::vector<fs::path> files_of_eyes(const fs::path& file, const QuiltChoices& choices) {
+    if (choices.stereo == 0) return {file};
     std::vector<fs::path> files;
     for (const char* eye : {"left", "right"}) {
         std::string name = file.string();
@@ -158,7 +159,9 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
         const std::vector<Image> views = render_views(scene, devices, quilt, frame.frame, options);
         std::vector<fs::path> files;
         for (const fs::path& file : frame.images)
-            for (fs::path& part : write_views(views, quilt, named(file, suffix), job.image_files))
+            for (fs::path& part :
+                 write_views(views, quilt, files_of_eyes(named(file, suffix), command.quilt),
+                             job.image_files))
                 files.push_back(std::move(part));
         if (written.empty() && !files.empty()) written = files.front().string();
         frame.images = std::move(files);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `render --quilt`: the views of a light-field display in one image.
+// `render --quilt` and `--stereo`: the views of a light-field display, and of two eyes.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +32,10 @@ void add_quilt_options(CLI::App& app, QuiltChoices& choices);
 /// What stands for "left" and "right" in the names of a stereo pair's files.
 inline constexpr const char* kEye = "{eye}";
 
-/// The files of the left and of the right eye, or the file itself where its name has no `kEye`.
-std::vector<std::filesystem::path> files_of_eyes(const std::filesystem::path& file);
+/// The files of the left and of the right eye of a stereo pair, or the file itself where its name
+/// has no `kEye` or no pair is asked for.
+std::vector<std::filesystem::path> files_of_eyes(const std::filesystem::path& file,
+                                                 const QuiltChoices& choices);
 
 /// Renders a quilt or a stereo pair of each of the job's frames, and writes its files: quilts under
 /// names that say what is in them, pairs beside one another or, where a name has `kEye`, one by

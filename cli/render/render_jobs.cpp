@@ -113,11 +113,12 @@ class JobList {
 
     /// What tells a sweep's values apart in a file's name: its key or, where that means something
     /// else or the values look alike, the combination's number.
-    static std::string placeholder(const Sweep& sweep) {
+    std::string placeholder(const Sweep& sweep) const {
         const std::string key = last_key(sweep.path);
         std::set<std::string> parts;
         for (const std::string& value : sweep.values) parts.insert(file_part(value));
-        const bool is_taken = key == "name" || key == "frame" || key == "view" || key == "eye";
+        const bool is_taken = key == "name" || key == "frame" || key == "view" ||
+                              (key == "eye" && command_.quilt.stereo > 0);
         return is_taken || parts.size() < sweep.values.size() ? "sweep" : key;
     }
 
@@ -134,11 +135,14 @@ class JobList {
             files.push_back(job.command.stats);
             for (const std::string& file : files) {
                 if (file.empty()) continue;
-                const auto [first, is_new] = known.emplace(
-                    std::filesystem::weakly_canonical(std::filesystem::absolute(file)), &job);
-                if (is_new || first->second == &job) continue;
-                fail_usage("render: {}: this would be the output of both {} and {}; {}", file,
-                           first->second->name, job.name, advice(*first->second, job));
+                for (const std::filesystem::path& one : files_of_eyes(file, job.command.quilt)) {
+                    const auto [first, is_new] = known.emplace(
+                        std::filesystem::weakly_canonical(std::filesystem::absolute(one)), &job);
+                    if (is_new || first->second == &job) continue;
+                    fail_usage("render: {}: this would be the output of both {} and {}; {}",
+                               one.string(), first->second->name, job.name,
+                               advice(*first->second, job));
+                }
             }
         }
     }

@@ -96,8 +96,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         });
 }
 
-/// True if emissive objects light the world from samples of their surfaces. In global light their
-/// emission is what paths run into.
+/// True if emissive objects shine from samples of their surfaces. In global light paths find them.
 bool has_emissive_samples(const Scene& scene, const Pyramid& world) {
     return scene.render.light == LightMode::local && has_emissive_object(scene, world);
 }
@@ -143,10 +142,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
                 }));
     if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
     features.scattering = scatters_paths(scene, world);
-    features.near_light =
-        features.scattering && std::ranges::any_of(scene.lights, [](const Light& light) {
-            return shines(light) && light.kind != LightKind::directional;
-        });
+    features.near_light = features.scattering && has_placed_light(scene);
     features.medium =
         features.scattering || (scene.world.medium.absorption != glm::vec3(0) && !world.clear);
     features.medium_grid = features.medium && has_density(scene.world.medium);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quilts of light-field displays, for callers.
+// Quilts of light-field displays, and stereo pairs, for callers.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -37,9 +37,9 @@ void Illumination::send_to_points(const PathLight& light, uint32_t count, PathDe
         medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
 }
 
-/// Adds what the medium scatters on the rays' ways of the light of lights that aren't infinitely
-/// far away, from the points that each of them shines on most. Paths that the medium scatters find
-/// the rest.
+/// Adds the light of lights that aren't infinitely far away, as the medium scatters it on the ways
+/// of the rays: from points where each of them shines most. Paths that the medium scatters find the
+/// rest of it.
 void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_first,
                                      PathDepth& depth) {
     if (!features_.near_light) return;

@@ -88,6 +88,12 @@ bool has_scattering(const Scene& scene) {
     return scene.render.light == LightMode::global && scene.world.medium.scattering != glm::vec3(0);
 }
 
+bool has_placed_light(const Scene& scene) {
+    return std::ranges::any_of(scene.lights, [](const Light& light) {
+        return shines(light) && light.kind != LightKind::directional;
+    });
+}
+
 bool shines(const Light& light) {
     return light.intensity != glm::vec3(0);
 }

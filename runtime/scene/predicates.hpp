@@ -49,6 +49,9 @@ bool shines(const Light& light);
 /// Whether the medium between the objects scatters light. In local light none does.
 bool has_scattering(const Scene& scene);
 
+/// Whether any light comes from a light that isn't infinitely far away.
+bool has_placed_light(const Scene& scene);
+
 /// Whether it shines from a patch, not from one point or direction.
 bool has_area(const Light& light);
 

@@ -71,6 +71,19 @@ TEST_F(CliQuiltTest, EyesLieBesideOneAnotherOrInFilesOfTheirOwn) {
                       eyes[x / 20].planes.at("G")[size_t(20 * y + x % 20)]);
 }
 
+TEST_F(CliQuiltTest, EyesOfSeveralFramesAndScenesHaveFilesOfTheirOwn) {
+    std::filesystem::copy_file(folder / "scene.json", folder / "other.json");
+    ASSERT_EQ(run("render scene.json other.json -o {name}_{eye}.####.png --stereo 1 --frames 1-2 "
+                  "--size 8x6")
+                  .exit_code,
+              0);
+    for (const char* name : {"scene", "other"})
+        for (const char* eye : {"left", "right"})
+            for (int frame = 1; frame <= 2; ++frame)
+                EXPECT_TRUE(std::filesystem::exists(
+                    folder / fmt::format("{}_{}.{:04}.png", name, eye, frame)));
+}
+
 TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
     for (const char* option : {"--crop 0,0,4,4", "--shard 1/2", "--noise 0.1", "--resume",
                                "--stats-json s.json", "--volume v.vdb"})
@@ -86,6 +99,8 @@ TEST_F(CliQuiltTest, WhatAQuiltCantHaveIsRefused) {
                 HasSubstr("--stereo"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o q.png --stereo 0.06 --noise 0.1"),
                 HasSubstr("can't be had of stereo pairs"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a{eye}.png -o aleft.png --stereo 0.06"),
+                HasSubstr("aleft.png"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o {eye}.png"),
                 HasSubstr("no placeholder \"eye\""));
 }

@@ -84,8 +84,8 @@ static inline lane_float density_at(const DensityView* density, const Segment* s
     return LANES_SELECT(active, cell.density, (lane_float)0.0f);
 }
 
-/// The density per metre with which paths are scattered behind `depth` of the medium, where it has
-/// this density.
+/// How probable it is per metre that a path is scattered behind `depth` of the medium, at a place
+/// where the medium has this `density`.
 static inline lane_float chance_density(const MediumScattering* m, lane_float depth,
                                         lane_float density) {
     lane_float sum = (lane_float)0.0f;

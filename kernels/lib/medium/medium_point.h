@@ -56,14 +56,14 @@ static inline void put_ways(global uint* restrict hits, uint stride, lane_float 
 }
 
 /// The part that a point found by chance has of a light's estimate: the other points have the rest.
-static inline lane_float share_of_chance(LightRecord light, Vector to_light, Vector way,
-                                         global const uint* restrict hits, uint stride, uint first,
-                                         lane_int valid) {
+static inline lane_float share_of_chance(LightRecord light, float4 edge, Vector to_light,
+                                         Vector way, global const uint* restrict hits, uint stride,
+                                         uint first, lane_int valid) {
     const lane_float came = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_CAME * stride + first));
     const lane_float ahead = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_AHEAD * stride + first));
     const lane_float density = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_POINT_DENSITY * stride + first));
     valid &= LANE_MASK(density > 0.0f);
-    const NearPart part = near_part(light, to_light, way, -came, ahead, valid);
+    const NearPart part = near_part(light, edge, to_light, way, -came, ahead, valid);
     const lane_float other = near_density(&part, -dot_product(to_light, way));
     return LANES_SELECT(
         valid, exact_divide(density, LANES_SELECT(valid, density + other, (lane_float)1.0f)),

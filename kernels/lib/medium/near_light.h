@@ -49,8 +49,12 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
 
 /// The part of the ways along the unit vectors `way` that the light shines on: the light's middle
 /// lies at `to_light` from their origins, and they reach from `begin` to `end`, all in metres.
-static inline NearPart near_part(LightRecord light, Vector to_light, Vector way, lane_float begin,
-                                 lane_float end, lane_int valid) {
+///
+/// Where ways begin at a light, as those of an observer with a lamp, a medium scatters an infinite
+/// amount of its light. Their points aren't crowded within a voxel of it, so that pictures show
+/// more than that.
+static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light, Vector way,
+                                 lane_float begin, lane_float end, lane_int valid) {
     const lane_float one = (lane_float)1.0f;
     const lane_float nearest = dot_product(to_light, way);
     const Vector across = cross_of(to_light, way);
@@ -61,6 +65,9 @@ static inline NearPart near_part(LightRecord light, Vector to_light, Vector way,
     p.end = end - nearest;
     // Where the light is on the way, no density of points would be finite.
     p.height = fmax(exact_sqrt(dot_product(across, across)), 1e-6f);
+    const float voxel = fmax(edge.x, fmax(edge.y, edge.z));
+    const lane_int at_light = LANE_MASK(fma(p.height, p.height, p.begin * p.begin) < voxel * voxel);
+    p.height = LANES_SELECT(at_light, fmax(p.height, voxel), p.height);
     p.some = valid;
     if (light.kind == VXL_LIGHT_SPOT && light.outer_cosine > 0.0f)
         cut_to_cone(light, next, way, &p);

@@ -19,9 +19,10 @@ class ObjColors {
         for (int i = 0; i < 3; ++i) {
             if (!(color[i] >= 0 && color[i] <= kBytes))
                 source.fail_at_line(
-                    at, fmt::format("the vertex's colour has a {}; colours are from 0 to 1, or to "
-                                    "255",
-                                    color[i]));
+                    at, fmt::format(
+                            "the vertex's colour has a part of {}; colours are from 0 to 1, or to "
+                            "255",
+                            color[i]));
             if (color[i] > 1 && !above_) above_ = at;
             max_ = std::max(max_, color[i]);
             is_whole_ = is_whole_ && color[i] == std::floor(color[i]);
@@ -31,11 +32,11 @@ class ObjColors {
     }
 
     /// Makes linear colours of all. Fractions that are little above 1 are no bytes: they are
-    /// refused, as dividing them would make the mesh black.
+    /// refused, as dividing them would make the mesh almost black.
     void settle(const MeshSource& source, Mesh& mesh) const {
         if (mesh.vertex_colors.empty()) return;
         mesh.vertex_colors.resize(mesh.positions.size(), kNone);
-        if (max_ > 1 && max_ < 2 && !is_whole_)
+        if (max_ > 1 && max_ < kLeastBytes && !is_whole_)
             source.fail_at_line(above_,
                                 fmt::format("the vertex's colour has a part above 1, and none of "
                                             "the file is above {}; colours are from 0 to 1, or to "
@@ -51,7 +52,8 @@ class ObjColors {
 
   private:
     static constexpr float kBytes = 255;
-    static constexpr glm::vec3 kNone{-1};  ///< of a vertex without a colour, which is white
+    static constexpr float kLeastBytes = 16;  ///< the least maximum of fractions that are meant so
+    static constexpr glm::vec3 kNone{-1};     ///< of a vertex without a colour, which is white
 
     float max_ = 0;
     bool is_whole_ = true;

@@ -91,8 +91,8 @@ class BodyParser {
     glm::vec3 color_of_row(const PlyLayout& layout, const char* what) const {
         const glm::dvec3 color = ply_color(row_, layout);
         if (color.x < 0) {
-            rows_.fail(fmt::format("the {}'s colour has a {}; colours are from 0 to {}", what,
-                                   color.y, color.z));
+            rows_.fail(fmt::format("the {}'s colour has a part of {}; colours are from 0 to {}",
+                                   what, color.y, color.z));
         }
         return linear_from_srgb(color);
     }

@@ -94,22 +94,28 @@ class LibraryTextures {
     /// The picture that says how much the material covers, besides that of its colours.
     std::string cover_of(const MtlMaterial& material) {
         const MtlTexture &map = material.diffuse_map, &cover = material.opacity_map;
-        if (cover.file.empty() || cover.file == map.file) return "";
+        if (cover.file.empty()) return "";
         if (cover.offset == map.offset && cover.scale == map.scale && cover.clamps == map.clamps)
-            return cover.file;
-        mesh_.notes.push_back(
-            fmt::format("its texture {} isn't shown: map_d has other options "
-                        "than map_Kd",
+            return cover.file == map.file ? "" : cover.file;
+        note(
+            fmt::format("its texture {} isn't shown as map_d says, which has other options than "
+                        "map_Kd",
                         quote(cover.file)));
         return "";
+    }
+
+    /// Notes what several materials may have only once.
+    void note(const std::string& sentence) {
+        if (std::ranges::find(mesh_.notes, sentence) == mesh_.notes.end())
+            mesh_.notes.push_back(sentence);
     }
 
     void note_missing_alpha(const MtlMaterial& material, const Texture& texture) {
         const std::string& file = material.opacity_map.file;
         if (file.empty() || file != material.diffuse_map.file || texture.alpha != kAlphaOpaque)
             return;
-        mesh_.notes.push_back(fmt::format(
-            "its texture {} shows no opacity, as map_d wants: it has no alpha", quote(file)));
+        note(fmt::format("its texture {} shows no opacity, as map_d wants: it has no alpha",
+                         quote(file)));
     }
 
     /// Appends a texture of colours, which are white without a file, and of what they cover.

@@ -36,11 +36,11 @@ uint32_t MediumPathStage::scatter(const Pyramid& pyramid, const PathSampling& sa
 }
 
 uint32_t MediumPathStage::near(const Pyramid& pyramid, const LightRecord& light,
-                               const PathSampling& sampling, bool from_observer, RayBatch& entries,
+                               const PathSampling& sampling, bool is_first, RayBatch& entries,
                                uint32_t count, RayBatch& points) {
     counters_.fill(0);
     near_->find.launch_packets(count, shape_of(pyramid), light, absorption_, scattering_, density_,
-                               sampling, uint32_t(from_observer), entries, count, counters_,
+                               sampling, uint32_t(is_first), entries, count, counters_,
                                static_cast<const RayQueue&>(points), points.hits, points.radiance);
     return counters_.read()[kCountChildren];
 }

@@ -43,10 +43,11 @@ class MediumPathStage {
                      uint32_t count, RayBatch& points);
 
     /// Chooses points that a light is near to on entries 0 .. count-1, whose hits are known, and
-    /// writes them to `points`. Returns their number. Call it for an observer's rays at any time,
-    /// for others before `scatter`, and only for features with `near_light`.
+    /// writes them to `points`. Returns their number. Call it for rays that begin their paths
+    /// (`is_first`) at any time, for others before `scatter`, and only for features with
+    /// `near_light`.
     uint32_t near(const Pyramid& pyramid, const LightRecord& light, const PathSampling& sampling,
-                  bool from_observer, RayBatch& entries, uint32_t count, RayBatch& points);
+                  bool is_first, RayBatch& entries, uint32_t count, RayBatch& points);
     /// Adds the light of these points to the nodes of their sight rays.
     void add_near(RayBatch& points, uint32_t count, NodeLight& nodes);
 

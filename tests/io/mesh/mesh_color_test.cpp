@@ -78,7 +78,7 @@ TEST(MeshColors, OfPlyFacesThatAreNoColorsAreSkipped) {
         IsEmpty());
     const std::string floats = "property float red\nproperty float green\nproperty float blue\n";
     EXPECT_EQ(refusal(ply(face + floats, "3 0 1 2 0.5 1.5 0\n"), "a.ply"),
-              "a.ply:18: the face's colour has a 1.5; colours are from 0 to 1");
+              "a.ply:18: the face's colour has a part of 1.5; colours are from 0 to 1");
 }
 
 TEST(MeshStrips, TurnEveryOtherTriangleRoundAndBeginAnewAtMinusOne) {
@@ -127,11 +127,16 @@ TEST(MeshColors, OfObjFromZeroTo255AreBytesWhichIsAssumed) {
     EXPECT_EQ(plain.vertex_colors, (std::vector<vec3>{{1, 0, 0.033104766f}, vec3(1), {0, 1, 0}}));
     EXPECT_THAT(plain.assumptions, IsEmpty());
     EXPECT_EQ(refusal("v 0 0 0 0 0 0\nv 5 0 0 0 256 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
-              "a.obj:2: the vertex's colour has a 256; colours are from 0 to 1, or to 255");
+              "a.obj:2: the vertex's colour has a part of 256; colours are from 0 to 1, or to 255");
     EXPECT_THAT(refusal("v 0 0 0 0 0 -1\nv 5 0 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
-                HasSubstr("a.obj:1: the vertex's colour has a -1;"));
+                HasSubstr("a.obj:1: the vertex's colour has a part of -1;"));
     EXPECT_THAT(refusal("v 0 0 0 1 0 0\nv 5 0 0 0.5 1.25 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
                 HasSubstr("a.obj:2: the vertex's colour has a part above 1"));
+    EXPECT_THAT(refusal("v 0 0 0 1 0 0\nv 5 0 0 0.5 2.5 0\nv 0 3 1\nf 1 2 3\n", "a.obj"),
+                HasSubstr("none of the file is above 2.5"));
+    EXPECT_THAT(
+        parse_mesh("v 0 0 0 99.5 0 0\nv 5 0 0 0 0 0\nv 0 3 1\nf 1 2 3\n", "a.obj").assumptions,
+        ElementsAre(HasSubstr("from 0 to 255")));
 }
 
 }  // namespace voxelume

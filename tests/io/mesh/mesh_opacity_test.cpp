@@ -102,8 +102,8 @@ TEST_F(MeshOpacity, WithoutAPictureOfColorsIsThatOfWhite) {
 
 TEST_F(MeshOpacity, ThatCantBeShownIsNoted) {
     EXPECT_THAT(read("map_Kd full.png\nmap_d -s 2 2 grey.png\n").notes,
-                ElementsAre("its texture \"grey.png\" isn't shown: map_d has other options than "
-                            "map_Kd"));
+                ElementsAre("its texture \"grey.png\" isn't shown as map_d says, which has "
+                            "other options than map_Kd"));
     EXPECT_THAT(read("map_Kd full.png\nmap_d lost.png\n").notes,
                 ElementsAre("its texture \"lost.png\" isn't in its folder"));
     const Mesh mesh = read("map_Kd lost.png\nmap_d grey.png\n");

@@ -149,6 +149,48 @@ TEST(NearLightAlone, AgreesWithChanceWhereLightIsScatteredOften) {
     }
 }
 
+/// Behind the ball, whose shadow the lamp throws into the medium, the line of sight ends.
+TEST(NearLightAlone, StopsAtSurfacesAndInShadows) {
+    const Lamp lamp{.position = {0.0625, 0.9, 0.1}};
+    Json scene = cube_of_medium({{"scattering", {1, 1, 1}}}, Json::array({lamp.json()}), 0, 64);
+    scene["materials"] = {{"black", {{"color", {0, 0, 0}}}}};
+    scene["models"] = {{"ball", {{"shape", "sphere"}, {"radius", 0.1875}, {"surface", "exact"}}},
+                       {"wall", {{"shape", "box"}, {"size", {2, 2, 0.25}}, {"surface", "exact"}}}};
+    scene["objects"] =
+        Json::array({{{"model", "ball"}, {"material", "black"}, {"position", {0.0625, 0.55, 0.1}}},
+                     {{"model", "wall"}, {"material", "black"}, {"position", {0, 0, -0.75}}}});
+    constexpr int kSteps = 200000;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const glm::dvec3 at(kLine.x, kLine.y, 1 - 1.625 * (i + 0.5) / kSteps);
+        const glm::dvec3 way = at - lamp.position, to_ball = glm::dvec3(0, -0.35, 0);
+        const double length = glm::length(way), along = glm::dot(to_ball, way) / length;
+        if (glm::dot(to_ball, to_ball) - along * along < 0.1875 * 0.1875) continue;
+        sum += std::exp(-(1 - at.z + length)) * phase(0, 0) * lamp.light_along(way);
+    }
+    const double expected = sum * 1.625 / kSteps * std::numbers::pi;
+    expect_mean(estimate_of_channel(image_of_medium(scene), "G"), expected, "behind a ball",
+                1e-4 * expected);
+}
+
+/// What an observer with a lamp sees has no mean, but a picture.
+TEST(NearLightAlone, ALampAtTheObserversPlaceLeavesAPicture) {
+    const auto median_with = [](double aside) {
+        Json scene =
+            cube_of_medium({{"scattering", {1, 1, 1}}},
+                           Json::array({Lamp{.position = {aside, 0.1, 0.9}}.json()}), 1, 64);
+        scene["observer"] = {{"position", {0, 0.1, 0.9}},
+                             {"look_at", {0, 0.1, 0}},
+                             {"display", {{"shape", "pyramid"}, {"angle", 40}}}};
+        std::vector<float> green = image_of_medium(scene).planes.at("G");
+        std::nth_element(green.begin(), green.begin() + 128, green.end());
+        return green[128];
+    };
+    const float aside = median_with(0.05);
+    EXPECT_GT(median_with(0), aside);
+    EXPECT_LT(median_with(0), 10 * aside);
+}
+
 TEST(NearLightAlone, CostsNothingWhereThereIsNone) {
     const auto has_near_light = [](const Json& json) {
         const Scene scene = parse_scene(json.dump(), "medium", {});
