@@ -51,8 +51,7 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
 /// lies at `to_light` from their origins, and they reach from `begin` to `end`, all in metres.
 ///
 /// Where ways begin at a light, as those of an observer with a lamp, a medium scatters an infinite
-/// amount of its light. Their points aren't crowded within a voxel of it, so that pictures show
-/// more than that.
+/// amount of its light. Within a voxel of it, chance alone finds that, so that pictures show more.
 static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light, Vector way,
                                  lane_float begin, lane_float end, lane_int valid) {
     const lane_float one = (lane_float)1.0f;
@@ -67,8 +66,7 @@ static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light
     p.height = fmax(exact_sqrt(dot_product(across, across)), 1e-6f);
     const float voxel = fmax(edge.x, fmax(edge.y, edge.z));
     const lane_int at_light = LANE_MASK(fma(p.height, p.height, p.begin * p.begin) < voxel * voxel);
-    p.height = LANES_SELECT(at_light, fmax(p.height, voxel), p.height);
-    p.some = valid;
+    p.some = valid & ~at_light;
     if (light.kind == VXL_LIGHT_SPOT && light.outer_cosine > 0.0f)
         cut_to_cone(light, next, way, &p);
     p.some &= LANE_MASK(p.begin < p.end);

@@ -17,6 +17,8 @@ struct MtlTexture {
     std::string file;  ///< as the library has it; empty: none
     bool clamps = false;
     glm::dvec2 offset{0}, scale{1};  ///< a place on the texture is `offset` + `scale` · (u, v)
+
+    friend bool operator==(const MtlTexture&, const MtlTexture&) = default;
 };
 
 /// A material, with the values of the format, which has colours as screens show them (sRGB).

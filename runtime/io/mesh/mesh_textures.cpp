@@ -94,7 +94,8 @@ class LibraryTextures {
     /// The picture that says how much the material covers, besides that of its colours.
     std::string cover_of(const MtlMaterial& material) {
         const MtlTexture &map = material.diffuse_map, &cover = material.opacity_map;
-        if (cover.file.empty()) return "";
+        const bool is_plain = cover == MtlTexture{cover.file};
+        if (cover.file.empty() || (cover.file == map.file && is_plain)) return "";
         if (cover.offset == map.offset && cover.scale == map.scale && cover.clamps == map.clamps)
             return cover.file == map.file ? "" : cover.file;
         note(

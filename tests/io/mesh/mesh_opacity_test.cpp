@@ -61,7 +61,8 @@ std::vector<uint32_t> texels_of(const Mesh& mesh) {
 
 TEST_F(MeshOpacity, IsTheAlphaOfTheColorsPicture) {
     for (const char* library : {"map_Kd leaf.png\n", "map_Kd leaf.png\nmap_d leaf.png\n",
-                                "map_Kd leaf.png\nmap_d -s 2 2 leaf.png\n"}) {
+                                "map_Kd -s 2 2 leaf.png\nmap_d leaf.png\n",
+                                "map_Kd -s 2 2 leaf.png\nmap_d -s 2 2 leaf.png\n"}) {
         const Mesh mesh = read(library);
         ASSERT_EQ(mesh.textures.size(), 1u);
         EXPECT_EQ(mesh.textures[0].alpha, kAlphaBlend) << library;
@@ -104,6 +105,8 @@ TEST_F(MeshOpacity, ThatCantBeShownIsNoted) {
     EXPECT_THAT(read("map_Kd full.png\nmap_d -s 2 2 grey.png\n").notes,
                 ElementsAre("its texture \"grey.png\" isn't shown as map_d says, which has "
                             "other options than map_Kd"));
+    EXPECT_THAT(read("map_Kd leaf.png\nmap_d -s 2 2 leaf.png\n").notes,
+                ElementsAre(testing::HasSubstr("isn't shown as map_d says")));
     EXPECT_THAT(read("map_Kd full.png\nmap_d lost.png\n").notes,
                 ElementsAre("its texture \"lost.png\" isn't in its folder"));
     const Mesh mesh = read("map_Kd lost.png\nmap_d grey.png\n");

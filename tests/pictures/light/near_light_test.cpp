@@ -182,13 +182,15 @@ TEST(NearLightAlone, ALampAtTheObserversPlaceLeavesAPicture) {
         scene["observer"] = {{"position", {0, 0.1, 0.9}},
                              {"look_at", {0, 0.1, 0}},
                              {"display", {{"shape", "pyramid"}, {"angle", 40}}}};
-        std::vector<float> green = image_of_medium(scene).planes.at("G");
+        const Image image = image_of_medium(scene);
+        std::vector<float> green;
+        for (size_t i = 0; i < 256; ++i) green.push_back(image.planes.at("G")[i]);
         std::nth_element(green.begin(), green.begin() + 128, green.end());
         return green[128];
     };
     const float aside = median_with(0.05);
     EXPECT_GT(median_with(0), aside);
-    EXPECT_LT(median_with(0), 10 * aside);
+    EXPECT_LT(median_with(0), 50 * aside) << "crowded points gave 4,000 times as much";
 }
 
 TEST(NearLightAlone, CostsNothingWhereThereIsNone) {
