@@ -31,9 +31,7 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     const RayQueue points = VXL_QUEUE;
     const DensityView density = VXL_DENSITY;
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
-    lane_int active =
-        below(first, count) & LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
-    if (VXL_TRANSMISSION) active &= LANE_MASK(LANES_LOAD(inside, first) == 0u);
+    const lane_int active = in_the_open(&batch, first, count);
     const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
     const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
     const PathSamples samples = path_samples(&sampling, target, state);

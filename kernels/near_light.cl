@@ -23,9 +23,7 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
     const RayQueue points = VXL_QUEUE;
     const DensityView density = VXL_DENSITY;
     const MediumScattering medium = VXL_MEDIUM_SCATTERING;
-    lane_int active =
-        below(first, count) & LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
-    if (VXL_TRANSMISSION) active &= LANE_MASK(LANES_LOAD(inside, first) == 0u);
+    lane_int active = in_the_open(&batch, first, count);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
     // The medium scatters none of these paths.

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "cli/render/frame_files.hpp"
@@ -72,15 +73,21 @@ fs::path named(const fs::path& file, const std::string& suffix) {
     return file.parent_path() / (stem + suffix + file.extension().string());
 }
 
-/// Writes the views to a file, or to one for each eye. Returns the files.
+/// Writes a frame's views to its files: all of them beside one another or, where a name tells eyes
+/// apart, each to a file of its own. Returns the files.
 std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& quilt,
-                                  const std::vector<fs::path>& files,
+                                  const std::vector<fs::path>& names, const QuiltChoices& choices,
                                   const ImageFileOptions& options) {
-    if (files.size() == 1)
-        join_views(views, quilt).write(files.front(), options);
-    else
-        for (size_t eye = 0; eye < files.size(); ++eye) views[eye].write(files[eye], options);
-    return files;
+    std::vector<fs::path> written;
+    std::optional<Image> joined;
+    for (const fs::path& name : names) {
+        const std::vector<fs::path> files = files_of_eyes(name, choices);
+        if (files.size() == 1 && !joined) joined = join_views(views, quilt);
+        for (size_t eye = 0; eye < files.size(); ++eye)
+            (files.size() == 1 ? *joined : views[eye]).write(files[eye], options);
+        written.insert(written.end(), files.begin(), files.end());
+    }
+    return written;
 }
 
 std::string kind_of(const QuiltChoices& choices, size_t frames) {
@@ -125,8 +132,7 @@ void add_quilt_options(CLI::App& app, QuiltChoices& choices) {
         ->excludes(cone);
     app.add_option("--focus", choices.focus,
                    "of a quilt or a stereo pair: metres from the observer to what lies in the "
-                   "screen; by default "
-                   "what the observer looks at")
+                   "screen; by default what the observer looks at")
         ->check(in_range(1e-6, 1e6));
 }
 
@@ -157,14 +163,9 @@ void render_quilts(const RenderCommand& command, const Scene& scene, const Frame
     std::string written;
     for (FrameFiles frame : job.frames) {
         const std::vector<Image> views = render_views(scene, devices, quilt, frame.frame, options);
-        std::vector<fs::path> files;
-        for (const fs::path& file : frame.images)
-            for (fs::path& part :
-                 write_views(views, quilt, files_of_eyes(named(file, suffix), command.quilt),
-                             job.image_files))
-                files.push_back(std::move(part));
-        if (written.empty() && !files.empty()) written = files.front().string();
-        frame.images = std::move(files);
+        for (fs::path& file : frame.images) file = named(file, suffix);
+        frame.images = write_views(views, quilt, frame.images, command.quilt, job.image_files);
+        if (written.empty() && !frame.images.empty()) written = frame.images.front().string();
         progress.written(frame);
         options.warn = {};
         ++done;

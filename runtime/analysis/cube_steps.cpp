@@ -29,9 +29,11 @@ bool gives_cubes_normals(const Model& model, AssetStore& meshes, bool reads) {
     return !reads || !meshes.voxels(model).normals.empty();
 }
 
-bool has_resampled_soft_cubes(const Scene& scene, const Object& object, AssetStore& meshes) {
+std::optional<GridFrame> frame_of_resampled_cubes(const Scene& scene, const Object& object,
+                                                  AssetStore& meshes) {
     ObjectLattices lattices(scene, meshes);
-    return steps_of_object(scene, object, lattices, meshes) != glm::dmat3(0);
+    if (steps_of_object(scene, object, lattices, meshes) == glm::dmat3(0)) return {};
+    return lattices.own_frame(object);
 }
 
 std::vector<float> cube_steps(const Scene& scene, AssetStore& meshes,

@@ -5,6 +5,7 @@
 // world's voxels, and those of the model that they were taken from.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,13 +19,14 @@ namespace voxelume {
 /// read (`reads` is false) may have them.
 bool gives_cubes_normals(const Model& model, AssetStore& meshes, bool reads = true);
 
-/// True if the cubes of an object in the world have normals and are voxels of another lattice.
-/// Throws as ObjectLattices does.
-bool has_resampled_soft_cubes(const Scene& scene, const Object& object, AssetStore& meshes);
+/// The frame of an object's voxels in object space, if they are cubes with normals in the world and
+/// lie on another lattice than its voxels. Throws as ObjectLattices does.
+std::optional<GridFrame> frame_of_resampled_cubes(const Scene& scene, const Object& object,
+                                                  AssetStore& meshes);
 
-/// Of each object nine numbers, row by row: the matrix that turns gradients in the world's voxels
-/// into those in the object's. It is 0 for objects whose cubes aren't resampled or have no normals;
-/// nothing is returned if that is true of all. `boxes` are those of object_boxes().
+/// Returns nine numbers of each object, row by row: the matrix that turns gradients in the world's
+/// voxels into those in the object's. It is 0 for objects whose cubes aren't resampled or have no
+/// normals; nothing is returned if that is true of all. `boxes` are those of object_boxes().
 std::vector<float> cube_steps(const Scene& scene, AssetStore& meshes,
                               std::span<const VoxelBox> boxes);
 

@@ -9,7 +9,6 @@
 #include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/culling_hull.hpp"
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/analysis/scene_choices.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/world_frame.hpp"
@@ -127,9 +126,9 @@ double origin_offset_of_cubes(const Scene& scene, const Object& object, AssetSto
     if (!reads) return INFINITY;
     const glm::dvec3 edge = world_frame(scene.world).voxel_edge;
     const double offset = kMaxVoxels * longest_of(edge) / std::min({edge.x, edge.y, edge.z});
-    if (!has_resampled_soft_cubes(scene, object, meshes)) return offset;
-    const glm::dvec3 own = ObjectLattices(scene, meshes).own_frame(object).voxel_edge;
-    return offset + kMaxOwnVoxels * longest_of(own) * voxels_per_metre(scene, object);
+    const std::optional<GridFrame> own = frame_of_resampled_cubes(scene, object, meshes);
+    if (!own) return offset;
+    return offset + kMaxOwnVoxels * longest_of(own->voxel_edge) * voxels_per_metre(scene, object);
 }
 
 /// The longest way, in voxels, from a surface of an object to where its rays to lights begin: the

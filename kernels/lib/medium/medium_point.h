@@ -8,6 +8,14 @@
 #include "lib/medium/near_light.h"
 #include "lib/traverse/segment.h"
 
+/// Mask: those of the rays first .. count-1 that there are, and that no object is around.
+static inline lane_int in_the_open(const RayBatch* batch, uint first, uint count) {
+    const lane_float end = LANES_LOAD(batch->rays, VXL_RAY_END * batch->stride + first);
+    lane_int open = below(first, count) & LANE_MASK(end >= 0.0f);
+    if (VXL_TRANSMISSION) open &= LANE_MASK(LANES_LOAD(batch->inside, first) == 0u);
+    return open;
+}
+
 /// What a point in the medium begins with: the way on which the path came, with no surface around.
 static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float t, lane_uint target,
                                lane_uint state) {

@@ -55,7 +55,7 @@ static inline Segment whole_segment(const RayBatch* batch, uint first) {
     return segment;
 }
 
-/// The same, but where the medium scatters a path, `transmittance` has the end.
+/// The same parts. Where the medium scatters a path, they end where `transmittance` says.
 static inline Segment sight_segment(const RayBatch* batch, uint first) {
     Segment segment = whole_segment(batch, first);
     if (VXL_SCATTERING)

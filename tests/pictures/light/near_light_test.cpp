@@ -190,7 +190,8 @@ TEST(NearLightAlone, ALampAtTheObserversPlaceLeavesAPicture) {
     };
     const float aside = median_with(0.05);
     EXPECT_GT(median_with(0), aside);
-    EXPECT_LT(median_with(0), 50 * aside) << "crowded points gave 4,000 times as much";
+    // By chance it is 11 times as much, and 600,000 times by points that crowd at the lamp.
+    EXPECT_LT(median_with(0), 50 * aside);
 }
 
 TEST(NearLightAlone, CostsNothingWhereThereIsNone) {

@@ -84,7 +84,7 @@ class TextureAlpha : public FileTest {
         put_bytes(folder / "sheets.gltf", writer.gltf());
     }
 
-    /// The same sheets in an OBJ file, whose library has the alpha in map_Kd, or as grey in map_d.
+    /// Writes the sheets as an OBJ file, whose library has the alpha in map_Kd, or grey in map_d.
     void write_obj(bool by_map_d, uint8_t grey) const {
         const std::string options = " -clamp on ";
         std::vector<std::string> colors(kTexels), shares(kTexels);
@@ -108,7 +108,7 @@ class TextureAlpha : public FileTest {
                   "usemtl a\nf 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n");
     }
 
-    /// The same sheets without a texture. Their vertices have the alpha of `vertex_alpha`.
+    /// Writes the same sheets without a texture. Their vertices have the alpha of `vertex_alpha`.
     void write_vertices(const std::string& mode) const {
         GltfWriter writer;
         std::vector<float> positions, colors;
