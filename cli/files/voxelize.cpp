@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,10 +51,11 @@ bool is_cube_name(const std::string& output) {
     return std::ranges::count(kCubeEndings, ending_of(output)) > 0;
 }
 
-/// Without --surface a mesh is smooth, but in files that hold cubes alone.
-Surface surface_of(const VoxelizeCommand& command) {
+/// Without --surface a mesh is what suits it, but in files that hold cubes alone.
+std::optional<Surface> surface_of(const VoxelizeCommand& command) {
     if (!command.surface.empty()) return choose(command.surface, kSurfaces, "voxelize: --surface");
-    return std::ranges::all_of(command.outputs, is_cube_name) ? Surface::cubes : Surface::smooth;
+    if (std::ranges::all_of(command.outputs, is_cube_name)) return Surface::cubes;
+    return {};
 }
 
 VoxelizeOptions options_of(const VoxelizeCommand& command) {
@@ -251,10 +253,10 @@ Action add_voxelize(CLI::App& app) {
            "voxels that there are")
         ->check(in_range(1, 16384, Number::whole))
         ->excludes(size);
-    app.add_option(
-           "--surface", command->surface,
-           "surface of a mesh: smooth (a distance field; the default, but for files of cubes), "
-           "cubes, or exact (lists of triangles)")
+    app.add_option("--surface", command->surface,
+                   "surface of a mesh: smooth (a distance field; the default, but for files of "
+                   "cubes and scans), "
+                   "cubes, or exact (lists of triangles)")
         ->type_name("smooth|cubes|exact");
     app.add_option("--set", command->set,
                    "voxel set of a mesh as cubes: supercover (the default), thin or solid")

@@ -108,11 +108,13 @@ kernel void label_voxels(uint count, uint packed, global const uint* restrict ne
 
 /// Weights of a triangle's corners at the point closest to the origin.
 static inline float3 closest_weights(float3 a, float3 b, float3 c) {
-    const float3 n = cross_product(b - a, c - a);
+    const float3 ab = b - a, ac = c - a, n = cross_product(ab, ac);
     const float area = dot_product(n, n);
+    // Rounding leaves up to a ten-millionth of the sides' product where they are parallel.
+    const float noise = 1e-13f * dot_product(ab, ab) * dot_product(ac, ac);
     float3 w = (float3)(dot_product(n, cross_product(b, c)), dot_product(n, cross_product(c, a)),
                         dot_product(n, cross_product(a, b)));
-    if (area > 0.0f && w.x >= 0.0f && w.y >= 0.0f && w.z >= 0.0f)
+    if (area > noise && w.x >= 0.0f && w.y >= 0.0f && w.z >= 0.0f)
         return w * scalar_reciprocal(w.x + w.y + w.z);
     const float3 p[3] = {a, b, c};
     float nearest = 1e30f;
@@ -211,8 +213,9 @@ kernel void color_voxels(
                      encode(color.z, thresholds) << 16;
 }
 
-/// The normal of a triangle, as a gradient in voxels.
+/// The normal of a triangle, as a gradient in voxels. A line has none.
 static inline uint face_normal(const LatticeTriangle* t) {
+    if (all(t->corner[1] == t->corner[2])) return VXL_NO_NORMAL;
     const float unit_length = 1.0f / LATTICE_VOXEL;
     const float3 a = convert_float3(t->corner[1] - t->corner[0]) * unit_length,
                  b = convert_float3(t->corner[2] - t->corner[0]) * unit_length;

@@ -5,6 +5,7 @@
 
 #include "runtime/analysis/object_lattice.hpp"
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -86,9 +87,24 @@ SurfaceChoice chosen_for_mesh(const Scene& scene, size_t number, AssetStore& mes
                         refusal_of_parts(scene, number, mesh));
 }
 
+/// True for a mesh of points and lines, of which nothing but cubes can be shown.
+bool shows_points_alone(Model model, AssetStore& meshes) {
+    model.morph.reset();
+    return !model.mesh.empty() && !has_area(*meshes.summary_of(model));
+}
+
+void refuse_surface_of_points(const Scene& scene, size_t number) {
+    const Model& model = scene.models[number];
+    throw Error(ErrorKind::scene,
+                "{}: {} has points and lines alone, which have no {} surface: give it "
+                "\"surface\": \"cubes\"",
+                model.where, quote(model.mesh.filename().string()), kind_of(model.surface).name);
+}
+
 SurfaceChoice chosen_surface(const Scene& scene, size_t number, AssetStore& meshes) {
     const Model& model = scene.models[number];
     if (!model.voxels.empty()) return meshes.surface_of_voxels(model);
+    if (shows_points_alone(model, meshes)) return surface_for(*meshes.summary_of(model), {}, 0);
     if (!model.cuts.empty()) return {Surface::smooth, "it is cut"};
     if (model.shading != Shading()) return {Surface::exact, "the scene says its shading"};
     return chosen_for_mesh(scene, number, meshes);
@@ -101,8 +117,12 @@ void choose_surfaces(Scene& scene, AssetStore& meshes) {
         const bool is_shown = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return object.visible && size_t(object.model) == number;
         });
-        if (!model.is_surface_open || !model.surface_reason.empty()) continue;
-        if (!is_shown && !may_appear) continue;
+        if (!model.surface_reason.empty() || (!is_shown && !may_appear)) continue;
+        if (!model.is_surface_open) {
+            if (!shows_voxels(model.surface) && shows_points_alone(model, meshes))
+                refuse_surface_of_points(scene, number);
+            continue;
+        }
         const SurfaceChoice choice = chosen_surface(scene, number, meshes);
         model.surface = choice.surface;
         model.surface_reason = choice.reason;

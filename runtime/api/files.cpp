@@ -16,6 +16,7 @@
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/geometry/mesh_points.hpp"
 #include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/vdb/vdb.hpp"
@@ -32,21 +33,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What the voxels of a mesh show.
+Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOptions& options) {
+    const bool has_points = has_points_alone(mesh);
+    if (!options.surface) return has_points ? Surface::cubes : Surface::smooth;
+    if (has_points && options.surface != v1::Surface::cubes)
+        throw Error(ErrorKind::input,
+                    "{}: has points and lines alone, of which nothing but cubes can be made",
+                    SourcePlace(path.string()));
+    return static_cast<Surface>(*options.surface);
+}
+
 /// What a scene would say of the mesh.
-Model model_of(const fs::path& mesh, const v1::VoxelizeOptions& options) {
+Model model_of(const fs::path& mesh, Surface surface, const v1::VoxelizeOptions& options) {
     Model model;
     model.name = mesh.stem();
     model.mesh = mesh;
     model.where = mesh.string();
     model.voxel_size = glm::dvec3(options.voxel_size);
     model.resolution = options.voxel_size > 0 ? 0 : options.resolution;
-    model.surface = static_cast<Surface>(options.surface);
+    model.surface = surface;
     model.set = static_cast<VoxelSet>(options.set);
     model.normals = static_cast<CubeNormals>(options.normals);
     return model;
 }
 
-void check_endings(const std::vector<fs::path>& outputs, Surface surface) {
+void check_endings(const std::vector<fs::path>& outputs, bool has_cubes) {
     for (const fs::path& output : outputs) {
         if (ending_of(output) == ".vdb" || ending_of(output) == ".vxm") continue;
         if (!cube_writer(output))
@@ -54,7 +66,7 @@ void check_endings(const std::vector<fs::path>& outputs, Surface surface) {
                         "{}: the name of voxels ends in .vxm, .vdb, .vox, .kv6, .binvox, .npy or "
                         ".nrrd",
                         SourcePlace(output.string()));
-        if (surface != Surface::cubes)
+        if (!has_cubes)
             throw Error(ErrorKind::usage, "{}: files of this format hold cubes alone",
                         SourcePlace(output.string()));
     }
@@ -93,9 +105,9 @@ std::string note_of_edges(const fs::path& output, const glm::dvec3& edge) {
 
 v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
                                      const Device& device, const v1::VoxelizeOptions& options) {
-    check_endings(outputs, static_cast<Surface>(options.surface));
-    const Model model = model_of(path, options);
+    check_endings(outputs, options.surface == v1::Surface::cubes);
     const Mesh mesh = read_mesh_file(path);
+    const Model model = model_of(path, surface_of(path, mesh, options), options);
     const GridPlan plan = plan_model(model, mesh);
     check_model(model, plan, device.info());
     const auto start = std::chrono::steady_clock::now();
@@ -147,7 +159,7 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
                                            const std::vector<fs::path>& outputs,
                                            const Device& device,
                                            const v1::VoxelizeSceneOptions& options) {
-    check_endings(outputs, Surface::cubes);
+    check_endings(outputs, true);
     const Scene& whole = api::inside(handle);
     const int frames = moves(whole) ? whole.animation.frames : 1;
     if (options.frame < 1 || options.frame > frames)

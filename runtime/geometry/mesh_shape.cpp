@@ -23,6 +23,7 @@ bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape) {
 }
 
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge) {
+    if (!has_area(mesh)) return {Surface::cubes, "it has points and lines alone"};
     if (is_open(mesh))
         return {Surface::exact, fmt::format("it is open at {} edges", mesh.topology.open_edges)};
     if (!(mesh.topology.volume > 0))

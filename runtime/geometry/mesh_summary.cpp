@@ -58,6 +58,10 @@ MeshPaint paint_of(const Mesh& mesh) {
     return paint;
 }
 
+bool has_area(const MeshSummary& mesh) {
+    return mesh.area.total > 0;
+}
+
 bool is_open(const MeshSummary& mesh) {
     return mesh.topology.hole_area > kOpenShare * mesh.area.total;
 }

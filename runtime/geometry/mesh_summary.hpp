@@ -51,6 +51,9 @@ MeshPaint paint_of(const Mesh& mesh);
 /// number, as the scanned bunny's are.
 inline constexpr double kOpenShare = 0.03;
 
+/// Whether a mesh has a surface, and not points and lines alone.
+bool has_area(const MeshSummary& mesh);
+
 /// Whether a mesh's holes are so large that nothing is inside of it.
 bool is_open(const MeshSummary& mesh);
 

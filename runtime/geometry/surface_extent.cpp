@@ -26,6 +26,7 @@ constexpr double kMeanShadow = 1.5;
 constexpr double kFewestBricks = 8;
 
 glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t) {
+    if (t.y == t.z) return glm::dvec3(0);  // a point or a line, where rounding may say otherwise
     const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
     return glm::cross(b - a, c - a) / 2.0;
 }
@@ -191,6 +192,7 @@ MeshAreas mesh_areas(const Mesh& mesh) {
         if (!are_equal && !is_duplicate) add(area, areas.min);
     });
     if (are_equal) areas.min = areas.all;
+    if (areas.all.total == 0) areas.min = {};  // any number of points shares a voxel
     return areas;
 }
 
@@ -268,10 +270,11 @@ SurfaceExtent surface_extent(const SurfaceArea& area, const glm::dmat4& frame_fr
         extent.voxels + area.triangles +
         std::min(widths.x + widths.y + widths.z, kMeanShadow * area.half_edges * longest);
     const double thickness = kBrickSize + 2 * band / kMeanShadow;
-    const glm::ivec3 table = frame.bricks();
-    extent.bricks =
-        std::min(extent.voxels * thickness / (kBrickSize * kBrickSize * kBrickSize) + kFewestBricks,
-                 double(table.x) * table.y * table.z);
+    const glm::dvec3 table(frame.bricks()), size(frame.size);
+    double bricks = extent.voxels * thickness / (kBrickSize * kBrickSize * kBrickSize);
+    // Each point has a voxel of its own, and a brick, and each line has what it passes.
+    if (area.total == 0) bricks = extent.voxels = std::min(extent.listed, size.x * size.y * size.z);
+    extent.bricks = std::min(bricks + kFewestBricks, table.x * table.y * table.z);
     return extent;
 }
 

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "runtime/geometry/mesh_points.hpp"
+
 namespace voxelume {
 
 std::string json_text(std::string_view text) {
@@ -59,6 +61,18 @@ glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured) {
     const double edge = longest_side(box) / (is_textured ? 512 : 256);
     // Rounded up, so that there are no more voxels than that.
     return glm::dvec3(rounded(edge * 1.0005, 4));
+}
+
+glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents) {
+    // The mesh's box may be another one after a fit.
+    const double scale = longest_side(contents.box) / longest_side(mesh_bounds(mesh));
+    const double edge = voxel_edge_of_points(mesh, contents.voxel_size.x / scale) * scale;
+    return glm::dvec3(rounded(edge, 4));
+}
+
+std::string surface_members(const MeshSummary& mesh, bool is_smooth) {
+    if (!has_area(mesh)) return "\"surface\": \"cubes\"";
+    return is_smooth ? "\"surface\": \"exact\", \"shading\": \"smooth\"" : "\"surface\": \"exact\"";
 }
 
 Bounds fitted_box(const Bounds& box, const ImportOptions& options) {

@@ -103,6 +103,13 @@ std::string fit_member(const ImportOptions& options);
 /// where there are textures, which show in voxels.
 glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured);
 
+/// That size for points, whose voxels are as large as makes a surface of them. The contents have
+/// the box after `fit` and the size for meshes.
+glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents);
+
+/// The members of a model that give a mesh its surface, which is shaded smooth if `is_smooth`.
+std::string surface_members(const MeshSummary& mesh, bool is_smooth);
+
 /// The box of a file's content after `fit`: around the origin.
 Bounds fitted_box(const Bounds& box, const ImportOptions& options);
 

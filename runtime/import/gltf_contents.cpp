@@ -21,10 +21,10 @@
 namespace voxelume {
 namespace {
 
-/// Whether a mesh has triangles, and not points and lines alone.
-bool has_faces(const GltfValue& mesh) {
+/// Whether a mesh has anything to draw.
+bool has_vertices(const GltfValue& mesh) {
     return std::ranges::any_of(mesh.items("primitives"), [](const GltfValue& primitive) {
-        return primitive.count("mode", 4) >= 4 && primitive.at("attributes").has("POSITION");
+        return primitive.at("attributes").has("POSITION");
     });
 }
 
@@ -53,9 +53,9 @@ GltfClip clip_of(const GltfFile& gltf, const std::string& wanted) {
 
 /// A model, which is written when all objects that show it are known.
 struct MeshModel {
-    std::string name;
-    int number = 0;      ///< of the mesh in the file
-    double stretch = 0;  ///< largest of an object that moves; 0: none does
+    std::string name, surface;  ///< the latter as members
+    int number = 0;             ///< of the mesh in the file
+    double stretch = 0;         ///< largest of an object that moves; 0: none does
     GltfMorph morph;
 };
 
@@ -80,10 +80,11 @@ class SceneOfGltf {
             if (node.mesh >= 0) add_object(node);
         }
         if (contents_.objects.empty() || !(longest_side(contents_.box) > 0))
-            throw Error(ErrorKind::input,
-                        "{}: has no triangles to show; points and lines are left out",
+            throw Error(ErrorKind::input, "{}: has no triangles, points or lines to show",
                         SourcePlace(file_.path.string()));
         contents_.voxel_size = mesh_voxel_size(contents_.box, has_textures_);
+        if (!has_area_)
+            contents_.voxel_size = point_voxel_size(file_.assets.mesh(file_.path), contents_);
         contents_.materials.insert(contents_.materials.begin(),
                                    fmt::format("\"default\": {{\"color\": {}, \"specular\": 0.1}}",
                                                has_colors_ ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
@@ -100,7 +101,7 @@ class SceneOfGltf {
   private:
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
-        if (!has_faces(mesh)) return;
+        if (!has_vertices(mesh)) return;
         // Its joints place what has a skin, whatever its node does.
         const bool is_skinned = node.skin >= 0;
         std::vector<glm::dmat4> maps =
@@ -113,9 +114,10 @@ class SceneOfGltf {
         const MeshSummary& summary = *file_.assets.summary_of(model);
         has_textures_ |= summary.paint.textures > 0;
         has_colors_ |= summary.paint.is_there();
+        has_area_ |= has_area(summary);
         const std::string wanted = node.name.empty() ? mesh.text("name") : node.name;
         const std::string name = objects_.unique(wanted.empty() ? "object" : wanted);
-        MeshModel& shown = model_of(node, mesh);
+        MeshModel& shown = model_of(node, mesh, summary);
         std::string place = is_skinned ? "" : place_text(node, name);
         contents_.objects.push_back(fmt::format("{{\"name\": {}, \"model\": {}{}{}}}",
                                                 json_text(name), json_text(shown.name),
@@ -147,7 +149,7 @@ class SceneOfGltf {
     }
 
     /// The model of the node's mesh, which nodes with weights of their own don't share.
-    MeshModel& model_of(const GltfNode& node, const GltfValue& mesh) {
+    MeshModel& model_of(const GltfNode& node, const GltfValue& mesh, const MeshSummary& summary) {
         GltfMorph morph = gltf_morph(gltf_, clip_, node);
         const std::array key = {node.mesh, morph.owner, morph.skin};
         const auto [entry, is_new] = model_numbers_.try_emplace(key, models_.size());
@@ -160,7 +162,7 @@ class SceneOfGltf {
                 keys_track(fmt::format("models.{}.morph.weights", target_name(name)), *morph.keys));
         if (!morph.clip.empty() && clip_.seconds > 0)
             contents_.tracks.push_back(skin_track(name, clip_.seconds));
-        models_.push_back({name, node.mesh, 0, std::move(morph)});
+        models_.push_back({name, surface_members(summary, false), node.mesh, 0, std::move(morph)});
         return models_.back();
     }
 
@@ -170,8 +172,8 @@ class SceneOfGltf {
             model.stretch > 0 ? fmt::format(", \"voxel_size\": {}",
                                             rounded(contents_.voxel_size.x / model.stretch, 4))
                               : "";
-        return fmt::format("{}: {{\"mesh\": {}, \"part\": {}, \"surface\": \"exact\"{}{}}}",
-                           json_text(model.name), json_text(file_.name), model.number + 1,
+        return fmt::format("{}: {{\"mesh\": {}, \"part\": {}, {}{}{}}}", json_text(model.name),
+                           json_text(file_.name), model.number + 1, model.surface,
                            morph_member(model.morph), voxels);
     }
 
@@ -210,7 +212,7 @@ class SceneOfGltf {
     std::map<std::string, std::string> materials_;        ///< by group
     NameList objects_{{"ground"}}, model_names_{{"ground"}};
     NameList material_names_{{"default", "ground"}};
-    bool has_textures_ = false, has_colors_ = false;
+    bool has_textures_ = false, has_colors_ = false, has_area_ = false;
 };
 
 }  // namespace

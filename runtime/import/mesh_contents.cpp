@@ -94,12 +94,14 @@ Contents mesh_contents(const ImportedFile& file) {
     Contents contents;
     contents.box = fitted_box(box, file.options);
     if (turns) contents.box = z_up(contents.box);
-    contents.voxel_size =
-        mesh_voxel_size(contents.box, file.assets.summary_of(model)->paint.textures > 0);
-    contents.models.push_back(
-        fmt::format("{}: {{\"mesh\": {}, \"surface\": \"exact\", \"shading\": \"smooth\"{}}}",
-                    json_text(name), json_text(file.name), fit_member(file.options)));
-    const std::string members = add_materials(file, *file.assets.summary_of(model), name, contents);
+    const MeshSummary& summary = *file.assets.summary_of(model);
+    contents.voxel_size = mesh_voxel_size(contents.box, summary.paint.textures > 0);
+    if (!has_area(summary))
+        contents.voxel_size = point_voxel_size(file.assets.mesh(file.path), contents);
+    contents.models.push_back(fmt::format("{}: {{\"mesh\": {}, {}{}}}", json_text(name),
+                                          json_text(file.name), surface_members(summary, true),
+                                          fit_member(file.options)));
+    const std::string members = add_materials(file, summary, name, contents);
     contents.objects.push_back(fmt::format("{{\"name\": {0}, \"model\": {0}{1}{2}}}",
                                            json_text(name), members,
                                            turns ? ", \"turn\": [0, -90, 0]" : ""));

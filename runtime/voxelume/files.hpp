@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,7 +22,8 @@ namespace voxelume::v1 {
 struct VoxelizeOptions {
     double voxel_size = 0;                     ///< metres; 0: `resolution` decides
     int resolution = 256;                      ///< voxels along the longest side
-    Surface surface = Surface::smooth;         ///< what a voxel shows
+    std::optional<Surface> surface{};          ///< what a voxel shows; without it smooth, and
+                                               ///< cubes of points and lines
     VoxelSet set = VoxelSet::supercover;       ///< of cubes
     CubeNormals normals = CubeNormals::faces;  ///< of cubes; models (.vxm) keep them
 };
@@ -39,8 +41,8 @@ struct VoxelizeReport {
 
 /// Voxelizes a mesh (.obj, .ply, .stl) and writes its voxels to files: models (.vxm) that scenes
 /// name, OpenVDB volumes (.vdb), or cubes for other programs (.vox, .kv6, .binvox, .npy, .nrrd).
-/// Throws Error::input for a mesh that can't be read, Error::limit
-/// for one that doesn't fit the device, Error::usage for another ending, Error::output.
+/// Throws Error::input for a mesh that can't be read or lacks such a surface, Error::limit for one
+/// that doesn't fit the device, Error::usage for another ending, Error::output.
 VoxelizeReport voxelize(const std::filesystem::path& mesh,
                         const std::vector<std::filesystem::path>& outputs, const Device& device,
                         const VoxelizeOptions& options = {});

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -13,6 +14,12 @@
 #include "tests/api/api_environment.hpp"
 
 namespace voxelume::v1 {
+
+/// The linear value of an sRGB code of 8 bits.
+inline double linear_from_code(int code) {
+    const double v = code / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
 
 class ApiTest : public testing::Test {
   protected:

@@ -52,11 +52,6 @@ constexpr const char* kScene = R"({"voxelume": 1,
              "display": {"shape": "box", "size": [7, 5, 7]}},
 "render": {"size": [7, 5]}})";
 
-double linear(uint8_t code) {
-    const double v = code / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 std::string message_of(const SceneOptions& options, const std::string& text = kScene) {
     try {
         Scene::parse(text, "scene", options);
@@ -83,9 +78,9 @@ TEST_F(ApiVoxels, ShowTheirColoursWhereTheyAre) {
             if (z < 0) continue;
             ++shown;
             EXPECT_NEAR(image.plane("Z")[pixel], 4 - z, 1e-4);
-            EXPECT_NEAR(image.plane("R")[pixel], linear(cells.at(x, y, z)[0]), 1e-3);
-            EXPECT_NEAR(image.plane("G")[pixel], linear(cells.at(x, y, z)[1]), 1e-3);
-            EXPECT_NEAR(image.plane("B")[pixel], linear(cells.at(x, y, z)[2]), 1e-3);
+            EXPECT_NEAR(image.plane("R")[pixel], linear_from_code(cells.at(x, y, z)[0]), 1e-3);
+            EXPECT_NEAR(image.plane("G")[pixel], linear_from_code(cells.at(x, y, z)[1]), 1e-3);
+            EXPECT_NEAR(image.plane("B")[pixel], linear_from_code(cells.at(x, y, z)[2]), 1e-3);
         }
     EXPECT_GT(shown, 20);
 }

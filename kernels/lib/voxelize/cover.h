@@ -12,6 +12,13 @@
 #define VXL_MARGIN 0
 #endif
 
+// 1 for a mesh of points and lines alone. A closed voxel has a point on a side in common with the
+// next, and up to eight would be taken; so only the next one has what lies on its lower sides.
+#ifndef VXL_POINTS
+#define VXL_POINTS 0
+#endif
+#define LOWEST_REACH (1 - VXL_POINTS + VXL_MARGIN)
+
 /// The place of brick `index` of a grid of `bricks`.
 static inline int3 brick_of(uint index, int4 bricks) {
     const uint row = index / (uint)bricks.x;
@@ -24,17 +31,18 @@ typedef struct {
     int3 first, last;
 } CoverBox;
 
-/// The voxels up to `last` whose closed cubes the triangle's bounding box meets.
+/// The voxels up to `last` whose closed cubes the triangle's bounding box meets; of points and
+/// lines, the half-open ones.
 static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     CoverBox box;
-    box.first = max((lowest_corner(t) - 1 - VXL_MARGIN) >> LATTICE_BITS, (int3)(0));
+    box.first = max((lowest_corner(t) - LOWEST_REACH) >> LATTICE_BITS, (int3)(0));
     box.last = min((highest_corner(t) + VXL_MARGIN) >> LATTICE_BITS, last);
     return box;
 }
 
 /// -1 for each axis along which the triangle's whole bounding box meets more than one voxel.
 static inline int3 long_axes(const LatticeTriangle* t) {
-    const int3 first = (lowest_corner(t) - 1 - VXL_MARGIN) >> LATTICE_BITS;
+    const int3 first = (lowest_corner(t) - LOWEST_REACH) >> LATTICE_BITS;
     const int3 last = (highest_corner(t) + VXL_MARGIN) >> LATTICE_BITS;
     return first < last;
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "runtime/analysis/mesh_warnings.hpp"
+#include "runtime/geometry/mesh_points.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
@@ -124,6 +125,10 @@ Report describe_mesh(const std::filesystem::path& path) {
                      {"thickness of thin parts, m", shape.thickness.part}};
     report["min"] = {box.min.x, box.min.y, box.min.z};
     report["max"] = {box.max.x, box.max.y, box.max.z};
+    if (const PointCounts counts = count_points(mesh); counts.points + counts.lines > 0) {
+        report["points"] = counts.points;
+        report["lines"] = counts.lines;
+    }
     if (!mesh.triangle_colors.empty()) report["face colors"] = true;
     add_textures(mesh, report);
     if (summary.paint.mapped > 0)

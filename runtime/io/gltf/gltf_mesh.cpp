@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
@@ -11,6 +12,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/make_room.hpp"
+#include "runtime/geometry/mesh_points.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
 #include "runtime/io/gltf/gltf_skin.hpp"
@@ -23,7 +25,21 @@
 namespace voxelume {
 namespace {
 
-enum Mode : uint64_t { kTriangles = 4, kStrip, kFan };
+enum Mode : uint64_t { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kStrip, kFan };
+
+/// Appends the points or lines that vertices make in one of the modes.
+void append_strokes(const std::vector<uint32_t>& order, uint64_t mode, uint32_t base, Mesh& mesh) {
+    const size_t count = order.size(), step = mode == kLines ? 2 : 1;
+    make_room(mesh.triangles, count);
+    const auto add = [&](size_t a, size_t b) {
+        mesh.triangles.push_back(line_triangle(order[a], order[b]) + base);
+    };
+    if (mode == kPoints)
+        for (size_t i = 0; i < count; ++i) add(i, i);
+    else
+        for (size_t i = 0; i + 2 <= count; i += step) add(i, i + 1);
+    if (mode == kLineLoop && count > 2) add(count - 1, 0);
+}
 
 /// Appends the triangles that vertices make in one of the modes.
 void append_triangles(const std::vector<uint32_t>& order, uint64_t mode, uint32_t base,
@@ -51,9 +67,15 @@ class MeshBuilder {
     void expect_mesh(int number) { textures_.expect_mesh(number); }
 
     void add_mesh(int number, const glm::dmat4& map) {
-        for (const GltfValue& primitive :
-             file_.root().item("meshes", size_t(number)).items("primitives"))
-            add_primitive(primitive, map);
+        const GltfValue mesh = file_.root().item("meshes", size_t(number));
+        const bool has_faces = gltf_has_faces(mesh);
+        for (const GltfValue& primitive : mesh.items("primitives")) {
+            const bool is_stroke = primitive.count("mode", kTriangles) < kTriangles;
+            if (is_stroke && has_faces)
+                ++skipped_;
+            else
+                add_primitive(primitive, map);
+        }
     }
 
     /// Adds a mesh whose joints stand where the file's nodes do.
@@ -66,8 +88,7 @@ class MeshBuilder {
 
     Mesh mesh() {
         if (mesh_.triangles.empty())
-            throw Error(ErrorKind::input,
-                        "{}: has no triangles to show; points and lines are left out",
+            throw Error(ErrorKind::input, "{}: has no triangles, points or lines to show",
                         SourcePlace(file_.path().string()));
         fill(mesh_.positions.size());
         if (mesh_.textures.empty()) {
@@ -77,17 +98,14 @@ class MeshBuilder {
         for (const std::string& note : file_.notes()) mesh_.notes.push_back(note);
         if (skipped_ > 0)
             mesh_.notes.push_back(fmt::format(
-                "{} of its primitives are points or lines, which aren't shown", skipped_));
+                "{} of its primitives are points or lines beside triangles, which aren't shown",
+                skipped_));
         return std::move(mesh_);
     }
 
   private:
     void add_primitive(const GltfValue& primitive, const glm::dmat4& map) {
         uint64_t mode = primitive.count("mode", kTriangles);
-        if (mode < kTriangles) {
-            ++skipped_;
-            return;
-        }
         if (mode > kFan) primitive.fail(fmt::format("{} is no mode", mode));
         if (primitive.has_extension("KHR_draco_mesh_compression")) mode = kTriangles;  // by now
         const GltfValue attributes = primitive.at("attributes");
@@ -197,7 +215,10 @@ class MeshBuilder {
             for (size_t i = 0; i < vertices; ++i) order[i] = uint32_t(i);
         }
         if (mesh_.triangles.size() + order.size() > kMaxTriangles) fail_size();
-        append_triangles(order, mode, uint32_t(base), is_mirrored, mesh_);
+        if (mode < kTriangles)
+            append_strokes(order, mode, uint32_t(base), mesh_);
+        else
+            append_triangles(order, mode, uint32_t(base), is_mirrored, mesh_);
     }
 
     /// The group of a material, which begins to exist with its first primitive.
@@ -229,6 +250,13 @@ class MeshBuilder {
 };
 
 }  // namespace
+
+bool gltf_has_faces(const GltfValue& mesh) {
+    return std::ranges::any_of(mesh.items("primitives"), [](const GltfValue& primitive) {
+        return primitive.count("mode", kTriangles) >= kTriangles &&
+               primitive.at("attributes").has("POSITION");
+    });
+}
 
 Mesh read_mesh_file(const std::filesystem::path& path) {
     return is_gltf_file(path) ? gltf_mesh(GltfFile(read_mesh_bytes(path), path), 0)

@@ -12,10 +12,14 @@ namespace voxelume {
 /// A mesh of the file, numbered from 1 on, in its own space; with 0 all that the file's scene
 /// shows, in its places. Groups are named by GltfFile::material_name().
 ///
-/// Triangles, strips and fans are read, and points and lines are left out with a note. Base colour
-/// textures are those of metallic-roughness and of specular-glossiness materials. Throws
-/// Error::input for a file that is damaged or has no triangles, Error::limit for too many.
+/// Points and lines of a mesh without triangles become triangles without area; beside triangles
+/// they are left out with a note. Base colour textures are those of metallic-roughness and of
+/// specular-glossiness materials. Throws Error::input for a file that is damaged or has nothing to
+/// show, Error::limit for too many.
 Mesh gltf_mesh(const GltfFile& file, int part);
+
+/// Whether a mesh has triangles, strips or fans.
+bool gltf_has_faces(const GltfValue& mesh);
 
 /// Reads a mesh of any format, of a glTF file all that its scene shows. Throws as read_mesh() does.
 Mesh read_mesh_file(const std::filesystem::path& path);

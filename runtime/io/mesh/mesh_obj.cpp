@@ -10,6 +10,7 @@
 #include "runtime/io/mesh/mesh_paint.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/mesh/mesh_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,9 +32,7 @@ class ObjParser {
             parse_statement();
         }
         colors_.settle(source_, mesh_);
-        if (mesh_.triangles.empty()) {
-            source_.fail("the mesh has no triangles: no 'f' statement in the file");
-        }
+        strokes_.settle(source_, mesh_);
         drop_single_group();
         settle_obj_normals(mesh_);
         settle_obj_uvs(mesh_);
@@ -52,6 +51,8 @@ class ObjParser {
             parse_normal();
         } else if (word[0] == 'v' && word[1] == 't' && is_blank(word[2])) {
             parse_uv();
+        } else if ((word[0] == 'p' || word[0] == 'l') && is_blank(word[1])) {
+            parse_stroke(word[0] == 'l');
         } else if (at_end_of_statement()) {
             skip_line();
         } else {
@@ -197,6 +198,21 @@ class ObjParser {
         return static_cast<uint32_t>(index);
     }
 
+    /// Reads points or a line. What isn't one says nothing about a mesh, so it is skipped.
+    void parse_stroke(bool is_line) {
+        corners_.clear();
+        const auto count = static_cast<int64_t>(mesh_.positions.size());
+        for (++p_, skip_gap(); !at_end_of_statement(); skip_gap()) {
+            const int64_t number = scan_integer(p_).value;
+            const int64_t index = number < 0 ? count + number : number - 1;
+            if (index < 0 || index >= count) break;
+            corners_.push_back(static_cast<uint32_t>(index));
+            p_ = skip_token(p_);
+        }
+        if (mesh_.triangles.empty()) strokes_.append(source_, corners_, is_line);
+        skip_statement();
+    }
+
     /// What follows the word on the line, with the spaces within it.
     std::string name_after_word(const char* word) const {
         const char* const begin = skip_blanks(skip_token(word));
@@ -260,6 +276,7 @@ class ObjParser {
     const char* p_;
     Mesh mesh_;
     ObjColors colors_;
+    ObjStrokes strokes_;
     PolygonCutter cutter_;
     std::vector<uint32_t> corners_;
     std::vector<uint32_t> normals_, uvs_;  ///< indices of the face's corners

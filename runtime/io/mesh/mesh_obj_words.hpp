@@ -8,8 +8,8 @@
 
 namespace voxelume {
 
-/// Statements of the format that say nothing about a triangle mesh. The parser handles v, f, vn and
-/// vt itself.
+/// Statements of the format that say nothing about a mesh. The parser handles v, f, vn, vt, and
+/// p and l with numbers, itself.
 inline constexpr std::string_view kSkippedStatements[] = {
     "vp",     "deg",        "bmat",      "step",  "cstype", "p",        "l",        "fo",  "curv",
     "curv2",  "surf",       "parm",      "trim",  "hole",   "scrv",     "sp",       "end", "con",

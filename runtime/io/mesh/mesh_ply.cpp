@@ -7,7 +7,9 @@
 #include "runtime/io/mesh/mesh_ply_rows.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/mesh/mesh_scan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -285,9 +287,11 @@ Mesh parse_ply(const MeshSource& source) {
             mesh = parse_body<PlyBinaryRows<std::endian::big>>(source, header);
             break;
     }
-    if (mesh.triangles.empty()) {
-        source.fail("the mesh has no triangles: no element 'face' with corners in the file");
-    }
+    const bool has_faces = std::ranges::any_of(header.elements, [](const PlyElement& element) {
+        return (element.name == "face" || element.name == "tristrips") && element.count > 0;
+    });
+    if (mesh.triangles.empty() && has_faces) source.fail("the mesh has faces, and no triangles");
+    show_scan(source, mesh);
     mesh.texture = header.texture;
     return mesh;
 }

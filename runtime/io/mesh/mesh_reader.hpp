@@ -16,11 +16,12 @@ struct MeshSource;
 /// The content decides the format where it is unmistakable (PLY by its first line, binary STL by
 /// its size, ascii STL by "solid" ... "facet" or "endsolid"), whatever the file's name; otherwise
 /// the extension decides. Vertex colours are taken as sRGB and become linear. Polygons are cut into
-/// triangles. What a file has beyond struct Mesh (texture coordinates, lines, points, free-form
-/// curves) is skipped. Vertices that no face uses and triangles without area are kept.
+/// triangles. Of a file without faces, points and lines become triangles without area, and where it
+/// has none either, all vertices do. What else a file has beyond struct Mesh (free-form curves,
+/// lines beside faces) is skipped. Vertices that no face uses and triangles without area are kept.
 /// Units are taken as metres.
 ///
-/// Throws Error::input for a file that is missing, unreadable, damaged or without triangles, with a
+/// Throws Error::input for a file that is missing, unreadable, damaged or without vertices, with a
 /// sentence that starts with the file and the line or byte. Throws Error::limit for a file that is
 /// too large.
 Mesh read_mesh(const std::filesystem::path& path);
@@ -32,18 +33,18 @@ std::string read_mesh_bytes(const std::filesystem::path& path);
 /// counts.
 Mesh parse_mesh(const std::string& bytes, const std::filesystem::path& name);
 
-/// Parses OBJ (Wavefront): `v`, `vn`, `f`, `usemtl` and the name of `mtllib`. Other statements of
-/// the format are skipped, and unknown words are refused. `v x y z r g b` has a colour in [0, 1]; a
-/// vertex without a colour is white if others have one. Indices may be negative but may not refer
-/// to later vertices. Of a corner whose normal is missing or no number none is known. `g` and `o`
-/// don't make groups. A face of fewer than three corners is an error.
+/// Parses OBJ (Wavefront): `v`, `vn`, `vt`, `f`, `p`, `l`, `usemtl` and the name of `mtllib`. Other
+/// statements of the format are skipped, and unknown words are refused. `v x y z r g b` has a
+/// colour in [0, 1]; a vertex without a colour is white if others have one. Indices may be negative
+/// but may not refer to later vertices. Of a corner whose normal is missing or no number none is
+/// known. `g` and `o` don't make groups. A face of fewer than three corners is an error.
 Mesh parse_obj(const MeshSource& source);
 
 /// Parses PLY 1.0: the elements `vertex` and `face` with `vertex_indices` (or `vertex_index`) in
 /// this order, with every scalar type. Other elements and properties are skipped. Colours are `red
-/// green blue` (or `diffuse_red` ...) as uchar, ushort, or float in [0, 1], normals `nx ny nz`. A
-/// face of fewer than three corners and data behind the last element are errors. `comment
-/// TextureFile` names a texture.
+/// green blue` (or `diffuse_red` ...) as uchar, ushort, or float in [0, 1], normals `nx ny nz`.
+/// Vertices without faces are points. A face of fewer than three corners and data behind the last
+/// element are errors. `comment TextureFile` names a texture.
 Mesh parse_ply(const MeshSource& source);
 
 /// Parses STL. Corners at the same position (-0 equals 0, no tolerance) become one vertex, so that

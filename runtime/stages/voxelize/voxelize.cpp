@@ -10,6 +10,7 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/mesh_normals.hpp"
+#include "runtime/geometry/mesh_points.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/mesh_lattice.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
@@ -140,7 +141,8 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
     if (has_cube_normals(options) || lists_primitives(options.surface))
         normals = normals_of(frame, mesh, frame_from_mesh, options.shading);
     MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
-    if (needs_inside(options)) cap_open_outlines(lattice);
+    const bool has_points = has_points_alone(mesh);
+    if (needs_inside(options) && !has_points) cap_open_outlines(lattice);
     const DeviceTriangles triangles = upload(device_, lattice);
     VoxelizeJob job{device_,
                     triangles,
@@ -149,7 +151,8 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
                     {},
                     glm::ivec4(frame.size, 0),
                     glm::ivec4(frame.bricks(), 0),
-                    {}};
+                    {},
+                    has_points};
     job.grid.frame = frame;
     job.grid.attribute = labels.attributes;
     if (stores_distances(options.surface))
@@ -206,8 +209,10 @@ void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
 
 void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set, int margin) {
     Defines defines = slice_defines(device_);
+    if (job.has_points) set = VoxelSet::supercover;
     defines.emplace_back("VXL_THIN", set == VoxelSet::thin);
     defines.emplace_back("VXL_MARGIN", margin);
+    defines.emplace_back("VXL_POINTS", job.has_points && margin == 0);
     const ProgramFile inside_or_cover =
         set == VoxelSet::solid ? ProgramFile{"voxelize/voxelize_winding.cl", {{"VXL_CENTERS", 1}}}
                                : ProgramFile{"voxelize/voxelize_cover.cl", defines};

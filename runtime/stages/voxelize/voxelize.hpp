@@ -27,7 +27,8 @@ class Voxelizer {
     /// generalized winding number (Jacobson et al. 2013) is above 1/2, so small holes close, and a
     /// shell turned inside out is empty. Stored bricks:
     ///   cubes   every brick that holds a triangle. For SOLID these have their full occupancy, and
-    ///           bricks marked kBrickInside are full.
+    ///           bricks marked kBrickInside are full. A mesh of points and lines alone has one set:
+    ///           a point is in one voxel, of two that touch it the upper one.
     ///   smooth  every brick with a node within `band` of the surface, and every brick whose nodes
     ///           are not all on one side. Distances are exact to their rounding within the band and
     ///           saturated (±32767) beyond.

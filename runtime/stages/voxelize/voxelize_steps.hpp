@@ -20,6 +20,7 @@ struct VoxelizeJob {
     TriangleBins bins;          ///< the bins of the stored bricks
     glm::ivec4 size, bricks;    ///< the frame's, in voxels and in bricks
     BrickGrid grid;             ///< the result so far
+    bool has_points = false;    ///< the mesh is points and lines alone
 
     /// The number of work-items of kernels that divide a brick's slices among work-items.
     size_t items() const;

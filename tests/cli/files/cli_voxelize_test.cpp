@@ -183,6 +183,21 @@ TEST_F(CliVoxelizeTest, AMeshHasTheColorsOfItsMaterials) {
     EXPECT_EQ(cells.at(4, 4, cells.size[2] / 2), (std::array{0, 0, 0, 0}));
 }
 
+TEST_F(CliVoxelizeTest, PointsAndLinesAreCubesOfTheirPlaces) {
+    put_bytes(folder / "p.obj", "v 0 0 0 1 0 0\nv 7 0 0 0 1 0\nv 7 7 7 0 1 0\np 1\nl 2 3\n");
+    ASSERT_EQ(run("voxelize p.obj --voxel-size 1.01 -o p.vxm").exit_code, 0);
+    EXPECT_THAT(run("info p.vxm").out, HasSubstr("cubes"));
+    ASSERT_EQ(run("voxelize p.obj --voxel-size 1.01 -o p.npy").exit_code, 0);
+    const ColorCells cells = cells_of(bytes_of(folder / "p.npy"));
+    EXPECT_EQ(cells.size, (std::array{7, 7, 7}));
+    EXPECT_EQ(cells.at(0, 0, 0), (std::array{255, 0, 0, 255}));
+    for (int i = 0; i < 7; ++i) EXPECT_EQ(cells.at(6, i, i), (std::array{0, 255, 0, 255})) << i;
+    for (int i = 1; i < 6; ++i) EXPECT_EQ(cells.at(i, 0, 0)[3], 0) << i;
+    const auto refused = run("voxelize p.obj --surface exact -o p.vxm");
+    EXPECT_EQ(refused.exit_code, 4);
+    EXPECT_THAT(refused.err, HasSubstr("nothing but cubes can be made"));
+}
+
 TEST_F(CliVoxelizeTest, NumberedFilesAreFramesWithVoxelsOfOneSize) {
     for (const int number : {1, 2, 4})
         put_bytes(folder / fmt::format("m.{:04}.obj", number),

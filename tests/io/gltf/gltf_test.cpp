@@ -222,14 +222,27 @@ TEST(GltfMesh, NormalsThatAreNoNumbersSayNothingAndPositionsAreRefused) {
     EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("a vertex isn't finite"));
 }
 
-TEST(GltfMesh, LeavesOutPointsAndLinesWithANote) {
+TEST(GltfMesh, LeavesOutPointsBesideTrianglesWithANote) {
     GltfWriter writer = triangle_gltf();
     Json& primitives = writer.json["meshes"][0]["primitives"];
     primitives.push_back(primitives[0]);
     primitives[1]["mode"] = 0;
     EXPECT_THAT(gltf_mesh(parsed_gltf(writer), 0).notes, ElementsAre(HasSubstr("points or lines")));
-    primitives[0]["mode"] = 1;
-    EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("has no triangles to show"));
+    primitives = Json::array();
+    EXPECT_THAT(refusal_of_gltf(writer), HasSubstr("has no triangles, points or lines to show"));
+}
+
+TEST(GltfMesh, OfPointsAndLinesAloneHasTrianglesWithoutArea) {
+    GltfWriter writer = triangle_gltf();
+    Json& mode = writer.json["meshes"][0]["primitives"][0]["mode"];
+    const auto triangles = [&](int number) {
+        mode = number;
+        return gltf_mesh(parsed_gltf(writer), 0).triangles;
+    };
+    EXPECT_THAT(triangles(0), ElementsAre(uvec3(0, 0, 0), uvec3(1, 1, 1), uvec3(2, 2, 2)));
+    EXPECT_THAT(triangles(1), ElementsAre(uvec3(0, 1, 1)));
+    EXPECT_THAT(triangles(2), ElementsAre(uvec3(0, 1, 1), uvec3(1, 2, 2), uvec3(2, 0, 0)));
+    EXPECT_THAT(triangles(3), ElementsAre(uvec3(0, 1, 1), uvec3(1, 2, 2)));
 }
 
 }  // namespace voxelume

@@ -96,7 +96,7 @@ TEST(MeshStrips, AreRefusedWhereTheyNameNoVertex) {
     EXPECT_THAT(refusal(ply(strips, "4 0 1 -2 3\n"), "a.ply"), HasSubstr("names vertex -2"));
     EXPECT_THAT(refusal(ply("element tristrips 1\nproperty int vertex_indices\n", "4\n"), "a.ply"),
                 HasSubstr("the tristrips have no list of whole numbers"));
-    EXPECT_THAT(refusal(ply(strips, "3 0 0 1\n"), "a.ply"), HasSubstr("no triangles"));
+    EXPECT_THAT(refusal(ply(strips, "3 0 0 1\n"), "a.ply"), HasSubstr("faces, and no triangles"));
 }
 
 TEST(MeshColors, OfVisCamHaveBlueInTheLowestBits) {

@@ -148,7 +148,21 @@ TEST(MeshObj, RefusesDamageWithTheLine) {
     EXPECT_THAT(refusal("Dear reader,\nv 0 0 0\n", "a.obj"),
                 StartsWith("a.obj:1: \"Dear\" is no statement"));
     EXPECT_THAT(refusal(v + std::string("f 1 2 3\n\0", 9), "a.obj"), StartsWith("a.obj: byte 32"));
-    EXPECT_THAT(refusal(v, "a.obj"), StartsWith("a.obj: the mesh has no triangles"));
+    EXPECT_THAT(refusal("vn 0 0 1\n", "a.obj"), "a.obj: the file has neither faces nor vertices");
+}
+
+TEST(MeshObj, ShowsPointsAndLinesWhereThereAreNoFaces) {
+    const std::string v = kObjVertices;
+    EXPECT_THAT(parse_mesh(v, "a.obj").triangles,
+                ElementsAre(uvec3(0, 0, 0), uvec3(1, 1, 1), uvec3(2, 2, 2)));
+    EXPECT_THAT(parse_mesh(v + "p 1 -1\nl 1/1 2/2 3/3 1 # round\n", "a.obj").triangles,
+                ElementsAre(uvec3(0, 0, 0), uvec3(2, 2, 2), uvec3(0, 1, 1), uvec3(1, 2, 2),
+                            uvec3(2, 0, 0)));
+    EXPECT_THAT(parse_mesh(v + "l 1 2\nf 1 2 3\np 1\n", "a.obj").triangles,
+                ElementsAre(uvec3(0, 1, 2)));
+    EXPECT_THAT(parse_mesh(v + "p\nl 1 9 2\nl 3 \\\n1\np x\n", "a.obj").triangles,
+                ElementsAre(uvec3(2, 0, 0)))
+        << "what isn't a line is skipped";
 }
 
 }  // namespace voxelume
