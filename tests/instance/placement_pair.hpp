@@ -23,19 +23,22 @@ namespace voxelume {
 
 /// Why a pixel of one picture isn't that of the other. Each cause is checked at the pixel.
 enum class Cause {
-    none,     ///< it is the same
-    touch,    ///< two objects' surfaces pass through the point that it shows, so either is seen
-    cut,      ///< the world's bounds cut the object: closed in the world, open in an instance
-    lattice,  ///< the object's voxels lie otherwise in its own space, by no more than is promised
-    sampled,  ///< samples of lamps, of the sky and of paths, checkers at a border of their fields:
-              ///< it is the same without them
-    others,   ///< light of objects with other voxels: it is the same if they stay in the world
-    edge,     ///< the world's picture changes as much if its rays move by a ten-thousandth voxel
+    none,      ///< it is the same
+    touch,     ///< two objects' surfaces pass through the point that it shows, so either is seen
+    cut,       ///< the world's bounds cut the object: closed in the world, open in an instance
+    lattice,   ///< the object's voxels lie otherwise in its own space, by no more than is promised
+    sampled,   ///< samples of lamps, of the sky and of paths, checkers at a border of their fields:
+               ///< it is the same without them
+    others,    ///< light of objects with other voxels: it is the same if they stay in the world
+    edge,      ///< the world's picture changes as much if its rays move by a ten-thousandth voxel
+    far_edge,  ///< the same, for a hundredth: where light grazes a surface, or rays go on from
+               ///< curved ones, rounding grows
     unexplained
 };
-inline constexpr std::array kCauseNames = {"the same",     "touch",         "cut",
-                                           "other voxels", "sampled light", "others' voxels",
-                                           "at an edge",   "unexplained"};
+inline constexpr std::array<const char*, size_t(Cause::unexplained) + 1> kCauseNames = {
+    "the same",      "touch",          "cut",        "other voxels",
+    "sampled light", "others' voxels", "at an edge", "farther from an edge",
+    "unexplained"};
 
 /// How far a surface may be from itself in the other placement, in voxels of the larger lattice.
 inline double promised(Surface surface) {
@@ -170,7 +173,9 @@ class PlacementPair {
         if (is_alike(without_samples(scene_), false, plain_, i)) return Cause::sampled;
         if (is_alike(scene_, true, kept_, i)) return Cause::others;
         if (is_alike(without_samples(scene_), true, plain_kept_, i)) return Cause::others;
-        return cause_beside(i, a, b);
+        const Cause kept = cause_beside(i, a, pixel_of(kept_[1], i));
+        const Cause cause = cause_beside(i, a, b);
+        return cause == Cause::unexplained && kept != cause ? Cause::others : cause;
     }
 
     double rounding() const { return 1e-4 * glm::compMax(scene_.world.voxel_size); }
@@ -218,12 +223,13 @@ class PlacementPair {
         return false;
     }
 
-    /// Whether another picture shows the object of a pixel as close to where the pixel has it as
-    /// its surface promises. An exact one has no slack.
+    /// Whether another picture shows the object of a pixel, at most three pixels from it, as close
+    /// to the plane that touches it there as its surface promises. An exact one has no slack.
     bool is_promised(const Pixel& at, const Image& image, size_t i) const {
         if (!at.object || surface_of(at.object) == Surface::exact) return false;
         return any_around(image, i, [&](const Pixel& other) {
-            return other.object == at.object && glm::length(other.p - at.p) <= slack_of(at);
+            return other.object == at.object &&
+                   std::abs(glm::dot(other.p - at.p, at.n)) <= slack_of(at);
         });
     }
 
@@ -244,30 +250,46 @@ class PlacementPair {
     }
 
     /// Why a pixel differs of whose surface nothing is known to differ: the world's picture from
-    /// places beside the observer, up to a ten-thousandth voxel away, shows as much; or it shows
-    /// another object's surface at the very point, in which a ray from there may begin.
+    /// places beside the observer shows as much; or it shows another object's surface at the very
+    /// point, in which a ray from there may begin.
     Cause cause_beside(size_t i, const Pixel& a, const Pixel& b) {
-        for (int k = 0; moved_.size() < 16 && k < 16; ++k) {
-            const double angle = k * 0.7853981634 + 0.2, by = rounding() * (1 + k / 8) / 2;
-            moved_.push_back(world_.picture(by * std::cos(angle), by * std::sin(angle)));
+        const Beside near = beside(i, a, b, rounding(), moved_);
+        if (near.is_seen && near.is_as_bright) return Cause::edge;
+        if (near.is_seen && near.touch) return Cause::touch;
+        const Beside far = beside(i, a, b, 100 * rounding(), moved_far_);
+        return far.is_seen && far.is_as_bright ? Cause::far_edge : Cause::unexplained;
+    }
+
+    /// What the world's picture shows from places up to a distance from the observer.
+    struct Beside {
+        bool is_seen = false;       ///< the object of the other picture
+        bool is_as_bright = false;  ///< the other picture's light lies within its
+        bool touch = false;         ///< another object at the very point
+    };
+    Beside beside(size_t i, const Pixel& a, const Pixel& b, double distance,
+                  std::vector<Image>& moved) const {
+        for (int k = 0; moved.size() < 16; ++k) {
+            const double angle = k * 0.7853981634 + 0.2, by = distance * (1 + k / 8) / 2;
+            moved.push_back(world_.picture(by * std::cos(angle), by * std::sin(angle)));
         }
+        Beside found;
+        found.is_seen = a.object == b.object;
         glm::dvec3 low = a.light, high = a.light;
-        bool is_seen = a.object == b.object, touch = false;
-        for (const Image& image : moved_) {
-            const Pixel moved = pixel_of(image, i);
-            is_seen |= moved.object == b.object;
-            touch |= moved.object && moved.object != a.object &&
-                     glm::length(moved.p - a.p) <= 4 * rounding();
-            low = glm::min(low, moved.light), high = glm::max(high, moved.light);
+        for (const Image& image : moved) {
+            const Pixel other = pixel_of(image, i);
+            found.is_seen |= other.object == b.object;
+            found.touch |= other.object && other.object != a.object &&
+                           glm::length(other.p - a.p) <= 4 * rounding();
+            low = glm::min(low, other.light), high = glm::max(high, other.light);
         }
-        if (is_seen && is_same_light(b.light, glm::clamp(b.light, low, high))) return Cause::edge;
-        return touch && is_seen ? Cause::touch : Cause::unexplained;
+        found.is_as_bright = is_same_light(b.light, glm::clamp(b.light, low, high));
+        return found;
     }
 
     Scene scene_;
     PlacedScene world_;
     Pictures pictures_;
-    std::vector<Image> plain_, kept_, plain_kept_, moved_;
+    std::vector<Image> plain_, kept_, plain_kept_, moved_, moved_far_;
 };
 
 }  // namespace voxelume
