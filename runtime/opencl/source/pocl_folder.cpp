@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <future>
 #include <regex>
 #include <set>
 #include <string>
@@ -222,6 +223,8 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
         build();
         return true;
     }
+    // What the kernels consist of takes tens of milliseconds, as reading the program's files does.
+    auto found_parts = std::async(std::launch::async | std::launch::deferred, parts);
     std::vector<fs::path> unpacked;
     try {
         if (const auto bytes = turn_.read(cache, key)) unpacked = unpack(folder_, *bytes);
@@ -235,7 +238,7 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
         unpacked.clear();
     ProgramFiles program = {folder, unpacked.size(), {}};
     if (!folder.empty()) {
-        program.parts = parts();
+        program.parts = found_parts.get();
         publish_changes(cache);  // includes kernels that this process compiled
         take_kernels(cache, program);
         if (!unpacked.empty())
