@@ -17,6 +17,7 @@
 #include "runtime/import/gltf_values.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/io/gltf/gltf_texture_use.hpp"
 
 namespace voxelume {
 namespace {
@@ -67,6 +68,7 @@ class SceneOfGltf {
           root_(gltf_.root()),
           clip_(clip_of(gltf_, file.options.clip)),
           motion_(gltf_, clip_),
+          unlit_(gltf_unlit_materials(gltf_)),
           frames_{motion_, clip_.tracks.empty() ? 1 : frame_count(clip_.seconds)} {
         for (size_t i = 0; i < gltf_.material_names().size(); ++i)
             material_numbers_.emplace(gltf_.material_names()[i], i);
@@ -119,9 +121,9 @@ class SceneOfGltf {
         const std::string name = objects_.unique(wanted.empty() ? "object" : wanted);
         MeshModel& shown = model_of(node, mesh, summary);
         std::string place = is_skinned ? "" : place_text(node, name);
-        contents_.objects.push_back(fmt::format("{{\"name\": {}, \"model\": {}{}{}}}",
-                                                json_text(name), json_text(shown.name),
-                                                materials_member(summary), place));
+        contents_.objects.push_back(fmt::format(
+            "{{\"name\": {}, \"model\": {}{}{}{}}}", json_text(name), json_text(shown.name),
+            materials_member(summary), spots_member(summary), place));
         const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface, frames_.count);
         for (const glm::dmat4& map : maps) {
             add_box(map, box);
@@ -190,12 +192,31 @@ class SceneOfGltf {
         return fmt::format(", \"materials\": {{{}}}", fmt::join(members, ", "));
     }
 
+    bool is_unlit(const std::string& group) const {
+        const auto found = material_numbers_.find(group);
+        return found != material_numbers_.end() && unlit_.contains(int(found->second));
+    }
+
+    /// What is unlit lights nothing, unless it is one object with what shines.
+    std::string spots_member(const MeshSummary& summary) const {
+        bool has_unlit = false;
+        for (const std::string& group : summary.group_names) {
+            const auto number = material_numbers_.find(group);
+            if (number == material_numbers_.end()) continue;
+            if (is_unlit(group))
+                has_unlit = true;
+            else if (gltf_shines(root_.item("materials", number->second)))
+                return {};
+        }
+        return has_unlit ? ", \"spots\": 0" : "";
+    }
+
     std::string add_material(const std::string& group) {
         std::string name = material_names_.unique(group);
         const GltfValue material = root_.item("materials", material_numbers_.at(group));
         contents_.has_glass |= gltf_transmits(material);
         contents_.materials.push_back(
-            fmt::format("{}: {{{}}}", json_text(name), gltf_values(material)));
+            fmt::format("{}: {{{}}}", json_text(name), gltf_values(material, is_unlit(group))));
         return name;
     }
 
@@ -204,6 +225,7 @@ class SceneOfGltf {
     GltfValue root_;
     GltfClip clip_;
     GltfMotion motion_;
+    std::set<int> unlit_;  ///< materials
     GltfFrames frames_;
     Contents contents_;
     std::map<std::array<int, 3>, size_t> model_numbers_;  ///< by mesh, owner of weights, skin

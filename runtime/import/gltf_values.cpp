@@ -116,20 +116,28 @@ bool gltf_transmits(const GltfValue& material) {
     return looks_of(material).opacity < 1 || transmission_of(material) > 0;
 }
 
-std::string gltf_values(const GltfValue& material) {
+bool gltf_shines(const GltfValue& material) {
+    return emission_of(material) != glm::dvec3(0);
+}
+
+std::string gltf_values(const GltfValue& material, bool is_unlit) {
     const Looks s = looks_of(material);
+    const std::string opacity =
+        s.opacity < 1 ? fmt::format(", \"opacity\": {}", rounded(s.opacity, 3)) : "";
+    if (is_unlit)
+        return fmt::format("\"color\": [0, 0, 0], \"specular\": 0, \"emission\": {}{}",
+                           json_list(rounded(s.color, 4)), opacity);
     const double transmission = transmission_of(material);
     std::string text = fmt::format("\"color\": {}", json_list(rounded(s.color, 4)));
     if (transmission > 0) {
         text += glass_members(material, s, transmission);
     } else if (material.has_extension("KHR_materials_unlit")) {
-        // It is matte: a lamp of its colour would light what is around it.
+        // It is matte: the colours of its vertices don't multiply emission.
     } else {
         text +=
             ", " + metal_members(s.metal, s.rough) + ior_member(material) + layer_members(material);
     }
-    if (transmission == 0 && s.opacity < 1)
-        text += fmt::format(", \"opacity\": {}", rounded(s.opacity, 3));
+    if (transmission == 0) text += opacity;
     const glm::dvec3 emission = emission_of(material);
     if (emission != glm::dvec3(0))
         text += fmt::format(", \"emission\": {}", json_list(rounded(emission, 4)));

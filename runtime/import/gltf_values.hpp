@@ -8,8 +8,11 @@
 
 namespace voxelume {
 
-/// The members of the scene's material, without braces.
-std::string gltf_values(const GltfValue& material);
+/// The members of the scene's material, without braces; see gltf_unlit_materials() on `is_unlit`.
+std::string gltf_values(const GltfValue& material, bool is_unlit);
+
+/// Whether the material has an emission of its own.
+bool gltf_shines(const GltfValue& material);
 
 /// Whether light goes through what has the material.
 bool gltf_transmits(const GltfValue& material);

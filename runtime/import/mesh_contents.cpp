@@ -9,6 +9,7 @@
 #include "runtime/import/gltf_values.hpp"
 #include "runtime/import/mtl_values.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
+#include "runtime/io/gltf/gltf_texture_use.hpp"
 
 namespace voxelume {
 namespace {
@@ -27,7 +28,7 @@ std::string plain_values(const MeshSummary& mesh) {
 /// A material that a group of faces has in the file.
 struct FileMaterial {
     std::string group, values;
-    bool transmits = false;
+    bool transmits = false, is_unlit = false, shines = false;
 };
 
 /// The materials of an OBJ file's library, or of a glTF file.
@@ -35,10 +36,12 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
     std::vector<FileMaterial> materials;
     if (is_gltf_file(file.path)) {
         const GltfFile& gltf = file.assets.gltf_file(file.path);
+        const std::set<int> unlit = gltf_unlit_materials(gltf);
         for (size_t i = 0; i < gltf.root().size("materials"); ++i) {
             const GltfValue material = gltf.root().item("materials", i);
-            materials.push_back(
-                {gltf.material_names()[i], gltf_values(material), gltf_transmits(material)});
+            const bool is_unlit = unlit.contains(int(i));
+            materials.push_back({gltf.material_names()[i], gltf_values(material, is_unlit),
+                                 gltf_transmits(material), is_unlit, gltf_shines(material)});
         }
         return materials;
     }
@@ -59,12 +62,15 @@ std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
                           const std::string& name, Contents& contents) {
     const std::vector<FileMaterial> materials = materials_of(file, mesh);
     std::vector<std::string> members;
+    bool has_unlit = false, shines = false;
     NameList names({"default", "ground", name});
     for (const std::string& group : mesh.group_names) {
         const auto found = std::ranges::find(materials, group, &FileMaterial::group);
         if (found == materials.end()) continue;
         const std::string material = names.unique(group);
         contents.has_glass |= found->transmits;
+        has_unlit |= found->is_unlit;
+        shines |= found->shines && !found->is_unlit;
         contents.materials.push_back(fmt::format("{}: {{{}}}", json_text(material), found->values));
         members.push_back(fmt::format("{}: {}", json_text(group), json_text(material)));
     }
@@ -76,6 +82,8 @@ std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
     }
     if (!members.empty())
         text += fmt::format(",\n     \"materials\": {{{}}}", fmt::join(members, ",\n       "));
+    // What is unlit lights nothing, unless it is one object with what shines.
+    if (has_unlit && !shines) text += ", \"spots\": 0";
     return text;
 }
 

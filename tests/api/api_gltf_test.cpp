@@ -103,10 +103,37 @@ TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
                 HasSubstr("\"emission\": [8, 4, 0]"));
 }
 
-TEST_F(ApiGltf, UnlitMaterialsAreMatteWhichInfoSays) {
-    EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}},
-                               {"extensions", {{"KHR_materials_unlit", Json::object()}}}}),
-                HasSubstr("\"m\": {\"color\": [0.5, 0.25, 1]}"));
+TEST_F(ApiGltf, UnlitMaterialsHaveTheirColourInAnyLight) {
+    const Json unlit = {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}},
+                        {"emissiveFactor", {0, 1, 0}},
+                        {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+    const std::string scene = with_material(unlit);
+    EXPECT_THAT(scene, HasSubstr("\"m\": {\"color\": [0, 0, 0], \"specular\": 0, "
+                                 "\"emission\": [0.5, 0.25, 1]}"));
+    EXPECT_THAT(scene, HasSubstr("\"spots\": 0"));
+    const CacheOptions no_cache{.enabled = false};
+    const Image image = render_image(
+        scene_of_file(folder / "a.glb", {.size = {40, 30}}, {.cache = no_cache}).with_samples(1),
+        *device, 1, {.cache = no_cache});
+    size_t shown = 0;
+    for (size_t i = 0; i < image.object_ids().size(); ++i) {
+        if (image.object_ids()[i] != 1) continue;
+        ++shown;
+        EXPECT_NEAR(image.plane("R")[i], 0.5, 1e-6);
+        EXPECT_NEAR(image.plane("G")[i], 0.25, 1e-6);
+        EXPECT_NEAR(image.plane("B")[i], 1, 1e-6);
+    }
+    EXPECT_GT(shown, 50u);
+}
+
+TEST_F(ApiGltf, UnlitMaterialsOfColouredVerticesAreMatteWhichInfoSays) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+        writer.accessor(std::vector<float>(9, 0.5f), "VEC3", 3);
+    writer.json["materials"] = {
+        {{"name", "m"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+    writer.json["meshes"][0]["primitives"][0]["material"] = 0;
+    EXPECT_THAT(scene_of(writer), HasSubstr("\"m\": {\"color\": [1, 1, 1]}"));
     const Facts facts = describe_file(folder / "a.glb");
     const auto& members = std::get<std::vector<Facts>>(facts.value);
     const auto notes = std::ranges::find(members, "notes", &Facts::name);

@@ -48,7 +48,23 @@ GltfTextureUse gltf_base_texture(const GltfFile& file, const GltfValue& material
                             : material.extension(kBySpecular).at("diffuseTexture"));
 }
 
-GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map) {
+std::set<int> gltf_unlit_materials(const GltfFile& file) {
+    const GltfValue root = file.root();
+    const size_t count = root.size("materials");
+    std::set<int> unlit;
+    for (size_t i = 0; i < count; ++i)
+        if (root.item("materials", i).has_extension("KHR_materials_unlit")) unlit.insert(int(i));
+    if (unlit.empty()) return unlit;
+    for (const GltfValue& mesh : root.items("meshes"))
+        for (const GltfValue& primitive : mesh.items("primitives"))
+            if (primitive.at("attributes").has("COLOR_0"))
+                unlit.erase(primitive.index("material", count));
+    return unlit;
+}
+
+GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map,
+                        bool is_unlit) {
+    if (is_unlit) return map == kEmissionMap ? gltf_base_texture(file, material) : GltfTextureUse{};
     if (map == kEmissionMap) {
         const std::vector<double> factor = material.numbers("emissiveFactor", 3);
         const bool glows = std::ranges::any_of(factor, [](double v) { return v > 0; });

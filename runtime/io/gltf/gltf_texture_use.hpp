@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <set>
 
 #include "runtime/io/gltf/gltf_file.hpp"
 
@@ -25,8 +26,13 @@ struct GltfTextureUse {
 /// The base colour's texture, in either way of describing a material.
 GltfTextureUse gltf_base_texture(const GltfFile& file, const GltfValue& material);
 
-/// The texture that is shown as one of the maps, by the numbers of TextureMap.
-GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map);
+/// The numbers of the materials of KHR_materials_unlit, whose base colour is shown as their
+/// emission. Those of vertices with colours aren't among them: these don't multiply emission.
+std::set<int> gltf_unlit_materials(const GltfFile& file);
+
+/// The texture that is shown as one of the maps, by the numbers of TextureMap. That of the base
+/// colour is the emission's where `is_unlit`.
+GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map, bool is_unlit);
 
 /// Whether a metallic-roughness texture is shown of the material, whose factors it multiplies.
 /// Glass and what has a coat are of one roughness.

@@ -82,7 +82,7 @@ GltfTextureUse GltfTextures::of_material(int material) const {
     const GltfValue item = file_.root().item("materials", size_t(material));
     GltfTextureUse use = gltf_base_texture(file_, item);
     for (size_t map = 0; map < kMapCount && use.texture < 0; ++map)
-        use = gltf_map(file_, item, map);
+        use = gltf_map(file_, item, map, unlit_.contains(material));
     return use;
 }
 
@@ -129,7 +129,7 @@ Texture GltfTextures::texture_of(int number, bool is_data, Mesh& mesh) {
 /// A map of the material. One of other texture coordinates counts by its mean.
 TextureMap GltfTextures::map_of(int material, size_t map, Mesh& mesh) {
     const GltfValue item = file_.root().item("materials", size_t(material));
-    const GltfTextureUse use = gltf_map(file_, item, map);
+    const GltfTextureUse use = gltf_map(file_, item, map, unlit_.contains(material));
     TextureMap made;
     if (use.texture < 0) return made;
     const auto places = gltf_map_places(use, of_material(material));

@@ -15,7 +15,7 @@ namespace voxelume {
 /// Appends textures to a mesh, each of the file's images once.
 class GltfTextures {
   public:
-    explicit GltfTextures(const GltfFile& file) : file_(file) {}
+    explicit GltfTextures(const GltfFile& file) : file_(file), unlit_(gltf_unlit_materials(file)) {}
 
     /// Looks which materials the mesh has on vertices with alpha. All meshes that are added are
     /// expected before.
@@ -43,6 +43,7 @@ class GltfTextures {
     uint32_t append_map(const GltfTextureUse& use, size_t map, bool is_mean, Mesh& mesh);
 
     const GltfFile& file_;
+    std::set<int> unlit_;                           ///< materials
     std::map<std::pair<int, bool>, Image> images_;  ///< by their numbers, and whether of data
     /// By their numbers and alpha, and the number of a material with maps.
     std::map<std::tuple<int, uint32_t, int>, uint32_t> appended_;

@@ -61,12 +61,15 @@ void note_unshown(const GltfValue& material, std::vector<std::string>& notes) {
 }
 
 std::vector<std::string> unshown_of_gltf(const GltfFile& file) {
-    bool has_bumps = false, has_occlusion = false, has_thickness = false, is_unlit = false;
+    bool has_bumps = false, has_occlusion = false, has_thickness = false, is_matte = false;
+    const std::set<int> unlit = gltf_unlit_materials(file);
+    int number = 0;
     for (const GltfValue& material : file.root().items("materials")) {
         has_bumps |= material.has("normalTexture") || coat_has(material, "clearcoatNormalTexture");
         has_occlusion |= material.has("occlusionTexture");
         has_thickness |= material.extension("KHR_materials_volume").has("thicknessTexture");
-        is_unlit |= material.has_extension("KHR_materials_unlit");
+        is_matte |= material.has_extension("KHR_materials_unlit") && !unlit.contains(number);
+        ++number;
     }
     std::vector<std::string> notes;
     if (has_bumps) notes.emplace_back("its normal textures aren't shown: surfaces have no bumps");
@@ -74,8 +77,10 @@ std::vector<std::string> unshown_of_gltf(const GltfFile& file) {
         notes.emplace_back("its occlusion textures aren't shown: rays find what is occluded");
     if (has_thickness)
         notes.emplace_back("its thickness textures aren't shown: rays find how thick bodies are");
-    if (is_unlit)
-        notes.emplace_back("its materials of KHR_materials_unlit are matte, and lit as others are");
+    if (is_matte)
+        notes.emplace_back(
+            "its materials of KHR_materials_unlit are matte, and lit as others are, "
+            "where vertices have colours");
     return notes;
 }
 
