@@ -128,13 +128,15 @@ Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel
         thin.consider(largest(sides), placed.is_instance ? smallest(placed.voxel) : world_edge);
         return thin;
     }
+    // In the world, voxels of a size that the scene doesn't say are the world's.
+    const bool has_own = placed.is_instance || model.is_sized;
     for (int axis = 0; axis < 3 && !model.solid; ++axis) {
-        thin.consider(sides[axis], placed.voxel[axis]);
+        if (has_own) thin.consider(sides[axis], placed.voxel[axis]);
         if (!placed.is_instance) thin.consider(sides[axis], world_edge);
     }
     if (model.solid) {
         const double width = thickness(*model.solid, glm::dmat3(object.world_from_object));
-        thin.consider(width, smallest(placed.voxel));
+        if (has_own) thin.consider(width, smallest(placed.voxel));
         if (!placed.is_instance) thin.consider(width, world_edge);
     }
     return thin;
@@ -202,24 +204,26 @@ std::string finer_advice(const Model& model, double voxel_size) {
     return fmt::format("the model a \"voxel_size\" of {:.3g}, or {}", voxel_size, placement);
 }
 
-/// `smooth` objects in the world have voxels of the world's size, but for those that are coarser.
+/// `smooth` objects in the world have voxels of the world's size, but for those whose coarser ones
+/// the scene asks for.
 void add_ratio_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                        std::vector<Warning>& warnings) {
     const Model& model = placed.model;
-    if (placed.is_instance || lists_primitives(model.surface)) return;
+    if (lists_primitives(model.surface)) return;
     const glm::dvec3& world = scene.world.voxel_size;
     const std::string sizes =
         fmt::format("voxels of {} are {:.3g} m where it stands, and the world's are {:.3g} m",
                     title_of(object), smallest(placed.voxel), smallest(world));
     const double slack = 1 + kSizeRounding;
-    if (shows_voxels(model.surface) && smallest(world) > kMaxRatio * slack * largest(placed.voxel))
+    if (!placed.is_instance && shows_voxels(model.surface) &&
+        smallest(world) > kMaxRatio * slack * largest(placed.voxel))
         add_once({WarningKind::finer_than_world, object.where,
                   fmt::format("{}, which can't show as much: give {}", sizes,
                               finer_advice(model, smallest(world) / largest(placed.scale)))},
                  warnings);
     // Large cubes are a style.
     const bool is_coarse = smallest(placed.voxel) > kMaxRatio * slack * largest(world);
-    if (is_coarse && stores_distances(model.surface) && model.voxels.empty())
+    if (is_coarse && model.is_sized && stores_distances(model.surface) && model.voxels.empty())
         add_once({WarningKind::coarser_than_world, object.where,
                   fmt::format("{}, which can show more: give the model a \"voxel_size\" of {:.3g}",
                               sizes, smallest(world) / largest(placed.scale))},

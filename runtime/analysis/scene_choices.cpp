@@ -2,10 +2,13 @@
 #include "runtime/analysis/scene_choices.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "runtime/analysis/object_lattice.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -191,11 +194,57 @@ void choose_placements(Scene& scene, AssetStore& meshes) {
     if (has_changed) find_extents(scene);
 }
 
+/// The sides of a model in its own space, metres.
+glm::dvec3 sides_of(const Model& model, AssetStore& meshes) {
+    if (!model.solid) {
+        const Bounds& box = meshes.summary_of(model)->surface;
+        return box.max - box.min;
+    }
+    const SolidBounds extent = {model.extent.min, model.extent.max};
+    const SolidBounds box = bounds(*model.solid, glm::dmat4(1), extent);
+    return box.is_empty() ? glm::dvec3(0) : box.max - box.min;
+}
+
+/// By how much the largest instance of a model is larger than the model, along each axis: 1 or
+/// more, in steps.
+glm::dvec3 largest_scale(const Scene& scene, size_t number) {
+    constexpr double kScaleSteps = 4;  // so that a size that moves changes few voxels
+    glm::dvec3 largest(1);
+    for (const Object& object : scene.objects) {
+        if (size_t(object.model) != number || !is_instanced(scene, object)) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double scale = glm::length(glm::dvec3(object.world_from_object[axis]));
+            const double step = std::ceil(kScaleSteps * std::log2(scale) - 1e-9);
+            largest[axis] = std::max(largest[axis], std::exp2(step / kScaleSteps));
+        }
+    }
+    return largest;
+}
+
+/// Gives instances that are larger than their models voxels that are as large as the world's where
+/// they stand, if the scene says no size. What is larger than the world has as many voxels as that.
+void size_instances(Scene& scene, AssetStore& meshes) {
+    const double most = longest(glm::dvec3(scene.world.voxels));
+    for (size_t number = 0; number < scene.models.size(); ++number) {
+        Model& model = scene.models[number];
+        if (model.is_sized || model.resolution > 0 || !model.voxels.empty()) continue;
+        const glm::dvec3 scale = largest_scale(scene, number);
+        if (scale == glm::dvec3(1)) continue;
+        const glm::dvec3 sides = sides_of(model, meshes), &world = scene.world.voxel_size;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double edge = std::max(world[axis] / scale[axis], sides[axis] / most);
+            model.voxel_size[axis] = std::min(edge, world[axis]);
+        }
+    }
+}
+
 }  // namespace
 
 void make_choices(Scene& scene, AssetStore& meshes) {
+    size_instances(scene, meshes);
     choose_surfaces(scene, meshes);
     choose_placements(scene, meshes);
+    size_instances(scene, meshes);  // of those that became instances, too
 }
 
 }  // namespace voxelume

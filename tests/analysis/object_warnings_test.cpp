@@ -44,6 +44,17 @@ TEST_F(ObjectWarnings, NameModelsFinerAndCoarserThanTheWorldByMoreThanFour) {
     EXPECT_THAT(kinds(), IsEmpty());
 }
 
+/// In the world, voxels of a size that the scene doesn't say are the world's, whatever the scale.
+TEST_F(ObjectWarnings, SayNothingOfObjectsThatAreLargerThanTheirModels) {
+    json["models"]["ball"] = {{"shape", "sphere"}, {"radius", 0.03}, {"surface", "smooth"}};
+    json["objects"][0]["scale"] = 10;
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["objects"][0]["placement"] = "instance";
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["models"]["ball"]["voxel_size"] = 0.021;
+    EXPECT_THAT(kinds(), ElementsAre(Kind::coarser_than_world)) << "as an instance, too";
+}
+
 /// Voxels of a file are as large as it says, and "voxel_size" is no key of such models.
 TEST_F(ObjectWarnings, NameNoVoxelSizeForAFileOfVoxels) {
     put_bytes(folder / "cells.npy", npy_bytes("|u1", "4, 3, 2", std::string(24, '\1')));

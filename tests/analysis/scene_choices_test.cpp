@@ -280,6 +280,30 @@ bool first_is_instanced(Scene scene, int count, const Material& material, bool h
     return is_instanced(scene, scene.objects[0]);
 }
 
+TEST_F(SceneChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStand) {
+    const auto edge = [&](const std::string& model, const std::string& keys) {
+        return chosen(R"("shape": "sphere", "surface": "smooth", "radius": )" + model, keys)
+            .voxel_size;
+    };
+    const std::string placed = R"(, "placement": "instance", "scale": )";
+    EXPECT_EQ(edge("0.3", placed + "1"), glm::dvec3(0.02));
+    EXPECT_EQ(edge("0.3", placed + "0.5"), glm::dvec3(0.02));
+    EXPECT_EQ(edge("0.1", placed + "4"), glm::dvec3(0.005));
+    const glm::dvec3 between = edge("0.1", placed + "3.9");  // a step of a quarter octave above
+    EXPECT_LE(between.x, 0.02 / 3.9);
+    EXPECT_GE(between.x, 0.02 / 3.9 / std::exp2(0.25));
+    EXPECT_EQ(edge("0.1", placed + "[1, 4, 2]"), glm::dvec3(0.02, 0.005, 0.01));
+    EXPECT_EQ(edge("0.1", R"(, "scale": 4)"), glm::dvec3(0.02)) << "in the world";
+    EXPECT_EQ(edge(R"(0.1, "voxel_size": 0.01)", placed + "4"), glm::dvec3(0.01));
+    const std::string box = R"("mesh": "box.obj", "surface": "exact")";
+    EXPECT_NEAR(chosen(box, placed + "2").voxel_size.y, 0.01, 1e-8);
+    // Its sides are 0.6, 0.45 and 0.3 m, and the world's longest side has 60 voxels.
+    const glm::dvec3 large = chosen(box, placed + "50").voxel_size;
+    EXPECT_NEAR(large.x, 0.01, 1e-8);
+    EXPECT_NEAR(large.y, 0.0075, 1e-8);
+    EXPECT_NEAR(large.z, 0.005, 1e-8);
+}
+
 TEST_F(SceneChoices, ManyCopiesOfAnExactMeshAreInstances) {
     const std::string box = R"("mesh": "box.obj", "surface": "exact")";
     Material glass, lamp;
