@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// Makes each vertex of a file without faces a point, if it has no lines either. Throws Error::input where it
-/// has no vertices either, Error::limit for too many.
+/// Makes each vertex of a file without faces a point, if it has no lines either. Throws
+/// Error::input where it has no vertices either, Error::limit for too many.
 inline void show_scan(const MeshSource& source, Mesh& mesh) {
     if (!mesh.triangles.empty()) return;
     if (mesh.positions.empty()) source.fail("the file has neither faces nor vertices");
