@@ -6,70 +6,17 @@
 
 #include <fstream>
 
-#include "runtime/assets/voxel_export.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
-#include "runtime/scene_file/read_scene.hpp"
-#include "runtime/stages/voxelize/voxelize.hpp"
+#include "tests/analysis/chosen_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/support/file_fixture.hpp"
-#include "tests/support/finned_ball.hpp"
-#include "tests/support/shared_device.hpp"
-#include "tests/support/test_meshes.hpp"
 #include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 namespace {
 
-class SceneChoices : public FileTest {
-  protected:
-    void SetUp() override {
-        FileTest::SetUp();
-        write_obj(folder / "ring.obj", wavy_ring(40, 20));
-        write_obj(folder / "fin.obj", finned_ball(0.008));
-        write_obj(folder / "blade.obj", bladed_ball(0.008));
-        write_obj(folder / "box.obj", box({-0.3f, -0.2f, -0.1f}, {0.3f, 0.25f, 0.2f}));
-    }
-
-    Scene scene_of(const std::string& model, const std::string& keys = "",
-                   const std::string& tracks = "") const {
-        const std::string text = fmt::format(R"({{"voxelume": 1,
-"world": {{"voxel_size": 0.02, "bounds": {{"min": [-0.6, -0.5, -0.55], "max": [0.6, 0.5, 0.55]}},
-          "ambient": [0.4, 0.4, 0.4]}},
-"models": {{"m": {{{}}}}},
-"objects": [{{"model": "m"{}}}],
-"animation": {{"frames": 4, "tracks": [{}]}},
-"observer": {{"position": [0.7, 0.9, -2], "look_at": [0, 0, 0],
-             "display": {{"shape": "pyramid", "angle": 40}}}},
-"render": {{"size": [48, 36]}}}})",
-                                             model, keys, tracks);
-        AssetStore files;
-        return parse_scene(text, folder / "test.json", {}, [&](const Model& of, bool is_first) {
-            return files.box_of_file(of, is_first);
-        });
-    }
-
-    /// The model after the choices are made; its surface is `auto` unless `model` says it.
-    Model chosen(std::string model, const std::string& keys = "",
-                 const std::string& tracks = "") const {
-        if (model.find("\"surface\"") == std::string::npos) model += R"(, "surface": "auto")";
-        Scene scene = scene_of(model, keys, tracks);
-        AssetStore meshes;
-        make_choices(scene, meshes);
-        return scene.models[0];
-    }
-
-    void voxelize(const char* name, Surface surface) const {
-        const Mesh mesh = wavy_ring(40, 20);
-        const BrickGrid grid =
-            voxelize_mesh(shared_device(), mesh, glm::dmat4(1),
-                          frame_around(mesh, glm::dvec3(0.02)), {.surface = surface});
-        const VoxelExport voxels(grid, mesh, surface, VoxelSet::supercover);
-        const std::filesystem::path file = folder / name;
-        file.extension() == ".vxm" ? voxels.write_model(file) : voxels.write_vdb(file);
-    }
-};
+using SceneChoices = ChosenScene;
 
 TEST_F(SceneChoices, GiveMeshesTheSurfaceThatSuitsThem) {
     EXPECT_EQ(chosen(R"("mesh": "ring.obj")").surface, Surface::smooth);
@@ -262,61 +209,6 @@ TEST_F(SceneChoices, AreMadeBeforeAPictureIs) {
     const uint64_t chosen_hash = hash(R"(, "surface": "auto")");
     EXPECT_EQ(chosen_hash, hash(R"(, "surface": "exact")"));
     EXPECT_NE(chosen_hash, hash(R"(, "surface": "smooth")"));
-}
-
-/// The placement that `auto` gives the first of `count` objects of the model.
-bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
-    scene.materials.push_back(material);
-    scene.objects[0].material = int(scene.materials.size()) - 1;
-    scene.objects.resize(size_t(count), scene.objects[0]);
-    if (has_cubes) {
-        scene.models.push_back(scene.models[0]);
-        scene.models.back().surface = Surface::cubes;
-        scene.objects.push_back(scene.objects[0]);
-        scene.objects.back().model = int(scene.models.size()) - 1;
-    }
-    AssetStore meshes;
-    make_choices(scene, meshes);
-    return is_instanced(scene, scene.objects[0]);
-}
-
-TEST_F(SceneChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStand) {
-    const auto edge = [&](const std::string& model, const std::string& keys) {
-        return chosen(R"("shape": "sphere", "surface": "smooth", "radius": )" + model, keys)
-            .voxel_size;
-    };
-    const std::string placed = R"(, "placement": "instance", "scale": )";
-    EXPECT_EQ(edge("0.3", placed + "1"), glm::dvec3(0.02));
-    EXPECT_EQ(edge("0.3", placed + "0.5"), glm::dvec3(0.02));
-    EXPECT_EQ(edge("0.1", placed + "4"), glm::dvec3(0.005));
-    const glm::dvec3 between = edge("0.1", placed + "3.9");  // a step of a quarter octave above
-    EXPECT_LE(between.x, 0.02 / 3.9);
-    EXPECT_GE(between.x, 0.02 / 3.9 / std::exp2(0.25));
-    EXPECT_EQ(edge("0.1", placed + "[1, 4, 2]"), glm::dvec3(0.02, 0.005, 0.01));
-    EXPECT_EQ(edge("0.1", R"(, "scale": 4)"), glm::dvec3(0.02)) << "in the world";
-    EXPECT_EQ(edge(R"(0.1, "voxel_size": 0.01)", placed + "4"), glm::dvec3(0.01));
-    const std::string box = R"("mesh": "box.obj", "surface": "exact")";
-    EXPECT_NEAR(chosen(box, placed + "2").voxel_size.y, 0.01, 1e-8);
-    // Its sides are 0.6, 0.45 and 0.3 m, and the world's longest side has 60 voxels.
-    const glm::dvec3 large = chosen(box, placed + "50").voxel_size;
-    EXPECT_NEAR(large.x, 0.01, 1e-8);
-    EXPECT_NEAR(large.y, 0.0075, 1e-8);
-    EXPECT_NEAR(large.z, 0.005, 1e-8);
-}
-
-TEST_F(SceneChoices, ManyCopiesOfAnExactMeshAreInstances) {
-    const std::string box = R"("mesh": "box.obj", "surface": "exact")";
-    Material glass, lamp;
-    glass.opacity = 0.5f;
-    lamp.emission = glm::vec3(1);
-    EXPECT_TRUE(first_is_instanced(scene_of(box), 8, {}, false));
-    EXPECT_FALSE(first_is_instanced(scene_of(box), 7, {}, false));
-    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, glass, false));
-    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, lamp, false));
-    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, {}, true));
-    EXPECT_FALSE(
-        first_is_instanced(scene_of(R"("mesh": "ring.obj", "surface": "smooth")"), 8, {}, false));
-    EXPECT_FALSE(first_is_instanced(scene_of(box, R"(, "placement": "world")"), 8, {}, false));
 }
 
 }  // namespace

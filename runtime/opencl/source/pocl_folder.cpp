@@ -214,14 +214,9 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
                                   const std::function<void()>& build) {
     // One build at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
     const std::lock_guard guard(mutex_);
-    if (folder_.empty()) {
+    if (folder_.empty() || programs_.contains(key)) {
         build();
-        return false;
-    }
-    const auto known = programs_.find(key);
-    if (known != programs_.end()) {
-        build();
-        return true;
+        return !folder_.empty();
     }
     // What the kernels consist of takes tens of milliseconds, as reading the program's files does.
     auto found_parts = std::async(std::launch::async | std::launch::deferred, parts);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What scenes leave to the sizes and numbers of their objects: `"placement": "auto"`, and the
+// voxels of instances.
+#include "runtime/scene/predicates.hpp"
+#include "tests/analysis/chosen_scene.hpp"
+
+namespace voxelume {
+namespace {
+
+using PlacementChoices = ChosenScene;
+
+/// The placement that `auto` gives the first of `count` objects of the model.
+bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
+    scene.materials.push_back(material);
+    scene.objects[0].material = int(scene.materials.size()) - 1;
+    scene.objects.resize(size_t(count), scene.objects[0]);
+    if (has_cubes) {
+        scene.models.push_back(scene.models[0]);
+        scene.models.back().surface = Surface::cubes;
+        scene.objects.push_back(scene.objects[0]);
+        scene.objects.back().model = int(scene.models.size()) - 1;
+    }
+    AssetStore meshes;
+    make_choices(scene, meshes);
+    return is_instanced(scene, scene.objects[0]);
+}
+
+TEST_F(PlacementChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStand) {
+    const auto edge = [&](const std::string& model, const std::string& keys) {
+        return chosen(R"("shape": "sphere", "surface": "smooth", "radius": )" + model, keys)
+            .voxel_size;
+    };
+    const std::string placed = R"(, "placement": "instance", "scale": )";
+    EXPECT_EQ(edge("0.3", placed + "1"), glm::dvec3(0.02));
+    EXPECT_EQ(edge("0.3", placed + "0.5"), glm::dvec3(0.02));
+    EXPECT_EQ(edge("0.1", placed + "4"), glm::dvec3(0.005));
+    const glm::dvec3 between = edge("0.1", placed + "3.9");  // a step of a quarter octave above
+    EXPECT_LE(between.x, 0.02 / 3.9);
+    EXPECT_GE(between.x, 0.02 / 3.9 / std::exp2(0.25));
+    EXPECT_EQ(edge("0.1", placed + "[1, 4, 2]"), glm::dvec3(0.02, 0.005, 0.01));
+    EXPECT_EQ(edge("0.1", R"(, "scale": 4)"), glm::dvec3(0.02)) << "in the world";
+    EXPECT_EQ(edge(R"(0.1, "voxel_size": 0.01)", placed + "4"), glm::dvec3(0.01));
+    const std::string box = R"("mesh": "box.obj", "surface": "exact")";
+    EXPECT_NEAR(chosen(box, placed + "2").voxel_size.y, 0.01, 1e-8);
+    // Its sides are 0.6, 0.45 and 0.3 m, and the world's longest side has 60 voxels.
+    const glm::dvec3 large = chosen(box, placed + "50").voxel_size;
+    EXPECT_NEAR(large.x, 0.01, 1e-8);
+    EXPECT_NEAR(large.y, 0.0075, 1e-8);
+    EXPECT_NEAR(large.z, 0.005, 1e-8);
+}
+
+TEST_F(PlacementChoices, ManyCopiesOfAnExactMeshAreInstances) {
+    const std::string box = R"("mesh": "box.obj", "surface": "exact")";
+    Material glass, lamp;
+    glass.opacity = 0.5f;
+    lamp.emission = glm::vec3(1);
+    EXPECT_TRUE(first_is_instanced(scene_of(box), 8, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 7, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, glass, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, lamp, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, {}, true));
+    EXPECT_FALSE(
+        first_is_instanced(scene_of(R"("mesh": "ring.obj", "surface": "smooth")"), 8, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box, R"(, "placement": "world")"), 8, {}, false));
+}
+
+}  // namespace
+}  // namespace voxelume
