@@ -255,8 +255,7 @@ Action add_voxelize(CLI::App& app) {
         ->excludes(size);
     app.add_option("--surface", command->surface,
                    "surface of a mesh: smooth (a distance field; the default, but for files of "
-                   "cubes and scans), "
-                   "cubes, or exact (lists of triangles)")
+                   "cubes and meshes of points and lines), cubes, or exact (lists of triangles)")
         ->type_name("smooth|cubes|exact");
     app.add_option("--set", command->set,
                    "voxel set of a mesh as cubes: supercover (the default), thin or solid")

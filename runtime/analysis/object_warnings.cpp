@@ -143,9 +143,10 @@ Thinness thinness_of(const Scene& scene, const Object& object, const PlacedModel
 }
 
 void add_thin_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
-                      std::vector<Warning>& warnings) {
+                      AssetStore& meshes, std::vector<Warning>& warnings) {
     const Model& model = placed.model;
     if (lists_primitives(model.surface) || !model.voxels.empty()) return;
+    if (!model.mesh.empty() && !has_area(*meshes.summary_of(model))) return;  // a point is a voxel
     if (model.solid && is_infinite(*model.solid) && shows_voxels(model.surface) &&
         model.set != VoxelSet::solid)
         return;
@@ -244,7 +245,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     if (add_unit_warning(scene, object, model, warnings)) return;
     if (add_void_warning(object, model, warnings)) return;
     if (add_outside_warning(scene, object, model, warnings)) return;
-    add_thin_warning(scene, object, model, warnings);
+    add_thin_warning(scene, object, model, meshes, warnings);
     add_thin_part_warning(scene, model, meshes, warnings);
     add_rounding_warning(model.model, warnings);
     add_ratio_warning(scene, object, model, warnings);

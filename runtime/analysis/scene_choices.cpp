@@ -9,6 +9,7 @@
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/geometry/solid/solid_bounds.hpp"
+#include "runtime/scene/moved_part.hpp"
 #include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -194,46 +195,75 @@ void choose_placements(Scene& scene, AssetStore& meshes) {
     if (has_changed) find_extents(scene);
 }
 
-/// The sides of a model in its own space, metres.
+/// The sides of a model in its own space, metres. An instance is whole, also beyond the world.
 glm::dvec3 sides_of(const Model& model, AssetStore& meshes) {
     if (!model.solid) {
         const Bounds& box = meshes.summary_of(model)->surface;
         return box.max - box.min;
     }
-    const SolidBounds extent = {model.extent.min, model.extent.max};
-    const SolidBounds box = bounds(*model.solid, glm::dmat4(1), extent);
+    const SolidBounds box = bounds(*model.solid, glm::dmat4(1));
     return box.is_empty() ? glm::dvec3(0) : box.max - box.min;
 }
 
-/// By how much the largest instance of a model is larger than the model, along each axis: 1 or
-/// more, in steps.
-glm::dvec3 largest_scale(const Scene& scene, size_t number) {
-    constexpr double kScaleSteps = 4;  // so that a size that moves changes few voxels
-    glm::dvec3 largest(1);
-    for (const Object& object : scene.objects) {
-        if (size_t(object.model) != number || !is_instanced(scene, object)) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double scale = glm::length(glm::dvec3(object.world_from_object[axis]));
-            const double step = std::ceil(kScaleSteps * std::log2(scale) - 1e-9);
-            largest[axis] = std::max(largest[axis], std::exp2(step / kScaleSteps));
+/// By how much the largest instance of each model is larger than the model, along each axis: 1 or
+/// more, in steps. Frames that move objects count as far as some of them, spread over all, show it.
+class LargestScales {
+  public:
+    explicit LargestScales(const Scene& scene)
+        : scales_(scene.models.size(), glm::dvec3(1)), may_appear_(moves(scene)) {
+        consider(scene);
+        if (!may_appear_) return;
+        Scene now = scene;
+        const int frames = scene.animation.frames, counted = std::min(frames, kCountedFrames);
+        for (int i = 0; i < counted; ++i) {
+            const int frame = 1 + int(int64_t(i) * (frames - 1) / std::max(counted - 1, 1));
+            for (const MovingPart& part : scene.motion->parts)
+                if (part.part == ScenePart::object)
+                    MovedPart(part, scene.motion->file, frame, now).apply();
+            consider(now);
         }
     }
-    return largest;
-}
 
-/// Gives instances that are larger than their models voxels that are as large as the world's where
-/// they stand, if the scene says no size. What is larger than the world has as many voxels as that.
+    const glm::dvec3& of(size_t model) const { return scales_[model]; }
+
+  private:
+    static constexpr int kCountedFrames = 64;
+    static constexpr double kSteps = 4;  // an octave, so that objects of all sizes share few grids
+
+    void consider(const Scene& scene) {
+        for (const Object& object : scene.objects) {
+            if (!is_instanced(scene, object) || !(object.visible || may_appear_)) continue;
+            glm::dvec3& largest = scales_[size_t(object.model)];
+            for (int axis = 0; axis < 3; ++axis) {
+                const double scale = glm::length(glm::dvec3(object.world_from_object[axis]));
+                if (!(scale > 1)) continue;
+                const double step = std::ceil(kSteps * std::log2(scale) - 1e-9);
+                largest[axis] = std::max(largest[axis], std::exp2(step / kSteps));
+            }
+        }
+    }
+
+    std::vector<glm::dvec3> scales_;
+    bool may_appear_;
+};
+
+/// Gives `smooth` and `exact` instances that are larger than their models voxels that are as large
+/// as the world's where they stand, if the scene says no size. What is larger than the world has as
+/// many voxels as that. Cubes keep their size: large ones are a style.
 void size_instances(Scene& scene, AssetStore& meshes) {
     const double most = longest(glm::dvec3(scene.world.voxels));
+    const LargestScales scales(scene);
     for (size_t number = 0; number < scene.models.size(); ++number) {
         Model& model = scene.models[number];
         if (model.is_sized || model.resolution > 0 || !model.voxels.empty()) continue;
-        const glm::dvec3 scale = largest_scale(scene, number);
+        model.voxel_size = scene.world.voxel_size;
+        const glm::dvec3 scale = shows_voxels(model.surface) ? glm::dvec3(1) : scales.of(number);
         if (scale == glm::dvec3(1)) continue;
-        const glm::dvec3 sides = sides_of(model, meshes), &world = scene.world.voxel_size;
+        const glm::dvec3 sides = sides_of(model, meshes);
         for (int axis = 0; axis < 3; ++axis) {
-            const double edge = std::max(world[axis] / scale[axis], sides[axis] / most);
-            model.voxel_size[axis] = std::min(edge, world[axis]);
+            const double world = model.voxel_size[axis];
+            const double edge = std::max(world / scale[axis], sides[axis] / most);
+            model.voxel_size[axis] = std::min(edge, world);
         }
     }
 }

@@ -78,6 +78,7 @@ MeshSummary read_summary(const nlohmann::json& json) {
     summary.has_normals = json.at(9).get<bool>();
     summary.longest_edge = json.at(10).get<double>();
     summary.notes = texts_of(json.at(11));
+    summary.strokes = json.at(12).get<uint64_t>();
     return summary;
 }
 
@@ -112,7 +113,8 @@ std::string bytes_of(const MeshSummary& summary) {
           json_of(summary.library_faults), json_of(summary.texture)},
          summary.has_normals,
          summary.longest_edge,
-         json_of(summary.notes)});
+         json_of(summary.notes),
+         summary.strokes});
 }
 
 std::optional<MeshSummary> summary_of_bytes(const std::string& bytes) {

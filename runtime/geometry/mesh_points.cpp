@@ -73,6 +73,7 @@ double voxel_edge_of_points(const Mesh& mesh, double finest) {
     if (!has_points_alone(mesh)) return finest;
     if (count_points(mesh).lines > 0) return 2 * finest;
     const Bounds box = mesh_bounds(mesh);
+    if (!(longest_side(box) > 0 && finest > 0)) return finest;  // a point, or many in one place
     double edge = finest;
     FilledVoxels voxels(mesh, box, edge);
     const double points = double(mesh.triangles.size());

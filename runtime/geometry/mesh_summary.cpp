@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "runtime/geometry/mesh_points.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -59,7 +61,7 @@ MeshPaint paint_of(const Mesh& mesh) {
 }
 
 bool has_area(const MeshSummary& mesh) {
-    return mesh.area.total > 0;
+    return mesh.strokes < mesh.triangles;
 }
 
 bool is_open(const MeshSummary& mesh) {
@@ -77,6 +79,8 @@ MeshSummary summary_of(const Mesh& mesh) {
     auto areas = std::async(how, [&] { return mesh_areas(mesh); });
     MeshSummary summary;
     summary.triangles = mesh.triangles.size();
+    const PointCounts counts = count_points(mesh);
+    summary.strokes = counts.points + counts.lines;
     summary.corners = mesh.positions.size();
     summary.surface = mesh_bounds(mesh);
     summary.vertices = kEmptyBounds;

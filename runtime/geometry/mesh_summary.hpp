@@ -29,6 +29,7 @@ struct MeshPaint {
 
 struct MeshSummary {
     uint64_t triangles = 0;
+    uint64_t strokes = 0;  ///< those that are points or lines
     Bounds surface;        ///< the box around the triangles, metres
     Bounds vertices;       ///< box around all positions, those that no triangle uses included
     SurfaceArea area;      ///< in the mesh's own space
@@ -51,7 +52,7 @@ MeshPaint paint_of(const Mesh& mesh);
 /// number, as the scanned bunny's are.
 inline constexpr double kOpenShare = 0.03;
 
-/// Whether a mesh has a surface, and not points and lines alone.
+/// Whether a mesh has triangles that aren't points or lines.
 bool has_area(const MeshSummary& mesh);
 
 /// Whether a mesh's holes are so large that nothing is inside of it.

@@ -63,9 +63,7 @@ glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured) {
     return glm::dvec3(rounded(edge * 1.0005, 4));
 }
 
-glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents) {
-    // The mesh's box may be another one after a fit.
-    const double scale = longest_side(contents.box) / longest_side(mesh_bounds(mesh));
+glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents, double scale) {
     const double edge = voxel_edge_of_points(mesh, contents.voxel_size.x / scale) * scale;
     return glm::dvec3(rounded(edge, 4));
 }

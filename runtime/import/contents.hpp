@@ -104,8 +104,8 @@ std::string fit_member(const ImportOptions& options);
 glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured);
 
 /// That size for points, whose voxels are as large as makes a surface of them. The contents have
-/// the box after `fit` and the size for meshes.
-glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents);
+/// the size for meshes; they are `scale` times as large as the mesh.
+glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents, double scale);
 
 /// The members of a model that give a mesh its surface, which is shaded smooth if `is_smooth`.
 std::string surface_members(const MeshSummary& mesh, bool is_smooth);

@@ -17,17 +17,11 @@
 #include "runtime/import/gltf_values.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/io/gltf/gltf_primitives.hpp"
 #include "runtime/io/gltf/gltf_texture_use.hpp"
 
 namespace voxelume {
 namespace {
-
-/// Whether a mesh has anything to draw.
-bool has_vertices(const GltfValue& mesh) {
-    return std::ranges::any_of(mesh.items("primitives"), [](const GltfValue& primitive) {
-        return primitive.at("attributes").has("POSITION");
-    });
-}
 
 /// A node that some axis of its map makes flat can't be placed.
 bool can_be_placed(const glm::dmat4& map) {
@@ -86,7 +80,7 @@ class SceneOfGltf {
                         SourcePlace(file_.path.string()));
         contents_.voxel_size = mesh_voxel_size(contents_.box, has_textures_);
         if (!has_area_)
-            contents_.voxel_size = point_voxel_size(file_.assets.mesh(file_.path), contents_);
+            contents_.voxel_size = point_voxel_size(file_.assets.mesh(file_.path), contents_, 1);
         contents_.materials.insert(contents_.materials.begin(),
                                    fmt::format("\"default\": {{\"color\": {}, \"specular\": 0.1}}",
                                                has_colors_ ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
@@ -103,7 +97,7 @@ class SceneOfGltf {
   private:
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
-        if (!has_vertices(mesh)) return;
+        if (gltf_primitives(mesh).empty()) return;
         // Its joints place what has a skin, whatever its node does.
         const bool is_skinned = node.skin >= 0;
         std::vector<glm::dmat4> maps =
@@ -127,7 +121,7 @@ class SceneOfGltf {
         const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface, frames_.count);
         for (const glm::dmat4& map : maps) {
             add_box(map, box);
-            if (!is_skinned && motion_.moves(node.number))
+            if (!is_skinned && (motion_.moves(node.number) || !has_area(summary)))
                 shown.stretch = std::max(shown.stretch, stretch_of(glm::dmat3(map)).max);
         }
     }
@@ -168,7 +162,7 @@ class SceneOfGltf {
         return models_.back();
     }
 
-    /// What moves keeps voxels of its own, which are to be as large as the world's.
+    /// What moves keeps voxels of its own, and so do cubes; they are to be as large as the world's.
     std::string model_text(const MeshModel& model) const {
         const std::string voxels =
             model.stretch > 0 ? fmt::format(", \"voxel_size\": {}",
@@ -204,7 +198,7 @@ class SceneOfGltf {
             const auto number = material_numbers_.find(group);
             if (number == material_numbers_.end()) continue;
             if (is_unlit(group))
-                has_unlit = true;
+                has_unlit |= gltf_has_color(root_.item("materials", number->second));
             else if (gltf_shines(root_.item("materials", number->second)))
                 return {};
         }
@@ -214,7 +208,7 @@ class SceneOfGltf {
     std::string add_material(const std::string& group) {
         std::string name = material_names_.unique(group);
         const GltfValue material = root_.item("materials", material_numbers_.at(group));
-        contents_.has_glass |= gltf_transmits(material);
+        contents_.has_glass |= gltf_transmits(material) && !is_unlit(group);
         contents_.materials.push_back(
             fmt::format("{}: {{{}}}", json_text(name), gltf_values(material, is_unlit(group))));
         return name;

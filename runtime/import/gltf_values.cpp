@@ -88,14 +88,15 @@ std::string layer_members(const GltfValue& material) {
 }
 
 /// Members of a body of glass. What has no volume is a pane, through which light goes straight on.
-std::string glass_members(const GltfValue& material, const Looks& s, double transmission) {
+std::string glass_members(const GltfValue& material, const Looks& s, double transmission,
+                          double scale) {
     if (!has_volume(material))
         return fmt::format(", \"opacity\": {}", rounded(std::max(1 - transmission, 0.05), 3));
     std::string text =
         fmt::format(", {}, \"transmission\": {}{}{}", metal_members(s.metal, s.rough),
                     rounded(transmission, 3), ior_member(material), layer_members(material));
     const GltfValue volume = material.extension("KHR_materials_volume");
-    const double distance = volume.number("attenuationDistance", 0);
+    const double distance = scale * volume.number("attenuationDistance", 0);
     if (!volume.has("attenuationColor") || !(distance > 0)) return text;
     constexpr double kDarkest = 1e-3;
     const glm::dvec3 left = glm::max(color_of(volume, "attenuationColor", 3), glm::dvec3(kDarkest));
@@ -116,11 +117,15 @@ bool gltf_transmits(const GltfValue& material) {
     return looks_of(material).opacity < 1 || transmission_of(material) > 0;
 }
 
+bool gltf_has_color(const GltfValue& material) {
+    return rounded(looks_of(material).color, 4) != glm::dvec3(0);
+}
+
 bool gltf_shines(const GltfValue& material) {
     return emission_of(material) != glm::dvec3(0);
 }
 
-std::string gltf_values(const GltfValue& material, bool is_unlit) {
+std::string gltf_values(const GltfValue& material, bool is_unlit, double scale) {
     const Looks s = looks_of(material);
     const std::string opacity =
         s.opacity < 1 ? fmt::format(", \"opacity\": {}", rounded(s.opacity, 3)) : "";
@@ -130,7 +135,7 @@ std::string gltf_values(const GltfValue& material, bool is_unlit) {
     const double transmission = transmission_of(material);
     std::string text = fmt::format("\"color\": {}", json_list(rounded(s.color, 4)));
     if (transmission > 0) {
-        text += glass_members(material, s, transmission);
+        text += glass_members(material, s, transmission, scale);
     } else if (material.has_extension("KHR_materials_unlit")) {
         // It is matte: the colours of its vertices don't multiply emission.
     } else {

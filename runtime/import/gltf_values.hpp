@@ -9,7 +9,11 @@
 namespace voxelume {
 
 /// The members of the scene's material, without braces; see gltf_unlit_materials() on `is_unlit`.
-std::string gltf_values(const GltfValue& material, bool is_unlit);
+/// The scene shows the file `scale` times as large as it is.
+std::string gltf_values(const GltfValue& material, bool is_unlit, double scale = 1);
+
+/// Whether its base colour isn't black.
+bool gltf_has_color(const GltfValue& material);
 
 /// Whether the material has an emission of its own.
 bool gltf_shines(const GltfValue& material);

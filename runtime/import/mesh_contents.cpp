@@ -32,7 +32,8 @@ struct FileMaterial {
 };
 
 /// The materials of an OBJ file's library, or of a glTF file.
-std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSummary& mesh) {
+std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSummary& mesh,
+                                       double scale) {
     std::vector<FileMaterial> materials;
     if (is_gltf_file(file.path)) {
         const GltfFile& gltf = file.assets.gltf_file(file.path);
@@ -40,8 +41,10 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
         for (size_t i = 0; i < gltf.root().size("materials"); ++i) {
             const GltfValue material = gltf.root().item("materials", i);
             const bool is_unlit = unlit.contains(int(i));
-            materials.push_back({gltf.material_names()[i], gltf_values(material, is_unlit),
-                                 gltf_transmits(material), is_unlit, gltf_shines(material)});
+            materials.push_back({gltf.material_names()[i], gltf_values(material, is_unlit, scale),
+                                 gltf_transmits(material) && !is_unlit,
+                                 is_unlit && gltf_has_color(material),
+                                 !is_unlit && gltf_shines(material)});
         }
         return materials;
     }
@@ -59,8 +62,8 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
 /// that name them, and the material of all other groups, which is named as the model. Where the
 /// file's own is missing, that is the scene's "default", so that a warning asks for another one.
 std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
-                          const std::string& name, Contents& contents) {
-    const std::vector<FileMaterial> materials = materials_of(file, mesh);
+                          const std::string& name, double scale, Contents& contents) {
+    const std::vector<FileMaterial> materials = materials_of(file, mesh, scale);
     std::vector<std::string> members;
     bool has_unlit = false, shines = false;
     NameList names({"default", "ground", name});
@@ -70,7 +73,7 @@ std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
         const std::string material = names.unique(group);
         contents.has_glass |= found->transmits;
         has_unlit |= found->is_unlit;
-        shines |= found->shines && !found->is_unlit;
+        shines |= found->shines;
         contents.materials.push_back(fmt::format("{}: {{{}}}", json_text(material), found->values));
         members.push_back(fmt::format("{}: {}", json_text(group), json_text(material)));
     }
@@ -104,12 +107,13 @@ Contents mesh_contents(const ImportedFile& file) {
     if (turns) contents.box = z_up(contents.box);
     const MeshSummary& summary = *file.assets.summary_of(model);
     contents.voxel_size = mesh_voxel_size(contents.box, summary.paint.textures > 0);
+    const double scale = longest_side(contents.box) / longest_side(box);
     if (!has_area(summary))
-        contents.voxel_size = point_voxel_size(file.assets.mesh(file.path), contents);
+        contents.voxel_size = point_voxel_size(file.assets.mesh(file.path), contents, scale);
     contents.models.push_back(fmt::format("{}: {{\"mesh\": {}, {}{}}}", json_text(name),
                                           json_text(file.name), surface_members(summary, true),
                                           fit_member(file.options)));
-    const std::string members = add_materials(file, summary, name, contents);
+    const std::string members = add_materials(file, summary, name, scale, contents);
     contents.objects.push_back(fmt::format("{{\"name\": {0}, \"model\": {0}{1}{2}}}",
                                            json_text(name), members,
                                            turns ? ", \"turn\": [0, -90, 0]" : ""));

@@ -167,7 +167,11 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const bool has_lights = !contents.lights.empty();
     // A file's own camera may be in a closed room, and its lights may leave much in the dark.
     const ViewFrom from = view_from(contents, options);
-    Studio studio = make_studio(contents.box, contents.voxel_size, from, options,
+    // How bright they make a ground isn't known, so one as bright as the background has to be asked
+    // for.
+    ImportOptions studio_options = options;
+    if (has_lights && !options.has_ground) studio_options.has_ground = false;
+    Studio studio = make_studio(contents.box, contents.voxel_size, from, studio_options,
                                 contents.file_light, has_camera || has_lights ? kAmbientInside : 0);
     if (has_lights) studio.sky.clear();
     std::string text = "{\n  \"voxelume\": 1,\n";

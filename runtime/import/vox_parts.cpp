@@ -44,10 +44,10 @@ bool is_clear_medium(const VoxMaterial& m, const glm::dvec3& linear) {
 }
 
 /// Light through eight voxels of coloured glass has its colour.
-std::string absorption_member(const VoxMaterial& m, const glm::dvec3& linear) {
+std::string absorption_member(const VoxMaterial& m, const glm::dvec3& linear, double voxel) {
     constexpr double kTint = 0.125, kDarkest = 0.02;
-    const glm::dvec3 absorption =
-        glm::log(1.0 / glm::max(linear, kDarkest)) * (kTint * double(m.weight) + double(m.density));
+    const glm::dvec3 absorption = glm::log(1.0 / glm::max(linear, kDarkest)) *
+                                  (kTint * double(m.weight) + double(m.density)) / voxel;
     return fmt::format("\"absorption\": {}", json_list(rounded(absorption, 3)));
 }
 
@@ -61,7 +61,7 @@ Model vox_model(const ImportedFile& file, int part) {
     return model;
 }
 
-std::string material_values(const VoxMaterial& m, uint32_t color) {
+std::string material_values(const VoxMaterial& m, uint32_t color, double voxel) {
     const glm::dvec3 linear = linear_color(color);
     switch (m.kind) {
         case VoxMaterialKind::metal:
@@ -70,14 +70,14 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
             return "\"color\": [1, 1, 1], " + metal_members(m.metal, m.rough) +
                    (m.weight > 0 ? fmt::format(", \"transmission\": {}, \"ior\": {}, {}",
                                                rounded(m.weight, 3), rounded(m.ior, 4),
-                                               absorption_member(m, linear))
+                                               absorption_member(m, linear, voxel))
                                  : "");
         case VoxMaterialKind::glass:
             return fmt::format(
                 "\"color\": [1, 1, 1], \"diffuse\": {}, \"specular\": 0.5, \"shininess\": {}, "
                 "\"reflection\": 1, \"refraction\": {}, \"fresnel\": true, \"ior\": {}, {}",
                 rounded(1 - m.weight, 3), shininess_of(m.rough), rounded(m.weight, 3),
-                rounded(m.ior, 4), absorption_member(m, linear));
+                rounded(m.ior, 4), absorption_member(m, linear, voxel));
         case VoxMaterialKind::emit:
             return fmt::format(
                 "\"color\": [1, 1, 1], \"emission\": {}",
@@ -87,7 +87,7 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
             const double matt = is_clear_medium(m, linear) ? 0 : 0.2 + 0.8 * double(m.density);
             return fmt::format(
                 "\"color\": [1, 1, 1], \"diffuse\": {}, \"refraction\": {}, \"ior\": 1, {}",
-                rounded(matt, 3), rounded(1 - matt, 3), absorption_member(m, linear));
+                rounded(matt, 3), rounded(1 - matt, 3), absorption_member(m, linear, voxel));
         }
         case VoxMaterialKind::diffuse:
             break;
@@ -158,9 +158,9 @@ Contents whole_vox_contents(const ImportedFile& file) {
     for (size_t i = 1; i < groups.size(); ++i) {
         const size_t entry = size_t(entry_of(groups[i]));
         contents.has_glass |= vox.materials[entry].kind == VoxMaterialKind::glass;
-        contents.materials.push_back(
-            fmt::format("{}: {{{}}}", json_text(groups[i]),
-                        material_values(vox.materials[entry], vox.palette[entry])));
+        contents.materials.push_back(fmt::format(
+            "{}: {{{}}}", json_text(groups[i]),
+            material_values(vox.materials[entry], vox.palette[entry], contents.voxel_size.x)));
     }
     contents.objects.front().pop_back();
     contents.objects.front() += members_of(groups) + "}";

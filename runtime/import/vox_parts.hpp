@@ -44,7 +44,8 @@ class VoxParts {
 Model vox_model(const ImportedFile& file, int part);
 
 /// A material of a scene that looks like a palette entry's: its values without braces.
-std::string material_values(const VoxMaterial& material, uint32_t color);
+/// Its voxels have edges of `voxel` metres.
+std::string material_values(const VoxMaterial& material, uint32_t color, double voxel = 1);
 
 /// All objects of the file as one model, which has the size of the options.
 Contents whole_vox_contents(const ImportedFile& file);

@@ -27,8 +27,9 @@ bool first_is_instanced(Scene scene, int count, const Material& material, bool h
 
 TEST_F(PlacementChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStand) {
     const auto edge = [&](const std::string& model, const std::string& keys) {
-        return chosen(R"("shape": "sphere", "surface": "smooth", "radius": )" + model, keys)
-            .voxel_size;
+        const char* const surface =
+            model.find("surface") == model.npos ? R"(, "surface": "smooth")" : "";
+        return chosen(R"("shape": "sphere", "radius": )" + model + surface, keys).voxel_size;
     };
     const std::string placed = R"(, "placement": "instance", "scale": )";
     EXPECT_EQ(edge("0.3", placed + "1"), glm::dvec3(0.02));
@@ -40,6 +41,9 @@ TEST_F(PlacementChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStan
     EXPECT_EQ(edge("0.1", placed + "[1, 4, 2]"), glm::dvec3(0.02, 0.005, 0.01));
     EXPECT_EQ(edge("0.1", R"(, "scale": 4)"), glm::dvec3(0.02)) << "in the world";
     EXPECT_EQ(edge(R"(0.1, "voxel_size": 0.01)", placed + "4"), glm::dvec3(0.01));
+    EXPECT_EQ(edge(R"(0.1, "surface": "cubes")", placed + "4"), glm::dvec3(0.02)) << "a style";
+    EXPECT_EQ(edge("0.1", placed + R"(4, "visible": false)"), glm::dvec3(0.02)) << "hidden";
+    EXPECT_NEAR(edge("0.3", placed + "50").x, 0.6 / 60, 1e-12) << "as many voxels as the world";
     const std::string box = R"("mesh": "box.obj", "surface": "exact")";
     EXPECT_NEAR(chosen(box, placed + "2").voxel_size.y, 0.01, 1e-8);
     // Its sides are 0.6, 0.45 and 0.3 m, and the world's longest side has 60 voxels.

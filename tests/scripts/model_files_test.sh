@@ -68,5 +68,5 @@ done < <(find -L "${folders[@]}" -type f -regextype posix-extended \
     -iregex '.*\.(vox|obj|ply|stl|gltf|glb|vdb|nrrd|nhdr|nii|nii\.gz|npy|vxm|qb|kv6|binvox|gox|schem)' \
     2>"$work/missing" | sort)
 echo "$shown files are shown, $failed are wrong"
-[ "$shown" -gt 0 ] || exit 77
+[ $((shown + failed)) -gt 0 ] || exit 77
 [ "$failed" -eq 0 ]

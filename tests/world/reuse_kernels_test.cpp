@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/render/renderer.hpp"
@@ -51,7 +52,9 @@ TEST_P(ReuseKernels, AreThoseThatTheChangeReaches) {
     const Change& change = GetParam();
     if (change.by == kNumberedVoxels)
         for (const int number : {1, 2}) voxelize_gem(folder, number);
-    const Scene moving = scene(change);
+    Scene moving = scene(change);
+    AssetStore meshes;
+    make_choices(moving, meshes);
     WorldBuilder builder(shared_device());
     Renderer renderer(shared_device());
     for (const int frame : {1, 2}) {

@@ -15,6 +15,7 @@
 #include "runtime/geometry/mesh_points.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
 #include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/io/gltf/gltf_primitives.hpp"
 #include "runtime/io/gltf/gltf_skin.hpp"
 #include "runtime/io/gltf/gltf_textures.hpp"
 #include "runtime/io/gltf/gltf_unshown.hpp"
@@ -68,14 +69,10 @@ class MeshBuilder {
 
     void add_mesh(int number, const glm::dmat4& map) {
         const GltfValue mesh = file_.root().item("meshes", size_t(number));
-        const bool has_faces = gltf_has_faces(mesh);
-        for (const GltfValue& primitive : mesh.items("primitives")) {
-            const bool is_stroke = primitive.count("mode", kTriangles) < kTriangles;
-            if (is_stroke && has_faces)
-                ++skipped_;
-            else
-                add_primitive(primitive, map);
-        }
+        const std::vector<GltfValue> shown = gltf_primitives(mesh);
+        for (const GltfValue& primitive : shown) add_primitive(primitive, map);
+        if (!shown.empty() && !is_gltf_stroke(shown[0]))
+            skipped_ += size_t(std::ranges::count_if(mesh.items("primitives"), is_gltf_stroke));
     }
 
     /// Adds a mesh whose joints stand where the file's nodes do.
@@ -109,7 +106,6 @@ class MeshBuilder {
         if (mode > kFan) primitive.fail(fmt::format("{} is no mode", mode));
         if (primitive.has_extension("KHR_draco_mesh_compression")) mode = kTriangles;  // by now
         const GltfValue attributes = primitive.at("attributes");
-        if (!attributes.has("POSITION")) return;  // nothing is drawn, says the format
         const GltfValues positions = gltf_values(file_, attributes, "POSITION", {3});
         const size_t base = mesh_.positions.size();
         if (base + positions.count >= kMaxGltfElements) fail_size();
@@ -250,13 +246,6 @@ class MeshBuilder {
 };
 
 }  // namespace
-
-bool gltf_has_faces(const GltfValue& mesh) {
-    return std::ranges::any_of(mesh.items("primitives"), [](const GltfValue& primitive) {
-        return primitive.count("mode", kTriangles) >= kTriangles &&
-               primitive.at("attributes").has("POSITION");
-    });
-}
 
 Mesh read_mesh_file(const std::filesystem::path& path) {
     return is_gltf_file(path) ? gltf_mesh(GltfFile(read_mesh_bytes(path), path), 0)

@@ -18,9 +18,6 @@ namespace voxelume {
 /// show, Error::limit for too many.
 Mesh gltf_mesh(const GltfFile& file, int part);
 
-/// Whether a mesh has triangles, strips or fans.
-bool gltf_has_faces(const GltfValue& mesh);
-
 /// Reads a mesh of any format, of a glTF file all that its scene shows. Throws as read_mesh() does.
 Mesh read_mesh_file(const std::filesystem::path& path);
 

@@ -10,6 +10,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
+#include "runtime/io/gltf/gltf_primitives.hpp"
 
 namespace voxelume {
 namespace {
@@ -173,10 +174,9 @@ std::vector<GltfValue> gltf_lights(const GltfFile& file) {
 }
 
 bool has_gltf_joints(const GltfValue& mesh) {
-    return std::ranges::any_of(mesh.items("primitives"), [](const GltfValue& primitive) {
+    return std::ranges::any_of(gltf_primitives(mesh), [](const GltfValue& primitive) {
         const GltfValue attributes = primitive.at("attributes");
-        return primitive.count("mode", 4) >= 4 && attributes.has("POSITION") &&
-               attributes.has("JOINTS_0") && attributes.has("WEIGHTS_0");
+        return attributes.has("JOINTS_0") && attributes.has("WEIGHTS_0");
     });
 }
 

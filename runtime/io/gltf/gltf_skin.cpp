@@ -12,6 +12,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
+#include "runtime/io/gltf/gltf_primitives.hpp"
 
 namespace voxelume {
 namespace {
@@ -25,10 +26,6 @@ size_t sets_of(const GltfValue& attributes) {
     return sets;
 }
 
-bool has_triangles(const GltfValue& primitive) {
-    return primitive.count("mode", 4) >= 4 && primitive.at("attributes").has("POSITION");
-}
-
 class WeightReader {
   public:
     WeightReader(const GltfFile& file, size_t joints) : file_(file), joints_(joints) {}
@@ -36,8 +33,7 @@ class WeightReader {
     SkinWeights read(const GltfValue& mesh) {
         size_t most = 0;
         uint64_t vertices = 0;
-        for (const GltfValue& primitive : mesh.items("primitives")) {
-            if (!has_triangles(primitive)) continue;
+        for (const GltfValue& primitive : gltf_primitives(mesh)) {
             most = std::max(most, sets_of(primitive.at("attributes")));
             vertices += count_gltf_values(file_, primitive.at("attributes"), "POSITION");
         }
@@ -49,8 +45,7 @@ class WeightReader {
                         found_.per_vertex, kMaxSkinWeights);
         found_.joints.resize(vertices * found_.per_vertex);
         found_.weights.resize(vertices * found_.per_vertex);
-        for (const GltfValue& primitive : mesh.items("primitives"))
-            if (has_triangles(primitive)) add(primitive.at("attributes"));
+        for (const GltfValue& primitive : gltf_primitives(mesh)) add(primitive.at("attributes"));
         return std::move(found_);
     }
 
@@ -133,8 +128,7 @@ std::vector<Bounds> boxes_of(const GltfFile& file, const GltfValue& mesh,
         box = {glm::min(box.min, p), glm::max(box.max, p)};
     };
     size_t first = 0;
-    for (const GltfValue& primitive : mesh.items("primitives")) {
-        if (!has_triangles(primitive)) continue;
+    for (const GltfValue& primitive : gltf_primitives(mesh)) {
         const GltfValues at = gltf_values(file, primitive.at("attributes"), "POSITION", {3});
         for (size_t i = 0; i < at.count; ++i, first += weights.per_vertex) {
             const glm::dvec3 p(at.values[3 * i], at.values[3 * i + 1], at.values[3 * i + 2]);

@@ -8,16 +8,12 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/io/gltf/gltf_accessor.hpp"
+#include "runtime/io/gltf/gltf_primitives.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr const char* kMoved[] = {"POSITION", "NORMAL"};
-
-/// Whether a primitive has triangles; targets of others move nothing.
-bool is_shown(const GltfValue& primitive) {
-    return primitive.count("mode", 4) >= 4 && primitive.at("attributes").has("POSITION");
-}
 
 /// Refuses a mesh whose targets take too much memory. A list of offsets reaches over the vertices
 /// of all primitives, however few of them its target moves.
@@ -30,9 +26,8 @@ void check_size(const GltfFile& file, const GltfValue& mesh) {
                 if (primitive.item("targets", i).has(key)) most = i + 1;
         lists += most;
     }
-    for (const GltfValue& primitive : mesh.items("primitives"))
-        if (is_shown(primitive))
-            vertices += count_gltf_values(file, primitive.at("attributes"), "POSITION");
+    for (const GltfValue& primitive : gltf_primitives(mesh))
+        vertices += count_gltf_values(file, primitive.at("attributes"), "POSITION");
     if (lists == 0 || vertices <= kMaxTargetOffsets / lists) return;
     throw Error(ErrorKind::limit,
                 "{}: a mesh's targets move {} vertices {} times, and {} offsets are the most",
@@ -70,8 +65,7 @@ std::vector<MorphTarget> gltf_targets(const GltfFile& file, int part) {
     check_size(file, mesh);
     std::vector<MorphTarget> targets(count_gltf_targets(mesh));
     size_t base = 0;
-    for (const GltfValue& primitive : mesh.items("primitives")) {
-        if (!is_shown(primitive)) continue;
+    for (const GltfValue& primitive : gltf_primitives(mesh)) {
         const size_t vertices = count_gltf_values(file, primitive.at("attributes"), "POSITION");
         for (size_t i = 0; i < primitive.size("targets"); ++i) {
             const GltfValue target = primitive.item("targets", i);

@@ -51,8 +51,8 @@ class ObjParser {
             parse_normal();
         } else if (word[0] == 'v' && word[1] == 't' && is_blank(word[2])) {
             parse_uv();
-        } else if ((word[0] == 'p' || word[0] == 'l') && is_blank(word[1])) {
-            parse_stroke(word[0] == 'l');
+        } else if ((*word == 'p' || *word == 'l') && is_blank(word[1])) {
+            parse_stroke(*word == 'l');
         } else if (at_end_of_statement()) {
             skip_line();
         } else {
@@ -75,6 +75,7 @@ class ObjParser {
             append_library(name_after_word(line), mesh_.material_libraries);
         } else if (word == "vn" || word == "vt" ||
                    std::ranges::find(kSkippedStatements, word) != std::end(kSkippedStatements)) {
+            strokes_.skip(word);
             skip_statement();
         } else {
             source_.fail_at_line(p_, fmt::format("{} is no statement of OBJ", quoted_token(p_)));
@@ -265,7 +266,7 @@ class ObjParser {
     void skip_line() { p_ = after_line(p_); }
 
     void skip_statement() {
-        const char* line = p_;
+        const char* line;
         do {
             line = p_;
             skip_line();
@@ -278,8 +279,7 @@ class ObjParser {
     ObjColors colors_;
     ObjStrokes strokes_;
     PolygonCutter cutter_;
-    std::vector<uint32_t> corners_;
-    std::vector<uint32_t> normals_, uvs_;  ///< indices of the face's corners
+    std::vector<uint32_t> corners_, normals_, uvs_;  ///< indices of the face's corners
     std::string material_;
     std::unordered_map<std::string, uint32_t> group_of_name_;
     uint32_t group_ = 0;

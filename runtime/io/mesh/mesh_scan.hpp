@@ -3,6 +3,9 @@
 #pragma once
 
 #include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "runtime/geometry/mesh_points.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
@@ -30,12 +33,24 @@ class ObjStrokes {
                                        : point_triangle(vertices[i]));
     }
 
+    /// Takes the word of a statement that isn't read.
+    void skip(std::string_view word) {
+        has_curves_ |= word == "curv" || word == "curv2" || word == "surf";
+    }
+
+    /// Shows the points and lines, or all vertices, of a file without faces. Throws Error::input
+    /// where it has curved surfaces in their place.
     void settle(const MeshSource& source, Mesh& mesh) {
-        if (mesh.triangles.empty()) mesh.triangles = std::move(strokes_);
+        if (!mesh.triangles.empty()) return;
+        mesh.triangles = std::move(strokes_);
+        if (!mesh.triangles.empty()) return;
+        if (has_curves_)
+            source.fail("the file has free-form curves and surfaces alone, which aren't read");
         show_scan(source, mesh);
     }
 
   private:
+    bool has_curves_ = false;
     std::vector<glm::uvec3> strokes_;
 };
 

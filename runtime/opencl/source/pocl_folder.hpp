@@ -46,9 +46,9 @@ class PoclFolder {
     void announce(const std::function<void()>& first_call) const;
 
     /// Runs `build`, which makes PoCL build one program, after the program's files were restored.
-    /// Also restores those of its kernels, `parts()`, that other programs compiled; a
-    /// program that this process built before has them. Returns true if there were files of this
-    /// program, from an earlier run or an earlier build.
+    /// Also restores those of its kernels, `parts()`, that other programs compiled; a program that
+    /// this process built before has them. `parts` runs beside `build`, on a thread of its own.
+    /// Returns true if there were files of this program, from an earlier run or an earlier build.
     bool build_with_files(const DiskCache& cache, const std::string& key,
                           const std::function<std::vector<ProgramPart>()>& parts,
                           const std::function<void()>& build);

@@ -5,11 +5,12 @@
 Usage: mitsuba_paths.py VOXELUME MESH.obj [FOLDER]
 
 Renders both scenes with 1 to 256 samples, in global light here and by Mitsuba's path integrator
-(llvm_ad_rgb and scalar_rgb), denoisers off, and prints for each the mean squared relative error
-against Mitsuba's picture of REFERENCE samples, the seconds of the image without loading, and the
-product of both, which is even for unbiased light: the smaller, the sooner an error is reached. The
-cubes are quads with colours at their corners there. FOLDER keeps the scenes. Where Mitsuba isn't
-installed (pip install mitsuba) it says so and ends with 77.
+(llvm_ad_rgb, and scalar_rgb up to 16), denoisers off, and prints for each the mean squared relative
+error against Mitsuba's picture of REFERENCE samples, the seconds of the image without loading, and
+the product of both, which is even for unbiased light: the smaller, the sooner an error is reached.
+The cubes are quads with colours at their corners there. FOLDER keeps the scenes. Where Mitsuba isn't
+installed (pip install mitsuba; DRJIT_LIBLLVM_PATH names an LLVM of 16 or later) it says so and ends
+with 77.
 """
 import json
 import math
@@ -75,9 +76,9 @@ def find_mitsuba(variant):
     try:
         import mitsuba
         import numpy
-    except ImportError:
+        mitsuba.set_variant(variant)
+    except ImportError:  # Mitsuba, or LLVM
         return None
-    mitsuba.set_variant(variant)
     return mitsuba, numpy
 
 
@@ -105,7 +106,7 @@ class Place:
 
 
 def our_scene(place, models, objects, voxel):
-    margin = 0.02 * place.length
+    margin = voxel * math.ceil(0.02 * place.length / voxel)  # voxels of a file lie on the world's
     return {
         "voxelume": 1,
         "world": {"voxel_size": voxel, "bounds": {"min": list(place.low - margin),
@@ -230,7 +231,6 @@ def row(name, samples, errors, seconds):
     error, second = statistics.median(errors), statistics.median(seconds)
     print(f"  {name:<8} {samples:>4} samples: relative MSE {error:.3e}, {second:7.3f} s, "
           f"product {error * second:.3e}", flush=True)
-    return error * second
 
 
 def compare(variants, voxelume, folder, name, case):

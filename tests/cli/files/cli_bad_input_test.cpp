@@ -16,7 +16,7 @@ class CliBadInputTest : public SceneProgramTest {};
 TEST_F(CliBadInputTest, DamagedMeshesAreInputErrors) {
     write_mesh_scene("empty.obj", "");
     EXPECT_THAT(expect_render_failure(4), HasSubstr("empty.obj: the file is empty"));
-    write_mesh_scene("bare.obj", "v 0 0 0\n");
+    write_mesh_scene("bare.obj", "vn 0 0 1\n");
     EXPECT_THAT(expect_render_failure(4), HasSubstr("bare.obj"));
     write_mesh_scene("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_THAT(expect_render_failure(4), HasSubstr("nan.obj:2: "));

@@ -163,6 +163,8 @@ TEST(MeshObj, ShowsPointsAndLinesWhereThereAreNoFaces) {
     EXPECT_THAT(parse_mesh(v + "p\nl 1 9 2\nl 3 \\\n1\np x\n", "a.obj").triangles,
                 ElementsAre(uvec3(2, 0, 0)))
         << "what isn't a line is skipped";
+    EXPECT_EQ(refusal(v + "cstype bezier\ndeg 2\ncurv 0 1 1 2 3\nend\n", "a.obj"),
+              "a.obj: the file has free-form curves and surfaces alone, which aren't read");
 }
 
 }  // namespace voxelume

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The primitives of a glTF mesh that are read.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "runtime/io/gltf/gltf_file.hpp"
+
+namespace voxelume {
+
+/// Whether a primitive is points or lines.
+inline bool is_gltf_stroke(const GltfValue& primitive) {
+    return primitive.count("mode", 4) < 4;
+}
+
+/// Those with triangles, or those of points and lines in a mesh without triangles. What has no
+/// positions draws nothing, says the format.
+inline std::vector<GltfValue> gltf_primitives(const GltfValue& mesh) {
+    std::vector<GltfValue> found = mesh.items("primitives");
+    std::erase_if(found, [](const GltfValue& primitive) {
+        return !primitive.at("attributes").has("POSITION");
+    });
+    const bool has_faces = std::ranges::any_of(
+        found, [](const GltfValue& primitive) { return !is_gltf_stroke(primitive); });
+    if (has_faces) std::erase_if(found, is_gltf_stroke);
+    return found;
+}
+
+}  // namespace voxelume
