@@ -266,7 +266,7 @@ class ObjParser {
     void skip_line() { p_ = after_line(p_); }
 
     void skip_statement() {
-        const char* line;
+        const char* line = p_;
         do {
             line = p_;
             skip_line();
