@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scans and drawings without faces: each voxel that a point lies in has the point's colour.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
