@@ -120,7 +120,7 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
     app.add_flag_function(
         "--ground,!--no-ground", [&choices](int64_t given) { choices.ground = given > 0; },
         "of a model file: whether it stands on a ground; it does by default unless a .vox has "
-        "none");
+        "none, or a glTF file has lights");
     app.add_flag("--transparent", choices.transparent,
                  "show nothing where no object is: .png files are transparent there, and a model "
                  "file has no ground by default");

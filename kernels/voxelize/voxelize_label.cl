@@ -110,12 +110,16 @@ kernel void label_voxels(uint count, uint packed, global const uint* restrict ne
 static inline float3 closest_weights(float3 a, float3 b, float3 c) {
     const float3 ab = b - a, ac = c - a, n = cross_product(ab, ac);
     const float area = dot_product(n, n);
-    // Rounding leaves up to a ten-millionth of the sides' product where they are parallel.
+    // Where the sides are parallel, a component of n is what rounding left of a product: below
+    // 2^-24 of it, and so is n below 2^-23 of the sides'. Its square is 1.4e-14; the rest is for
+    // edges of voxels that aren't cubes, which round the corners. What they leave beyond has
+    // weights, or none.
     const float noise = 1e-13f * dot_product(ab, ab) * dot_product(ac, ac);
     float3 w = (float3)(dot_product(n, cross_product(b, c)), dot_product(n, cross_product(c, a)),
                         dot_product(n, cross_product(a, b)));
-    if (area > noise && w.x >= 0.0f && w.y >= 0.0f && w.z >= 0.0f)
-        return w * scalar_reciprocal(w.x + w.y + w.z);
+    const float sum = w.x + w.y + w.z;
+    if (area > noise && w.x >= 0.0f && w.y >= 0.0f && w.z >= 0.0f && sum > 0.0f)
+        return w * scalar_reciprocal(sum);
     const float3 p[3] = {a, b, c};
     float nearest = 1e30f;
     for (int i = 0; i < 3; ++i) {

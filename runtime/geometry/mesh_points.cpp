@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <numeric>
 #include <vector>
 
 #include "runtime/geometry/mesh_summary.hpp"
@@ -65,8 +64,7 @@ PointCounts count_points(const Mesh& mesh) {
 }
 
 bool has_points_alone(const Mesh& mesh) {
-    const PointCounts counts = count_points(mesh);
-    return counts.points + counts.lines == mesh.triangles.size();
+    return std::ranges::all_of(mesh.triangles, [](const glm::uvec3& t) { return t.y == t.z; });
 }
 
 double voxel_edge_of_points(const Mesh& mesh, double finest) {

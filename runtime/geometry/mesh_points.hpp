@@ -35,7 +35,7 @@ bool has_points_alone(const Mesh& mesh);
 /// from being thinner than a pixel. Meshes with real triangles have `finest`.
 double voxel_edge_of_points(const Mesh& mesh, double finest);
 
-/// Of voxels on a surface that is sampled at random, e^-3 have no point: one in twenty.
+/// A surface that is sampled at random leaves e^-3 of its voxels without a point: one in twenty.
 inline constexpr double kPointsPerVoxel = 3;
 inline constexpr double kFewestVoxels = 32;
 

@@ -7,10 +7,9 @@
 // and edges add lower terms, which are left out. For a patch that runs exactly between voxels, the
 // cubes on both sides belong to it; this is left out, too.
 //
-// Points and lines, which are triangles without area, take what triangles alone do.
-//
 // A triangle alone meets more: of voxels at random places, as many as the Minkowski sum of it and a
-// voxel has volume, which is 1 + the sides of its box + its shadows, in voxels.
+// voxel has volume, which is 1 + the sides of its box + its shadows, in voxels. Points and lines are
+// such triangles, without shadows.
 #pragma once
 
 #include <algorithm>

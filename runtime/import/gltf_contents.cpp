@@ -50,7 +50,7 @@ GltfClip clip_of(const GltfFile& gltf, const std::string& wanted) {
 struct MeshModel {
     std::string name, surface;  ///< the latter as members
     int number = 0;             ///< of the mesh in the file
-    double stretch = 0;         ///< largest of an object that moves; 0: none does
+    double stretch = 0;         ///< largest of an object of points, or that moves; 0: none is
     GltfMorph morph;
 };
 

@@ -53,6 +53,13 @@ TEST_F(PlacementChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStan
     EXPECT_NEAR(large.z, 0.005, 1e-8);
 }
 
+TEST_F(PlacementChoices, GiveWhatGrowsVoxelsForItsLargestFrame) {
+    const std::string ball = R"("shape": "sphere", "radius": 0.05, "surface": "smooth")";
+    const std::string grows = R"({"target": "objects[0].scale", "keys": [
+        {"frame": 1, "value": 0.5}, {"frame": 4, "value": 4}]})";
+    EXPECT_EQ(chosen(ball, "", grows).voxel_size, glm::dvec3(0.005));
+}
+
 TEST_F(PlacementChoices, ManyCopiesOfAnExactMeshAreInstances) {
     const std::string box = R"("mesh": "box.obj", "surface": "exact")";
     Material glass, lamp;

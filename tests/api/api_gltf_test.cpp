@@ -126,6 +126,58 @@ TEST_F(ApiGltf, UnlitMaterialsHaveTheirColourInAnyLight) {
     EXPECT_GT(shown, 50u);
 }
 
+TEST_F(ApiGltf, UnlitBlackIsNoLampWithoutSpots) {
+    const Json black = {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
+                        {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+    EXPECT_THAT(with_material(black), Not(HasSubstr("\"spots\": 0")));
+    EXPECT_NO_THROW(scene_of_file(folder / "a.glb"));
+}
+
+/// Light on the same way through the model loses the same, however large the model is made.
+TEST_F(ApiGltf, GlassKeepsItsColourInAnotherSize) {
+    GltfWriter writer = triangle_gltf();  // its longest side is 7 m
+    writer.json["materials"] = {
+        {{"name", "m"},
+         {"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 1},
+             {"attenuationDistance", 2},
+             {"attenuationColor", {1, 0.36787944117144233, 0.1353352832366127}}}}}}}};
+    writer.json["meshes"][0]["primitives"][0]["material"] = 0;
+    EXPECT_THAT(scene_of(writer), HasSubstr("\"absorption\": [0, 0.5, 1]"));
+    EXPECT_THAT(scene_of(writer, {.fit = 3.5}), HasSubstr("\"absorption\": [0, 1, 2]"));
+}
+
+TEST_F(ApiGltf, PointsOfScaledNodesHaveVoxelsOfTheWorldsSize) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["meshes"][0]["primitives"][0]["mode"] = 0;
+    for (const double scale : {0.001, 1.0, 100.0}) {
+        writer.json["nodes"][0]["scale"] = {scale, scale, scale};
+        const Json scene = Json::parse(scene_of(writer));
+        const Json& model = scene["models"]["mesh 1"];
+        EXPECT_EQ(model["surface"], "cubes");
+        const double edge = model["voxel_size"], world = scene["world"]["voxel_size"];
+        EXPECT_NEAR(edge * scale / world, 1, 1e-3) << scale;  // both have four digits
+        EXPECT_NEAR(world, 7 * scale / 32, 7 * scale / 64) << scale;
+    }
+}
+
+/// Positions that are one point have no size that voxels could have.
+TEST_F(ApiGltf, APointThatMovesIsAScene) {
+    GltfWriter writer = triangle_gltf();
+    Json& primitive = writer.json["meshes"][0]["primitives"][0];
+    primitive = {
+        {"mode", 0},
+        {"attributes", {{"POSITION", writer.accessor(std::vector<float>{1, 2, 3}, "VEC3", 3)}}}};
+    Json& animation = writer.json["animations"][0];
+    animation["channels"] = {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}};
+    animation["samplers"] = {
+        {{"input", writer.accessor(std::vector<float>{0, 1}, "SCALAR", 1)},
+         {"output", writer.accessor(std::vector<float>{0, 0, 0, 4, 0, 0}, "VEC3", 3)}}};
+    EXPECT_THAT(scene_of(writer), HasSubstr("cubes"));
+}
+
 TEST_F(ApiGltf, UnlitMaterialsOfColouredVerticesAreMatteWhichInfoSays) {
     GltfWriter writer = triangle_gltf();
     writer.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
@@ -163,6 +215,8 @@ TEST_F(ApiGltf, TheFilesCameraAndLightsGoBeforeThoseOfAStudio) {
                 HasSubstr("{\"name\": \"sol\", \"type\": \"directional\", \"direction\": [0, 0, "
                           "-1], \"intensity\": 1}"));
     EXPECT_THAT(scene, Not(HasSubstr("sun")));
+    EXPECT_THAT(scene, Not(HasSubstr("\"ground\""))) << "its end would show";
+    EXPECT_THAT(scene_of(writer, {.ground = true}), HasSubstr("\"ground\""));
     EXPECT_THAT(scene_of(writer, {.own_camera = false}), Not(HasSubstr("[3, 2, 20]")));
     EXPECT_NO_THROW(scene_of_file(folder / "a.glb"));
 }

@@ -80,8 +80,9 @@ class VoxFileTest : public FileTest {
         return folder / "a.vox";
     }
 
-    Scene scene_of(const std::filesystem::path& file, AssetStore& assets) const {
-        const std::string text = scene_of_file(file, "a.vox", {}, assets);
+    Scene scene_of(const std::filesystem::path& file, AssetStore& assets,
+                   const ImportOptions& options = {}) const {
+        const std::string text = scene_of_file(file, "a.vox", options, assets);
         return parse_scene(text, file, {}, [&](const Model& model, bool keeps) {
             return assets.box_of_file(model, keeps);
         });

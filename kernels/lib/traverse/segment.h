@@ -55,7 +55,8 @@ static inline Segment whole_segment(const RayBatch* batch, uint first) {
     return segment;
 }
 
-/// The same parts. Where the medium scatters a path, they end where `transmittance` says.
+/// Returns the same parts, but where the medium scatters a path they end where `transmittance`
+/// says.
 static inline Segment sight_segment(const RayBatch* batch, uint first) {
     Segment segment = whole_segment(batch, first);
     if (VXL_SCATTERING)

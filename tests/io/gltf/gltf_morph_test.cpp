@@ -94,6 +94,14 @@ TEST_F(GltfMorphTest, WeightsOfAMeshOrANodePullItsVertices) {
     EXPECT_THAT(morph_text(pulled_triangle({0, 0})), Not(HasSubstr("morph")));
 }
 
+TEST_F(GltfMorphTest, WeightsPullPointsToo) {
+    GltfWriter writer = pulled_triangle({0.5F, 0.25F});
+    writer.json["meshes"][0]["primitives"][0]["mode"] = 0;
+    const Scene scene = morph_scene(morph_text(writer));
+    EXPECT_EQ(assets_.mesh_of(scene.models[0])->triangles[1], glm::uvec3(1));
+    EXPECT_EQ(distance_from(scene, 0.5, 0.25), 0);
+}
+
 TEST_F(GltfMorphTest, ANodesWeightsOfZeroHoldAgainstItsMeshsWeights) {
     GltfWriter writer = pulled_triangle({0.5F, 0.25F});
     writer.json["nodes"].push_back({{"mesh", 0}, {"weights", {0, 0}}});

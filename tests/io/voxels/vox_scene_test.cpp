@@ -115,6 +115,14 @@ TEST_F(VoxSceneTest, BlendsLetLightThroughAsFarAsTheySay) {
     EXPECT_DOUBLE_EQ(material("blend 2").transmission.value(), 0.5);
     EXPECT_FLOAT_EQ(material("blend 2").ior, 1.4f);
     EXPECT_NE(material("blend 2").absorption, glm::vec3(0));
+    ImportOptions sized;
+    sized.fit = 0.3;  // of three voxels
+    const Scene small = scene_of(file, assets, sized);
+    const auto glass = std::ranges::find(small.materials, "blend 2", &Material::name);
+    ASSERT_NE(glass, small.materials.end());
+    for (int c = 0; c < 3; ++c)  // three digits
+        EXPECT_NEAR(glass->absorption[c], 10 * material("blend 2").absorption[c],
+                    0.01f * glass->absorption[c]);
     EXPECT_DOUBLE_EQ(material("blend 3").metallic.value(), 0.75);
     EXPECT_EQ(material("blend 3").transmission.value_or(0), 0);
     EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), HasSubstr("\"shadow\": \"filtered\""));
