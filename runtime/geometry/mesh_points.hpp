@@ -30,9 +30,9 @@ PointCounts count_points(const Mesh& mesh);
 bool has_points_alone(const Mesh& mesh);
 
 /// The edge of voxels in which a scan's points look like a surface. It is `finest` or larger by
-/// powers of two, until voxels have kPointsPerVoxel points on average or the longest side has fewer
-/// than 2 kFewestVoxels voxels. Lines are whole in voxels of any size; twice the finest keeps them
-/// from being thinner than a pixel. Meshes with real triangles have `finest`.
+/// powers of two, until voxels have kPointsPerVoxel places of points on average or the longest side
+/// has fewer than 2 kFewestVoxels voxels. Lines are whole in voxels of any size; twice the finest
+/// keeps them from being thinner than a pixel. Meshes with real triangles have `finest`.
 double voxel_edge_of_points(const Mesh& mesh, double finest);
 
 /// A surface that is sampled at random leaves e^-3 of its voxels without a point: one in twenty.

@@ -8,8 +8,8 @@
 // cubes on both sides belong to it; this is left out, too.
 //
 // A triangle alone meets more: of voxels at random places, as many as the Minkowski sum of it and a
-// voxel has volume, which is 1 + the sides of its box + its shadows, in voxels. Points and lines are
-// such triangles, without shadows.
+// voxel has volume, which is 1 + the sides of its box + its shadows, in voxels. Points and lines
+// are such triangles, without shadows.
 #pragma once
 
 #include <algorithm>

@@ -68,6 +68,14 @@ TEST(MeshPoints, OfAFewHaveVoxelsOfASixtiethOfTheirBox) {
     EXPECT_EQ(voxel_edge_of_points(mesh, 2.0 / 256), 2.0 / 64);
 }
 
+TEST(MeshPoints, ThatAreNamedAgainCountOnce) {
+    Mesh mesh = sphere_of_points(50, 1);
+    const std::vector<glm::uvec3> once = mesh.triangles;
+    for (int i = 0; i < 9; ++i)
+        mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+    EXPECT_EQ(voxel_edge_of_points(mesh, 2.0 / 256), 2.0 / 64);
+}
+
 TEST(MeshPoints, BesideALineHaveVoxelsThatShow) {
     Mesh mesh = sphere_of_points(50, 1);
     mesh.triangles.push_back(line_triangle(0, 1));
