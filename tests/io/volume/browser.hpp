@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "runtime/io/image/png.hpp"
@@ -38,6 +39,7 @@ class Browser {
             throw std::runtime_error("no pipes for the browser");
         process_ = fork();
         if (process_ == 0) {
+            setpgid(0, 0);
             // The numbers are above 4, so none is overwritten before it has moved.
             const int in = fcntl(to[0], F_DUPFD, 10), out = fcntl(from[1], F_DUPFD, 10);
             dup2(in, 3);
@@ -53,6 +55,7 @@ class Browser {
                    static_cast<char*>(nullptr));
             _exit(127);
         }
+        setpgid(process_, process_);  // here too, for the destructor may come first
         close(to[0]);
         close(from[1]);
         to_ = to[1], from_ = from[0];
@@ -60,8 +63,15 @@ class Browser {
     ~Browser() {
         close(to_);
         close(from_);
-        kill(process_, SIGTERM);
+        kill(-process_, SIGKILL);
         waitpid(process_, nullptr, 0);
+        // Its own children may still be dying, with a file of the profile just made or renamed.
+        std::error_code error;
+        for (int tries = 0; tries < 300; ++tries) {
+            remove_all(folder_ / "profile", error);
+            if (!error) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
     }
     Browser(const Browser&) = delete;
     Browser& operator=(const Browser&) = delete;
