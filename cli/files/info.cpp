@@ -51,22 +51,27 @@ void check_integrity(const std::string& path) {
 Action add_info(CLI::App& app) {
     struct Options {
         std::string path;
+        v1::SceneOptions scene;
         bool json = false, verify = false;
     };
     auto options = std::make_shared<Options>();
     app.add_option(
            "FILE", options->path,
-           "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), or mesh, voxels or "
-           "scan: " +
+           "scene, .json; OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), or "
+           "mesh, voxels or scan: " +
                model_endings())
         ->required();
+    app.add_option("--assets", options->scene.assets,
+                   "folder to look for a scene's models in; may be given again")
+        ->allow_extra_args(false);
     app.add_flag("--json", options->json, "print the result as JSON");
     app.add_flag("--verify", options->verify, "compare all of FILE with the checksum in it");
     return [options] {
         const std::string path = first_slice(options->path);
         if (options->verify) check_integrity(path);
         const bool is_stack = path != options->path;
-        print_report(report_of(is_stack ? describe_slices(path) : describe_file(path)),
+        print_report(report_of(is_stack ? describe_slices(path)
+                                       : describe_file(path, options->scene)),
                      options->json);
         return 0;
     };

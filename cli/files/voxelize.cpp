@@ -249,8 +249,8 @@ Action add_voxelize(CLI::App& app) {
             ->check(in_range(1e-9, 1e9));
     app.add_option(
            "--resolution", command->resolution,
-           "voxels along the longest side; if neither is given, 256 of a mesh, and else the "
-           "voxels that there are")
+           "voxels along the longest side; if neither is given, 256 of a mesh, of points as few as "
+           "leave no gaps, and else the voxels that there are")
         ->check(in_range(1, 16384, Number::whole))
         ->excludes(size);
     app.add_option("--surface", command->surface,

@@ -7,6 +7,7 @@
 
 #include "runtime/api/describe/describe.hpp"
 #include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 
 #include "runtime/base/error.hpp"
@@ -205,11 +206,14 @@ v1::Facts facts_of(const Report& report, const std::string& name) {
 
 namespace voxelume::v1 {
 
-Facts describe_file(const std::filesystem::path& file) {
+Facts describe_file(const std::filesystem::path& file, const SceneOptions& options) {
     return api::guarded([&] {
         api::apply_process_options();
         api::Report report = {{"file", file.string()}, {"bytes", 0}};
-        report.update(api::find_description(file)(file));
+        if (ending_of(file) == ".json" && api::is_scene(file))
+            report.update(api::describe_scene(api::inside(Scene::load(file, options))));
+        else
+            report.update(api::find_description(file)(file));
         report["bytes"] = std::filesystem::file_size(file);
         return api::facts_of(report, {});
     });

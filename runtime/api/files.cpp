@@ -44,14 +44,21 @@ Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOpt
     return static_cast<Surface>(*options.surface);
 }
 
+constexpr int kResolution = 256;  ///< where the options don't say one
+
 /// What a scene would say of the mesh.
-Model model_of(const fs::path& mesh, Surface surface, const v1::VoxelizeOptions& options) {
+Model model_of(const fs::path& path, const Mesh& mesh, Surface surface,
+               const v1::VoxelizeOptions& options) {
     Model model;
-    model.name = mesh.stem();
-    model.mesh = mesh;
-    model.where = mesh.string();
-    model.voxel_size = glm::dvec3(options.voxel_size);
-    model.resolution = options.voxel_size > 0 ? 0 : options.resolution;
+    model.name = path.stem();
+    model.mesh = path;
+    model.where = path.string();
+    double edge = options.voxel_size;
+    const bool is_scan = has_points_alone(mesh) && count_points(mesh).lines == 0;
+    if (edge == 0 && options.resolution == 0 && is_scan)
+        edge = voxel_edge_of_points(mesh, longest_side(mesh_bounds(mesh)) / kResolution);
+    model.voxel_size = glm::dvec3(edge);
+    if (edge == 0) model.resolution = options.resolution > 0 ? options.resolution : kResolution;
     model.surface = surface;
     model.set = static_cast<VoxelSet>(options.set);
     model.normals = static_cast<CubeNormals>(options.normals);
@@ -103,11 +110,35 @@ std::string note_of_edges(const fs::path& output, const glm::dvec3& edge) {
                        output.filename().string(), edge.x, edge.y, edge.z);
 }
 
+/// What is lost of materials in files of voxels other than .vox, which know colours alone.
+std::vector<std::string> notes_of_materials(const std::vector<fs::path>& outputs,
+                                            std::span<const CubeMaterial> materials) {
+    const bool keeps = std::ranges::all_of(
+        outputs, [](const fs::path& output) { return ending_of(output) == ".vox"; });
+    if (keeps || !has_more_than_colors(materials)) return {};
+    return {
+        "metal, glass, mirrors, and what gives off light became plain colours in files other "
+        "than .vox"};
+}
+
+/// What is lost of the colours of a mesh's own materials and textures.
+std::vector<std::string> notes_of_paint(const Mesh& mesh, std::span<const Material> materials,
+                                        bool has_cubes) {
+    const MeshPaint paint = paint_of(mesh);
+    if (!has_cubes && (!materials.empty() || paint.textures > 0))
+        return {
+            "the colours of its materials and textures aren't kept: --surface cubes keeps them, "
+            "and a scene that shows the mesh itself"};
+    if (has_cubes && paint.has_alpha)
+        return {"where its textures are transparent, voxels are opaque all the same"};
+    return {};
+}
+
 v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
                                      const Device& device, const v1::VoxelizeOptions& options) {
     check_endings(outputs, options.surface == v1::Surface::cubes);
     const Mesh mesh = read_mesh_file(path);
-    const Model model = model_of(path, surface_of(path, mesh, options), options);
+    const Model model = model_of(path, mesh, surface_of(path, mesh, options), options);
     const GridPlan plan = plan_model(model, mesh);
     check_model(model, plan, device.info());
     const auto start = std::chrono::steady_clock::now();
@@ -127,6 +158,9 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
                               {}};
     const std::vector<Material> materials = materials_of(path, mesh);
     const std::vector<CubeMaterial> finishes = cube_materials(materials, plan.frame.voxel_edge.x);
+    const bool has_cubes = shows_voxels(model.surface);
+    add_notes(notes_of_paint(mesh, materials, has_cubes), report);
+    if (has_cubes) add_notes(notes_of_materials(outputs, finishes), report);
     const auto painted = [&] {
         VoxelModel cubes = voxels.cubes();
         if (!materials.empty()) paint_voxels(materials, grid.attribute, cubes);
@@ -143,16 +177,6 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
             voxels.write_model(output);
     }
     return report;
-}
-
-/// What is lost of materials in files of voxels other than .vox, which know colours alone.
-std::string note_of_materials(const std::vector<fs::path>& outputs,
-                              std::span<const CubeMaterial> materials) {
-    const bool keeps = std::ranges::all_of(
-        outputs, [](const fs::path& output) { return ending_of(output) == ".vox"; });
-    if (keeps || !has_more_than_colors(materials)) return {};
-    return "metal, glass, mirrors, and what gives off light became plain colours in files other "
-           "than .vox";
 }
 
 v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
@@ -181,14 +205,15 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
         cube_materials(scene.materials, model.frame.voxel_edge.x);
     for (const fs::path& output : outputs) {
         const auto write = cube_writer(output);
-        add_notes(write ? write(output, cube_list(model, materials))
-                        : write_cubes(output, VoxelExport(model)),
-                  report);
+        add_notes(
+            write ? write(output, cube_list(model, materials))
+                  : write_cubes(output,
+                                VoxelExport(&output == &outputs.back() ? std::move(model) : model)),
+            report);
         if (const std::string note = note_of_edges(output, scene.world.voxel_size); !note.empty())
             add_notes({note}, report);
     }
-    if (const std::string note = note_of_materials(outputs, materials); !note.empty())
-        add_notes({note}, report);
+    add_notes(notes_of_materials(outputs, materials), report);
     return report;
 }
 

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "kernels/shared/voxel.h"
@@ -72,25 +71,30 @@ std::vector<uint32_t> colors_of_full(const VoxelModel& model, std::span<const ui
 
 void paint_voxels(std::span<const Material> materials, uint32_t attribute, VoxelModel& model) {
     const std::vector<Paint> paints(materials.begin(), materials.end());
-    std::vector<uint32_t> colors(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFFu);
+    if (model.colors.empty())
+        model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFFu);
+    std::vector<uint32_t>& colors = model.colors;
     for (size_t leaf = 0; leaf < model.occupancy.size(); ++leaf) {
         const size_t brick = leaf / kLeavesPerBrick * kVoxelsPerBrick;
         const glm::ivec3 corner = leaf_corner(leaf % kLeavesPerBrick);
         uint64_t& occupied = model.occupancy[leaf];
-        for (uint64_t bits = occupied; bits != 0; bits &= bits - 1) {
-            const size_t place =
-                brick + voxel_in_brick(corner + cell_in_leaf(std::countr_zero(bits)));
+        for (int cell = 0; cell < 64; ++cell) {
+            const uint64_t bit = uint64_t{1} << cell;
+            const size_t place = brick + voxel_in_brick(corner + cell_in_leaf(cell));
+            if ((occupied & bit) == 0) {
+                colors[place] = 0xFFFFFFu;
+                continue;
+            }
             const uint32_t packed = model.attributes.empty() ? attribute : model.attributes[place];
-            const uint32_t own = model.colors.empty() ? 0xFFFFFFu : model.colors[place];
-            colors[place] = paints[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].of(own);
+            colors[place] =
+                paints[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].of(colors[place]);
             const bool is_clear = colors[place] >> VXL_TRANSPARENCY_SHIFT == 255;
-            if (is_clear) occupied &= ~(bits & -bits);
+            if (is_clear) occupied &= ~bit;
             model.transparent |= !is_clear && colors[place] >> VXL_TRANSPARENCY_SHIFT > 0;
         }
     }
     model.full_colors = colors_of_full(model, colors);
     if (model.attributes.empty()) model.attributes.assign(colors.size(), attribute);
-    model.colors = std::move(colors);
 }
 
 }  // namespace voxelume

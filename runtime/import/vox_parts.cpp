@@ -164,7 +164,7 @@ Contents whole_vox_contents(const ImportedFile& file) {
     }
     contents.objects.front().pop_back();
     contents.objects.front() += members_of(groups) + "}";
-    contents.file_light = vox_file_light(vox.render);
+    contents.file_light = vox_file_light(vox.render, contents.voxel_size.x);
     return contents;
 }
 

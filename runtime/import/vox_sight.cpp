@@ -98,7 +98,7 @@ std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2
         json_list(rounded(axes[1], 9)), display);
 }
 
-FileLight vox_file_light(const VoxRender& render) {
+FileLight vox_file_light(const VoxRender& render, double voxel) {
     const double strength = kStrength * render.exposure;
     FileLight around;
     around.sun = strength * render.sun * linear_light(render.sun_color);
@@ -112,7 +112,7 @@ FileLight vox_file_light(const VoxRender& render) {
     around.ground = linear_light(render.ground);
     around.background =
         render.has_background ? render.exposure * linear_light(render.background) : around.sky;
-    around.fog = glm::dvec3(kFogDensity * render.fog);
+    around.fog = glm::dvec3(kFogDensity * render.fog / voxel);
     around.fog_color = around.sky * linear_light(render.fog_color);
     return around;
 }

@@ -17,7 +17,8 @@ const VoxCamera* used_camera(const VoxFile& vox);
 /// `"observer": {...}` of the file's camera, who sees what is in the box; empty where it has none.
 std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size);
 
-/// The light of MagicaVoxel with the file's settings, or its usual ones where it has none.
-FileLight vox_file_light(const VoxRender& render);
+/// The light of MagicaVoxel with the file's settings, or its usual ones where it has none. The
+/// scene's voxels have edges of `voxel` metres.
+FileLight vox_file_light(const VoxRender& render, double voxel = 1);
 
 }  // namespace voxelume

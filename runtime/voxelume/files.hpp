@@ -21,7 +21,8 @@ namespace voxelume::v1 {
 /// How a mesh becomes voxels.
 struct VoxelizeOptions {
     double voxel_size = 0;                     ///< metres; 0: `resolution` decides
-    int resolution = 256;                      ///< voxels along the longest side
+    int resolution = 0;                        ///< voxels along the longest side; 0: 256, and of
+                                               ///< points as few as leave no gaps between them
     std::optional<Surface> surface{};          ///< what a voxel shows; without it smooth, and
                                                ///< cubes of points and lines
     VoxelSet set = VoxelSet::supercover;       ///< of cubes
@@ -90,10 +91,11 @@ struct Facts {
 };
 
 /// What is in a file, by what it begins with: an OpenEXR or PNG image, a volumetric image, an
-/// OpenVDB volume, a voxelized model, a MagicaVoxel file, or else a mesh, and how many voxels a
-/// mesh would become. Returns an object whose members stand in the order in which people read them.
-/// Throws Error::input.
-Facts describe_file(const std::filesystem::path& file);
+/// OpenVDB volume, a voxelized model, a MagicaVoxel file, a scene, or else a mesh, and how many
+/// voxels a mesh would become. Returns an object whose members stand in the order in which people
+/// read them. Throws Error::input, and what Scene::load throws for a scene, which is read with
+/// `options`.
+Facts describe_file(const std::filesystem::path& file, const SceneOptions& options = {});
 
 /// What is in the stack of slices that a PNG file with a number in its name begins, likewise.
 Facts describe_slices(const std::filesystem::path& first);

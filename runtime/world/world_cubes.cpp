@@ -9,6 +9,8 @@
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/assets/voxel_paint.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/main_memory.hpp"
+#include "runtime/grid/brick_cells.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/memory/plan.hpp"
@@ -34,6 +36,7 @@ void refuse_field(const Model& model) {
 }
 
 void show_as_cubes(Scene& scene) {
+    scene.render.shows_image = scene.render.shows_volume = false;
     for (Model& model : scene.models) {
         refuse_field(model);
         model.surface = Surface::cubes;
@@ -54,6 +57,26 @@ void resize_voxels(double edge, Scene& scene) {
         if (!model.is_sized) model.voxel_size *= factor;
 }
 
+/// Throws Error::limit where so many bricks have no room in main memory: their colours and the
+/// numbers of their materials, and the colours twice more while a file is written.
+void check_room(const World& world, uint32_t bricks) {
+    constexpr double kBytes = 4.0 * sizeof(uint32_t) * kVoxelsPerBrick;
+    const double needed = kBytes * bricks, there = double(main_memory());
+    if (needed <= there) return;
+    throw Error(ErrorKind::limit,
+                "{}: as cubes of {:.4g} m the scene needs {} of main memory, of which there is {}: "
+                "use larger voxels, or leave out what is large, such as a ground",
+                world.where, world.voxel_size.x, bytes_text(needed), bytes_text(there));
+}
+
+/// Reads a buffer that is needed no longer.
+template <class Element>
+std::vector<Element> taken(Buffer<Element>& buffer) {
+    std::vector<Element> elements = buffer.read();
+    buffer = {};
+    return elements;
+}
+
 VoxelModel cubes_of(const Device& device, const Scene& scene, AssetStore& meshes) {
     check_tables(scene, device.info());
     check_memory(scene, plan_scene(scene, meshes, device.info()), device.info());
@@ -65,15 +88,16 @@ VoxelModel cubes_of(const Device& device, const Scene& scene, AssetStore& meshes
     };
     const std::vector<PlacedObject> objects =
         placed_objects(scene, meshes, object_boxes(scene, meshes), grid_of, shown);
-    const PlacedWorld world = place_world(device, objects, world_frame(scene.world));
-    const BrickGrid& grid = world.voxels;
+    PlacedWorld world = place_world(device, objects, world_frame(scene.world));
+    BrickGrid& grid = world.voxels;
+    check_room(scene.world, grid.brick_count);
     VoxelModel model;
     model.frame = grid.frame;
-    model.slots = grid.slots.read();
-    model.coordinates = grid.coordinates.read();
-    model.occupancy = grid.occupancy.read();
-    model.colors = grid.colors.read();
-    model.attributes = grid.attributes.read();
+    model.slots = taken(grid.slots);
+    model.coordinates = taken(grid.coordinates);
+    model.occupancy = taken(grid.occupancy);
+    model.colors = taken(grid.colors);
+    model.attributes = taken(grid.attributes);
     paint_voxels(scene.materials, grid.attribute, model);
     return model;
 }

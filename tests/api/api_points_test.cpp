@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "runtime/voxelume/files.hpp"
 #include "tests/api/api_fixture.hpp"
 
 namespace voxelume::v1 {
@@ -89,6 +90,21 @@ TEST_F(ApiPoints, HaveNoOtherSurfaceThanCubes) {
                 HasSubstr("\"scan.ply\" has points and lines alone, which have no exact surface: "
                           "give it \"surface\": \"cubes\""));
     EXPECT_THAT(message_of(R"(, "surface": "smooth")"), HasSubstr("no smooth surface"));
+}
+
+TEST_F(ApiPoints, AreVoxelizedWithoutGapsUnlessASizeIsGiven) {
+    std::ofstream file(folder / "flat.ply");
+    file << "ply\nformat ascii 1.0\nelement vertex 10000\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n";
+    for (int i = 0; i < 10000; ++i) file << i % 100 << " " << i / 100 << " 0\n";
+    file.close();
+    const auto longest = [&](const VoxelizeOptions& options) {
+        return voxelize(folder / "flat.ply", {folder / "flat.vxm"}, device->front(), options).size[0];
+    };
+    EXPECT_GT(longest({}), 32);
+    EXPECT_LT(longest({}), 70) << "three points in a voxel";
+    EXPECT_GE(longest({.resolution = 200}), 200);
+    EXPECT_GE(longest({.voxel_size = 0.5}), 198);
 }
 
 }  // namespace voxelume::v1

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "runtime/voxelume/files.hpp"
+#include "runtime/voxelume/process.hpp"
 #include "tests/api/api_fixture.hpp"
 
 namespace voxelume::v1 {
@@ -151,6 +154,29 @@ TEST_F(ApiVoxels, OfATextWithoutLinesAreNamedByTheirKeys) {
     EXPECT_THAT(message_of({}, text), HasSubstr("scene:1:"));
     EXPECT_THAT(message_of({.has_lines = false}, text),
                 testing::StartsWith("scene: models.m.voxels: "));
+}
+
+TEST_F(ApiVoxels, OfASceneAreCountedBeforeTheyAreRead) {
+    const Scene scene = Scene::parse(R"({"voxelume": 1,
+"world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1600, 16, 1600]}},
+"models": {"floor": {"shape": "box", "size": [1600, 16, 1600], "surface": "cubes"}},
+"objects": [{"model": "floor", "position": [800, 8, 800]}]})",
+                                     "a.json", {.cache = {.enabled = false}});
+    const auto message = [&](uint64_t bytes) -> std::string {
+        limit_memory(bytes);
+        try {
+            voxelize_scene(scene, {folder / "a.vxm"}, device->front(), {});
+        } catch (const Error& error) {
+            limit_memory(0);
+            return error.what();
+        }
+        limit_memory(0);
+        return "no error";
+    };
+    EXPECT_EQ(message(uint64_t{4} << 30), "no error");
+    std::filesystem::remove(folder / "a.vxm");
+    EXPECT_THAT(message(500'000'000), HasSubstr("as cubes of 1 m the scene needs "));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.vxm"));
 }
 
 }  // namespace voxelume::v1

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/io/voxel_file_table.hpp"
+#include "runtime/scene/scene.hpp"
 
 namespace voxelume::api {
 
@@ -31,5 +32,12 @@ Report describe_art(const std::filesystem::path& path, const VoxelFileFormat& fo
 
 /// The place, values or labels of an array, and what is assumed where the file doesn't say it.
 Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& format);
+
+/// Whether a JSON file is to be read as a scene: for it has a scene's lists, or isn't JSON, which
+/// reading it then says with the line.
+bool is_scene(const std::filesystem::path& path);
+
+/// The picture, world, observer, models, objects and lights of a scene's first frame.
+Report describe_scene(const Scene& scene);
 
 }  // namespace voxelume::api

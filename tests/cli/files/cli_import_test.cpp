@@ -121,6 +121,30 @@ TEST_F(CliImportTest, InfoListsWhatAMagicaVoxelFileHolds) {
     EXPECT_FALSE(report.contains("not shown"));
 }
 
+TEST_F(CliImportTest, InfoListsWhatASceneHolds) {
+    const std::string scene = " '" VXL_SOURCE_DIR "/scenes/turntable.json'";
+    const ProgramResult result = run("info --json" + scene);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["kind"], "scene");
+    EXPECT_EQ(report["frames"], 72);
+    EXPECT_EQ(report["display"], "box");
+    EXPECT_EQ(report["models"][1]["of"], "torus");
+    EXPECT_EQ(report["objects"].size(), report["models"].size());
+    // Models are looked for as `render` does.
+    put_bytes(folder / "a.json", R"({"voxelume": 1, "models": {"a": {"mesh": "wedge.obj"}},
+        "objects": [{"model": "a"}]})");
+    EXPECT_EQ(run("info a.json").exit_code, 0);
+    std::filesystem::create_directory(folder / "models");
+    std::filesystem::rename(folder / "wedge.obj", folder / "models/wedge.obj");
+    EXPECT_EQ(run("info a.json").exit_code, 4);
+    EXPECT_EQ(run("info a.json --assets models").exit_code, 0);
+    put_bytes(folder / "a.json", "{\n\"objects\": [,]}");
+    EXPECT_THAT(run("info a.json").err, HasSubstr("a.json:2:13: "));
+    put_bytes(folder / "a.json", "{\"device\": 1}");
+    EXPECT_THAT(run("info a.json").err, HasSubstr("is neither a scene"));
+}
+
 TEST_F(CliImportTest, InfoSaysWhichFluxesAreCut) {
     VoxWriter writer;
     writer.model({2, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}});

@@ -146,6 +146,10 @@ TEST_F(VoxLightTest, FogIsAMediumAndDarkLightsAreLeftOut) {
     EXPECT_GT(medium.absorption.x, 0);
     EXPECT_GT(medium.color.g, 0);
     EXPECT_EQ(medium.color.b, 0);
+    AssetStore assets;
+    const Scene small = scene_of(put(writer.bytes()), assets, {.fit = 3.5});  // of seven voxels
+    EXPECT_NEAR(small.world.medium.absorption.x, 2 * medium.absorption.x, 1e-6)
+        << "there is half as much of it before a model of half the size";
     settings(writer, {{"_type", "_inf"}, {"_i", "0"}});
     settings(writer, {{"_type", "_uni"}, {"_i", "0"}});
     const Scene dark = scene_of_writer(writer);
