@@ -10,6 +10,7 @@ namespace {
 
 constexpr uint64_t kMaxFile = uint64_t{1} << 31;
 constexpr size_t kPiece = size_t{1} << 20;
+constexpr uint64_t kDeflateRatio = 1032;  // a byte of deflate becomes at most as many
 
 }  // namespace
 
@@ -28,6 +29,9 @@ std::string read_all_inflated(const InputFile& file, size_t max) {
     const bool is_gzip = mark[0] == '\x1f' && mark[1] == '\x8b';
     ByteStream stream(file, 0, is_gzip ? DataEncoding::gzip : DataEncoding::raw);
     std::string bytes;
+    // Room that isn't used costs nothing, and growing would copy all that there is.
+    const uint64_t largest = is_gzip ? kDeflateRatio * file.size() : file.size();
+    bytes.reserve(std::min<uint64_t>(largest, max) + kPiece);
     for (size_t got = kPiece; got == kPiece;) {
         const size_t before = bytes.size();
         bytes.resize(before + kPiece);
