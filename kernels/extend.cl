@@ -180,8 +180,7 @@ kernel void extend_paths(
 
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     ScatterPoint p = load_point(&batch, shape.edge, first, count);
-    lane_int in_medium = (lane_int)0;  // what the medium scatters goes on from there
-    if (VXL_SCATTERING) in_medium = scatters_before(&batch, first);
+    const lane_int in_medium = VXL_SCATTERING ? scatters_before(&batch, first) : (lane_int)0;
     p.hit &= ~in_medium;
     lane_int met_any = p.hit;
     lane_float opacity = (lane_float)1.0f, clear = (lane_float)0.0f;

@@ -13,7 +13,7 @@
 #include "lib/surface/brick_field.h"
 #include "lib/surface/field_brackets.h"
 #include "lib/voxelize/brick_grid.h"
-#include "lib/voxelize/brick_nodes.h"
+#include "lib/surface/brick_nodes.h"
 #include "lib/voxelize/chain_parts.h"
 #include "lib/voxelize/leaf_voxels.h"
 

@@ -5,7 +5,7 @@
 // Build constants: VXL_SMOOTH, VXL_OCCUPANCY, VXL_ATTRIBUTES, VXL_COLORS, VXL_VOXEL_NORMALS: what
 // the world has.
 #include "lib/lanes/work_item.h"
-#include "lib/voxelize/brick_nodes.h"
+#include "lib/surface/brick_nodes.h"
 #include "shared/normal.h"
 
 // One leaf's worth of a listed brick's values, 64 in their order.

@@ -101,7 +101,7 @@ kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
 /// The place to which the reflected or refracted rays of a packet's entries are written.
 typedef struct {
     RayQueue queue;
-    uint compact;  // 0: every entry has the place `place` + lane, wanted or not
+    uint compact;  // 0: lane i writes to `place` + i, even without a ray
     uint place;
     global uint* counters;
     global uint* restrict nodes;           // of the entries' children

@@ -4,7 +4,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/emission_share.h"
-#include "lib/light/medium_set.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/light/shading_point.h"
 #include "lib/light/sky.h"
 #include "lib/solid/solid_surface.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/lanes/work_item.h"
-#include "lib/surface/begin_inside.h"
-#include "lib/traverse/lane_refill.h"
-#include "lib/traverse/shadow_packet.h"
-#include "lib/traverse/sight_rays.h"
+#include "lib/packets/begin_inside.h"
+#include "lib/packets/lane_refill.h"
+#include "lib/light/shadow_packet.h"
+#include "lib/packets/sight_rays.h"
 #include "shared/scene.h"
 
 /// Finds the closest hits of the coherent rays 0 .. count-1. Arrays hold a multiple of 16 rays.

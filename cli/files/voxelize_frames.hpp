@@ -17,8 +17,8 @@ struct VoxelizeNames {
 /// Whether a file to be read is a sequence such as walk.####.obj. Stacks of slices are one array.
 bool is_file_sequence(const std::string& file);
 
-/// Each frame's names of a sequence of files: those of the frames of `list`, or of all that there
-/// are. `gaps` get the names that numbers between them would have.
+/// The names of input and outputs for each frame of a sequence of files: the frames of `list`, or
+/// all that are found. `gaps` gets the names of numbers that are missing between them.
 ///
 /// Throws Error::usage for outputs that don't go together, Error::input when files are missing,
 /// some of them named in one sentence.

@@ -7,7 +7,7 @@
 
 namespace voxelume::cli {
 
-/// A value of the scene, and what it is to be, one after the other.
+/// A value of the scene, and the values that are to be rendered in its place, in turn.
 struct Sweep {
     std::string path;  ///< "lights.key.intensity"
     std::vector<std::string> values;

@@ -2,9 +2,9 @@
 // Voxels from a file of one format to one of another, for callers.
 #include <algorithm>
 
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
+#include "runtime/api/border/process.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/text.hpp"

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "runtime/api/describe/describe.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
+#include "runtime/api/border/process.hpp"
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"

@@ -2,9 +2,9 @@
 // Devices for callers.
 #include "runtime/voxelume/device.hpp"
 
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
+#include "runtime/api/border/process.hpp"
 #include "runtime/opencl/selector.hpp"
 
 namespace voxelume {

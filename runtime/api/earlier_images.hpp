@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <map>
 
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/batch/render_frames.hpp"
 #include "runtime/voxelume/render.hpp"
 

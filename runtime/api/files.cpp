@@ -5,9 +5,9 @@
 #include <chrono>
 #include <utility>
 
-#include "runtime/api/convert.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/convert.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/assets/cube_materials.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/assets/voxel_paint.hpp"

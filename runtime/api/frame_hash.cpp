@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/api/image_files.hpp"
 #include "runtime/assets/model_cache.hpp"
 #include "runtime/base/error.hpp"

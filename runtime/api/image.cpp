@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "runtime/api/frame_hash.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/api/image_files.hpp"
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/io/image/image_format_table.hpp"
 #include "runtime/voxelume/image.hpp"
 

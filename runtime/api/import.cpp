@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "runtime/api/convert.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/convert.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/process.hpp"
 #include "runtime/api/read_handle.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "runtime/api/frame_hash.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/base/files/cache_key.hpp"
 #include "runtime/image/join_images.hpp"
 #include "runtime/scene/quilt.hpp"

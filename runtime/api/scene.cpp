@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/api/convert.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/convert.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
+#include "runtime/api/border/process.hpp"
 #include "runtime/api/read_handle.hpp"
 #include "runtime/api/tree/tree.hpp"
 #include "runtime/api/voxel_array.hpp"

@@ -6,11 +6,11 @@
 #include <glm/trigonometric.hpp>
 #include <mutex>
 
-#include "runtime/api/convert.hpp"
+#include "runtime/api/border/convert.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/api/exposure.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/process.hpp"
 #include "runtime/image/volume_view.hpp"
 #include "runtime/io/volume/volume_page.hpp"
 #include "runtime/io/volume_file.hpp"

@@ -9,7 +9,7 @@
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/scene_choices.hpp"
-#include "runtime/analysis/scene_warnings.hpp"
+#include "runtime/analysis/warnings/scene_warnings.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/batch/image_parts.hpp"

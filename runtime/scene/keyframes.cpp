@@ -57,7 +57,7 @@ std::vector<double> turn_of(const glm::dquat& orientation) {
     return {turn.x, turn.y, turn.z};
 }
 
-/// Of four numbers x, y, z and w.
+/// The quaternion of four numbers x, y, z, w.
 glm::dquat quaternion(const double* row) {
     return {row[3], row[0], row[1], row[2]};
 }

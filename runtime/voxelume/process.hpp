@@ -11,7 +11,7 @@
 
 namespace voxelume::v1 {
 
-/// The version of the library: "0.1.0".
+/// The version of the library: "0.2.0".
 const char* version();
 
 /// What a program may allow the library to do to its process. Without it, nothing: the library sets

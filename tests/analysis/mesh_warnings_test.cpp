@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is said of meshes: their unit, holes, faces, materials; and that it is read once.
-#include "runtime/analysis/mesh_warnings.hpp"
+#include "runtime/analysis/warnings/mesh_warnings.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is said of an object's voxels, and of solids of which nothing is left.
-#include "runtime/analysis/object_warnings.hpp"
+#include "runtime/analysis/warnings/object_warnings.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is said of scenes as people write them by mistake, and that nothing is said of right ones.
-#include "runtime/analysis/scene_warnings.hpp"
+#include "runtime/analysis/warnings/scene_warnings.hpp"
 
 #include <gmock/gmock.h>
 

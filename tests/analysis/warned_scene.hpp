@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/analysis/scene_warnings.hpp"
+#include "runtime/analysis/warnings/scene_warnings.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_meshes.hpp"

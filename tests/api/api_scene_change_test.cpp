@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "tests/api/api_environment.hpp"
 
 namespace voxelume {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "tests/api/api_environment.hpp"
 

@@ -31,6 +31,12 @@ fi
 sed -nE 's#^//     ##p' "$prefix/include/voxelume.hpp" >"$folder/example.cpp"
 grep -q 'int main' "$folder/example.cpp" || fail "the header has no example"
 c++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" "$folder/example.cpp"
+# Each header can be included alone.
+for header in "$prefix"/include/voxelume.hpp "$prefix"/include/voxelume/*.hpp; do
+    echo "#include \"$header\"" |
+        c++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" -x c++ - ||
+        fail "${header##*/} needs what it doesn't include"
+done
 for clang in clang++-14 clang++; do # which finds faults in headers that GCC overlooks
     command -v "$clang" >/dev/null || continue
     "$clang" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" \

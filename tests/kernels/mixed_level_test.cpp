@@ -35,8 +35,8 @@ float last_hit(const std::vector<FieldWords>& records, const std::vector<uint32_
     features.smooth = features.triangles = features.field_lists = true;
     features.mixed = features.attributes = features.paths = true;
     const Program program = Program::from_text(device, R"(
-#include "lib/traverse/packet.h"
-#include "lib/traverse/sight_rays.h"
+#include "lib/packets/packet.h"
+#include "lib/packets/sight_rays.h"
 kernel void climb(uint count, global const uint* fields, global const uint* attributes,
                   global float* results) {
     PyramidView p;

@@ -7,7 +7,7 @@ namespace voxelume {
 inline constexpr const char* kSurfaceSource = R"(
 #include "lib/lanes/work_item.h"
 #include "lib/light/physical.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 static Vector askew_normal(void) {
     const Vector n = {(lane_float)0.36f, (lane_float)0.48f, (lane_float)-0.8f};
     return n;

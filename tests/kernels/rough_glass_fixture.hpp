@@ -21,7 +21,7 @@ namespace voxelume {
 inline constexpr const char* kGlassSource = R"(
 #include "lib/lanes/work_item.h"
 #include "lib/light/physical.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 static PhysicalView glass_at(global const float* materials, lane_float cosine, uint inside) {
     const Vector n = {(lane_float)0.36f, (lane_float)0.48f, (lane_float)-0.8f};
     const Frame f = frame_around(n);

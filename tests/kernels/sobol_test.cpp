@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lib/light/sobol.h against Sobol's and Owen's definitions, bit by bit on the host.
+// lib/sampling/sobol.h against Sobol's and Owen's definitions, bit by bit on the host.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace voxelume {
 namespace {
 
 constexpr const char* kSource = R"(
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 #include "lib/lanes/work_item.h"
 kernel void sample_square(uint count, global const uint* samples, global const uint* seeds,
                           uint stride, global float* points) {

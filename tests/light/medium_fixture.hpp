@@ -59,7 +59,7 @@ inline std::vector<MediumRay> medium_rays(const glm::ivec3& size, size_t count, 
             ray.o[a] = (unit(random) + 1) / 2 * size[a];
             if (i % 4 == 1) ray.o[a] = std::floor(ray.o[a]);        // begins on edges of cells,
             if (i % 16 == 3 && a != int(i / 16) % 3) d[a] = 0;      // along an axis,
-            if (i % 16 == 7 && a != int(i / 16) % 3) d[a] *= 1e-5;  // nearly,
+            if (i % 16 == 7 && a != int(i / 16) % 3) d[a] *= 1e-5;  // nearly along an axis,
             if (i % 16 == 11) d[a] = d[a] < 0 ? -1 : 1;             // through corners
         }
         if (i % 16 == 3 || i % 16 == 11) ray.o = glm::floor(ray.o);

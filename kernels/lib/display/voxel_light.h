@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of rays that were aimed at display voxels, as these hold it.
+// The light of rays that were aimed at display voxels, in the form in which voxels hold it.
 #ifndef VXL_VOXEL_LIGHT_H
 #define VXL_VOXEL_LIGHT_H
 

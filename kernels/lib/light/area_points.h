@@ -3,7 +3,7 @@
 #ifndef VXL_AREA_POINTS_H
 #define VXL_AREA_POINTS_H
 
-#include "lib/light/directions.h"
+#include "lib/sampling/directions.h"
 #include "lib/light/path_samples.h"
 #include "shared/scene.h"
 

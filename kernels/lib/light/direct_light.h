@@ -199,7 +199,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     }
 }
 
-/// Lifts the starts of rays off the surfaces, and unlights points that the light falls on from
+/// Moves the starts of shadow rays off the surfaces, and clears `lit` of points that are lit from
 /// behind. Returns the mask of rays that leave a triangle, above which they begin, on its back.
 static inline lane_int start_off_surface(const WorldView* world, const RayBatch* batch, uint first,
                                          LightRecord light, Incidence* incidence, LitPoints* p) {

@@ -5,7 +5,7 @@
 #define VXL_EMISSION_SHARE_H
 
 #include "lib/light/emitters.h"
-#include "lib/light/medium_set.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/paths.h"
 #include "shared/scene.h"

@@ -8,7 +8,7 @@
 #define VXL_EMITTERS_H
 
 #include "lib/lanes/vector.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 #include "shared/emitters.h"
 #include "shared/instance.h"
 

@@ -10,7 +10,7 @@
 #define VXL_GGX_H
 
 #include "lib/lanes/vector.h"
-#include "lib/light/directions.h"
+#include "lib/sampling/directions.h"
 
 /// Three unit vectors at right angles.
 typedef struct {

@@ -6,10 +6,10 @@
 #include "lib/light/paths.h"
 #include "lib/light/physical.h"
 #include "lib/light/scatter_point.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 #include "lib/surface/surface_color.h"
 
-/// The parts of the light that a packet's surfaces return from each way on.
+/// How much of the light that comes from each way on a packet's surfaces return.
 typedef struct {
     lane_float diffuse[3];  // in all directions, also all that physically based ones return
     lane_float reflected, refracted;

@@ -4,7 +4,7 @@
 #define VXL_NEXT_RAYS_H
 
 #include "lib/light/child_rays.h"
-#include "lib/light/directions.h"
+#include "lib/sampling/directions.h"
 #include "lib/light/lobes.h"
 
 /// The least cosine with its surface of a way on which a matt one scatters light: where normals

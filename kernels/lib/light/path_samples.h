@@ -4,7 +4,7 @@
 #ifndef VXL_PATH_SAMPLES_H
 #define VXL_PATH_SAMPLES_H
 
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/paths.h"
 #include "shared/trace.h"

@@ -3,8 +3,8 @@
 #ifndef VXL_PATHS_H
 #define VXL_PATHS_H
 
-#include "lib/light/medium_set.h"
-#include "lib/light/surroundings.h"
+#include "lib/traverse/medium_set.h"
+#include "lib/traverse/surroundings.h"
 #include "lib/surface/cube_body.h"
 
 /// No node: an entry that sends no ray.

@@ -36,7 +36,7 @@ typedef struct {
     lane_float gloss;    // how probably paths are mirrored by facets
     GlassView glass;     // the part of the surfaces that lets light through
     Coat coat;           // on the others
-    lane_float tint[3];  // what that multiplies light by on its way
+    lane_float tint[3];  // the colour of what light passes through
 } PhysicalView;
 
 /// What the facets return at an angle, under their coat.

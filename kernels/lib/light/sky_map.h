@@ -11,7 +11,7 @@
 #include "lib/lanes/exact_angle.h"
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/vector.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 #include "shared/sky.h"
 
 /// The parameters that `bind` of a SkyMap sets, in its order: none for other skies. A comma ends

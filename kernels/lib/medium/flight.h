@@ -8,7 +8,7 @@
 #define VXL_FLIGHT_H
 
 #include "lib/lanes/exact_exp.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 #include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
 

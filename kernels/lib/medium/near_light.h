@@ -9,7 +9,7 @@
 #define VXL_NEAR_LIGHT_H
 
 #include "lib/lanes/exact_angle.h"
-#include "lib/light/directions.h"
+#include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
 /// What of a ray's way a light shines on: metres along it from the point next to the light.

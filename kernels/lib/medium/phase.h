@@ -7,7 +7,7 @@
 #ifndef VXL_PHASE_H
 #define VXL_PHASE_H
 
-#include "lib/light/directions.h"
+#include "lib/sampling/directions.h"
 
 /// What a medium scatters.
 typedef struct {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells of a brick's distance field whose half-Taylor interpolant can be 0, and their records.
-// Works on nodes gathered by lib/voxelize/brick_nodes.h.
+// Works on nodes gathered by lib/surface/brick_nodes.h.
 #ifndef VXL_BRICK_FIELD_H
 #define VXL_BRICK_FIELD_H
 
-#include "lib/voxelize/brick_nodes.h"
+#include "lib/surface/brick_nodes.h"
 
 // A cell is kept when min f - m <= 0 <= max f + m, with m = 129/128 1/8 Σ_a max|D_a| + 1 over the
 // three axes and each axis' four edges. That misses no zero of the interpolant F in voxel.h:

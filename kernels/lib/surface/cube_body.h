@@ -9,7 +9,7 @@
 #ifndef VXL_CUBE_BODY_H
 #define VXL_CUBE_BODY_H
 
-#include "lib/light/medium_set.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/walk.h"
 

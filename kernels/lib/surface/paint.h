@@ -4,7 +4,7 @@
 #ifndef VXL_PAINT_H
 #define VXL_PAINT_H
 
-#include "lib/light/medium_set.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/surface/shading_normal.h"
 #include "lib/surface/source_mesh.h"
 #include "lib/surface/surface_color.h"
@@ -15,7 +15,7 @@
 #include "shared/footprint.h"
 #include "shared/paths.h"
 
-/// Where no surface is seen at a smaller angle, for textures: their samples would have no end.
+/// The smallest cosine that footprints on textures are found for, which would have no end below.
 #define VXL_LEAST_SEEN 0.015625f
 
 /// What packets of rays span where they met surfaces: two vectors across the rays, in metres.

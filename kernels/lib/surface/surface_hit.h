@@ -3,7 +3,7 @@
 #ifndef VXL_SURFACE_HIT_H
 #define VXL_SURFACE_HIT_H
 
-#include "lib/light/medium_set.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/surface/cube_behind.h"
 #include "shared/trace.h"
 

@@ -84,7 +84,7 @@ static inline void add_exactly(lane_float* sum, lane_float* lost, lane_float ter
     *sum = LANES_SELECT(adding, next, *sum);
 }
 
-/// A ray's way through the voxels that it leaves.
+/// The part of a ray inside one voxel of each lane.
 typedef struct {
     lane_float length;  // t, >= 0
     lane_int counts;    // whether some of it lies behind t_first

@@ -3,7 +3,7 @@
 #ifndef VXL_LENS_H
 #define VXL_LENS_H
 
-#include "lib/light/directions.h"
+#include "lib/sampling/directions.h"
 #include "lib/traverse/display_shape.h"
 #include "shared/paths.h"
 

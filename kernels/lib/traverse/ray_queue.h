@@ -4,7 +4,7 @@
 #define VXL_RAY_QUEUE_H
 
 #include "lib/lanes/vector.h"
-#include "lib/light/medium_set.h"
+#include "lib/traverse/medium_set.h"
 #include "shared/trace.h"
 
 /// A packet of new rays; see shared/trace.h for the components.

@@ -3,7 +3,7 @@
 #ifndef VXL_PLACED_H
 #define VXL_PLACED_H
 
-#include "lib/voxelize/brick_nodes.h"
+#include "lib/surface/brick_nodes.h"
 
 // The map from world voxels to object voxels: row a holds the three coefficients of object axis a,
 // then its offset, all times 2^fraction_bits. Coefficients are even, so that half steps are exact.

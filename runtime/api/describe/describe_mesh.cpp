@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "runtime/analysis/mesh_warnings.hpp"
+#include "runtime/analysis/warnings/mesh_warnings.hpp"
 #include "runtime/geometry/mesh_points.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"

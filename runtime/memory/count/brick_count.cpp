@@ -41,7 +41,7 @@ struct Cell {
 
 class BrickCounter {
   public:
-    /// With `parts`, a voxel counts once for each of them whose surface is in it.
+    /// With `parts`, a voxel is counted once for each part whose surface crosses it.
     BrickCounter(const SolidField& field, const GridFrame& frame, const BrickRule& rule,
                  TakenBricks& taken, std::span<const SolidField> parts = {})
         : field_(field), frame_(frame), rule_(rule), taken_(taken), parts_(parts) {

@@ -46,7 +46,7 @@ std::string known_words() {
     return bytes;
 }
 
-/// The key of a device's result. What is asked and how is part of it.
+/// The cache's key of a device's result. A hash of the questions is part of it.
 std::string result_key(const DeviceInfo& info) {
     const std::string lanes = std::to_string(info.lanes), group = std::to_string(info.work_group);
     const std::string known = known_words();

@@ -21,7 +21,7 @@ struct SourcePart {
 /// `#ifdef __cplusplus`; lines that end in a backslash are joined to the next.
 std::vector<SourcePart> source_parts(std::string_view source);
 
-/// The identifiers in a text, each as often as it is there.
+/// The identifiers in a text, in order and with repeats.
 std::vector<std::string_view> identifiers(std::string_view text);
 
 }  // namespace voxelume

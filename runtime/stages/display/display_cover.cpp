@@ -101,7 +101,7 @@ DisplayCoverStage::DisplayCoverStage(const Device& device, const Features& featu
     : lattice_(display_lattice(frame, world)),
       shown_(shown),
       covers_(allocate_covers(device, uint32_t(shown.voxels.count))),
-      program_(device, "display_cover.cl", features.defines(device)),
+      program_(device, "display/display_cover.cl", features.defines(device)),
       cover_(program_.kernel("cover_lines")) {
     covers_.fill(0);
     std::vector<uint32_t> logs;

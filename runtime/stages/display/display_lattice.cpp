@@ -48,7 +48,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       views_(device, "display views", std::span<const float4>(ways_from_outside(world.frame))),
       groups_(group_count(device, frame.size)),
       mask_(allocate_display_mask(device, frame.size)),
-      program_(device, "display_lattice.cl", features.defines(device)),
+      program_(device, "display/display_lattice.cl", features.defines(device)),
       aim_(program_.kernel("aim_rays")),
       objects_(program_.kernel("note_objects")),
       note_(program_.kernel("note_view")),

@@ -11,7 +11,8 @@ DisplayMeanStage::DisplayMeanStage(const Device& device, const Features& feature
                                    uint32_t paths)
     : paths_(paths),
       sums_(allocate_light_sums(device, rays)),
-      add_(Program(device, "display_mean.cl", features.defines(device)).kernel("add_paths")) {}
+      add_(Program(device, "display/display_mean.cl", features.defines(device))
+               .kernel("add_paths")) {}
 
 void DisplayMeanStage::add(uint32_t path, RayBatch& batch, uint32_t count) {
     add_.launch(WorkItem::light, count, count, batch.stride, path, paths_, sums_, batch.radiance);

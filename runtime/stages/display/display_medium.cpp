@@ -80,7 +80,7 @@ DisplayMediumStage::DisplayMediumStage(const Device& device, const Features& fea
       has_colors_(features.medium_colors),
       lines_(lines_along(lattice_.axis_x), lines_along(lattice_.axis_y)),
       means_(allocate_medium_means(device, features, frame.size)),
-      program_(device, "display_medium.cl", features.defines(device)),
+      program_(device, "display/display_medium.cl", features.defines(device)),
       measure_(program_.kernel("measure_medium")) {}
 
 void DisplayMediumStage::measure(const DensityGrid& density,

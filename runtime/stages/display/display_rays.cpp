@@ -94,7 +94,7 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
       near_depth_(float(frame.display.near)),
       environment_(environment),
       rays_(allocate_ray_depths(device, features, ray_count(camera))),
-      program_(device, has_layers_ ? "display_layers.cl" : "display_rays.cl",
+      program_(device, has_layers_ ? "display/display_layers.cl" : "display/display_rays.cl",
                features.defines(device)) {
     if (!features.medium) steps_.absorption = 0;
     if (has_layers_) {

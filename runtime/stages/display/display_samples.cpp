@@ -41,7 +41,7 @@ DisplaySampleStage::DisplaySampleStage(const Device& device, const Features& fea
       transmission_(features.transmission),
       world_(world),
       samples_(uint32_t(samples)),
-      program_(device, "display_samples.cl", features.defines(device)),
+      program_(device, "display/display_samples.cl", features.defines(device)),
       normals_(program_.kernel("keep_normals")),
       aim_(program_.kernel("aim_samples")),
       add_(program_.kernel("add_samples")),

@@ -131,7 +131,7 @@ DisplayScanStage::DisplayScanStage(const Device& device, const Features& feature
       families_{edge_lines(0, frame, world), edge_lines(1, frame, world),
                 edge_lines(2, frame, world)},
       camera_(device, features, families_.front().camera),
-      program_(device, "display_scan.cl", features.defines(device)),
+      program_(device, "display/display_scan.cl", features.defines(device)),
       scan_(program_.kernel("scan_lines")),
       pack_(program_.kernel("pack_points")),
       order_(program_.kernel("order_lines")),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// boxes of instances -> the tree that packets of rays traverse: kernels/lib/traverse/instances.h.
+// boxes of instances -> the tree that packets of rays traverse: kernels/lib/packets/instances.h.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "runtime/api/convert.hpp"
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/convert.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/scene_file/document/scene_fields.hpp"
 #include "runtime/verify/bench/bench.hpp"
 #include "runtime/verify/report/bench_page.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernels that there are, and what devices have launched of them, for callers.
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/opencl/self_test/self_test.hpp"
 #include "runtime/opencl/source/kernel_source.hpp"
 #include "runtime/voxelume_verify.hpp"

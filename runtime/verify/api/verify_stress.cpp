@@ -2,8 +2,8 @@
 // The tests of devices, for callers.
 #include <algorithm>
 
-#include "runtime/api/guarded.hpp"
-#include "runtime/api/handles.hpp"
+#include "runtime/api/border/guarded.hpp"
+#include "runtime/api/border/handles.hpp"
 #include "runtime/scene_file/document/scene_fields.hpp"
 #include "runtime/verify/stress/stress.hpp"
 #include "runtime/voxelume_verify.hpp"

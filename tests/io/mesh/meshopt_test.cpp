@@ -15,7 +15,7 @@ using glm::vec3;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Bytes of one of meshoptimizer's codecs behind a view, which replaces its place in the buffer.
+/// Adds a view of the buffer whose bytes are compressed by one of meshoptimizer's codecs.
 int meshopt_view(GltfWriter& writer, const std::vector<uint8_t>& data, const char* mode,
                  size_t count, size_t stride, const char* filter = "NONE") {
     const int view = writer.view(data);

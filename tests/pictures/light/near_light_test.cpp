@@ -173,7 +173,7 @@ TEST(NearLightAlone, StopsAtSurfacesAndInShadows) {
                 1e-4 * expected);
 }
 
-/// What an observer with a lamp sees has no mean, but a picture.
+/// What an observer with a lamp sees has an infinite mean, and yet the picture is finite.
 TEST(NearLightAlone, ALampAtTheObserversPlaceLeavesAPicture) {
     const auto median_with = [](double aside) {
         Json scene =

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "runtime/base/decimal.hpp"
-#include "runtime/io/mesh/mesh_ply_header.hpp"
+#include "runtime/io/mesh/ply/mesh_ply_header.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/io/mesh/mesh_ply_layout.hpp"
+#include "runtime/io/mesh/ply/mesh_ply_layout.hpp"
 
 #include <algorithm>
 

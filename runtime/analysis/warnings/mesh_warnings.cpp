@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/analysis/mesh_warnings.hpp"
+#include "runtime/analysis/warnings/mesh_warnings.hpp"
 
 #include <fmt/format.h>
 

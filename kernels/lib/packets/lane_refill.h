@@ -4,7 +4,7 @@
 #define VXL_LANE_REFILL_H
 
 #include "lib/traverse/ray_queue.h"
-#include "lib/traverse/sight_rays.h"
+#include "lib/packets/sight_rays.h"
 
 /// Stores what the rays of the `landing` lanes have met.
 static inline void store_hits(const Packet* f, lane_int landing, const RayBatch* batch) {

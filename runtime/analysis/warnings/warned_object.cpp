@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/analysis/warned_object.hpp"
+#include "runtime/analysis/warnings/warned_object.hpp"
 
 #include <cmath>
 #include <glm/common.hpp>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/api/process.hpp"
+#include "runtime/api/border/process.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <thread>
 
-#include "runtime/api/guarded.hpp"
+#include "runtime/api/border/guarded.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/base/files/temporary_files.hpp"
 #include "runtime/base/main_memory.hpp"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/analysis/scene_warnings.hpp"
+#include "runtime/analysis/warnings/scene_warnings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "runtime/analysis/inside_warnings.hpp"
-#include "runtime/analysis/mesh_warnings.hpp"
-#include "runtime/analysis/object_warnings.hpp"
 #include "runtime/analysis/volume_scene.hpp"
+#include "runtime/analysis/warnings/inside_warnings.hpp"
+#include "runtime/analysis/warnings/mesh_warnings.hpp"
+#include "runtime/analysis/warnings/object_warnings.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/vector.h"
-#include "lib/light/sobol.h"
+#include "lib/sampling/sobol.h"
 
 /// A point of the unit disk, all of which are equally probable.
 static inline SquarePoint disk_point(SquarePoint p) {

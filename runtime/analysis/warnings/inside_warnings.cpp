@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/analysis/inside_warnings.hpp"
+#include "runtime/analysis/warnings/inside_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <glm/vector_relational.hpp>
 #include <optional>
 
-#include "runtime/analysis/object_warnings.hpp"
+#include "runtime/analysis/warnings/object_warnings.hpp"
 #include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/scene/predicates.hpp"

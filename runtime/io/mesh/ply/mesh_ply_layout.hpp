@@ -2,7 +2,7 @@
 // What the properties of a PLY file's vertices and faces mean, classified before rows are read.
 #pragma once
 
-#include "runtime/io/mesh/mesh_ply_header.hpp"
+#include "runtime/io/mesh/ply/mesh_ply_header.hpp"
 
 #include <glm/vec3.hpp>
 

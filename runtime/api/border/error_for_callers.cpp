@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/api/guarded.hpp"
+#include "runtime/api/border/guarded.hpp"
 
 namespace voxelume::v1 {
 

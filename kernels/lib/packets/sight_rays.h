@@ -3,7 +3,7 @@
 #ifndef VXL_SIGHT_RAYS_H
 #define VXL_SIGHT_RAYS_H
 
-#include "lib/traverse/packet.h"
+#include "lib/packets/packet.h"
 
 /// What a ray met, as shared/trace.h describes it.
 typedef struct {

@@ -3,11 +3,11 @@
 #include "runtime/io/mesh/alpha_ramp.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/mesh/mesh_paint.hpp"
-#include "runtime/io/mesh/mesh_ply_layout.hpp"
-#include "runtime/io/mesh/mesh_ply_rows.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/mesh_scan.hpp"
+#include "runtime/io/mesh/ply/mesh_ply_layout.hpp"
+#include "runtime/io/mesh/ply/mesh_ply_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

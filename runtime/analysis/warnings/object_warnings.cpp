@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/analysis/object_warnings.hpp"
+#include "runtime/analysis/warnings/object_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "runtime/analysis/warned_object.hpp"
+#include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Header of a PLY file, after Turk, "The PLY Polygon File Format", 1994.
-#include "runtime/io/mesh/mesh_ply_header.hpp"
+#include "runtime/io/mesh/ply/mesh_ply_header.hpp"
 
 #include "runtime/base/decimal.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"

@@ -10,7 +10,7 @@
 #define VXL_INSTANCES_H
 
 #include "lib/traverse/bounds_slack.h"
-#include "lib/traverse/packet.h"
+#include "lib/packets/packet.h"
 #include "lib/traverse/transformed_ray.h"
 
 /// A ray as slab tests read it.

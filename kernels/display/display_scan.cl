@@ -5,7 +5,7 @@
 // instance that they come to.
 #include "lib/display/crossings.h"
 #include "lib/lanes/work_item.h"
-#include "lib/traverse/instances.h"
+#include "lib/packets/instances.h"
 #include "shared/scene.h"
 
 /// Scans the `walking` lanes' voxels up to t_end. Lanes that reach an occupied voxel wait until no
