@@ -26,6 +26,18 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
                                 std::pair{std::string_view("y"), Axis::y},
                                 std::pair{std::string_view("z"), Axis::z}};
 
+/// The format of a file that is written as its name says.
+VolumeFormat format_of(const std::string& from, const std::string& to) {
+    try {
+        return volume_format_of(to);
+    } catch (const Error& error) {
+        if (!is_model_file(from) || ending_of(from) == ".vdb") throw;
+        fail_usage(
+            "convert: {}: the name of voxels ends in .vox .kv6 .binvox .npy .nrrd .vxm or .vdb",
+            to);
+    }
+}
+
 int run(const ConvertCommand& command) {
     const std::string from = first_slice(command.from);
     if (is_mesh_name(from))
@@ -39,7 +51,7 @@ int run(const ConvertCommand& command) {
     options.sweep = choose(command.sweep, kSweeps, "convert: --sweep");
     options.compress = !command.uncompressed;
     options.format =
-        command.format.empty() ? volume_format_of(command.to) : volume_format_named(command.format);
+        command.format.empty() ? format_of(from, command.to) : volume_format_named(command.format);
     Volume::read(from).write(command.to, options);
     return 0;
 }

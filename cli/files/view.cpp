@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxelume view: a look at a volumetric image, as a picture or as a page for a browser.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "cli/shared/checks.hpp"
 #include "cli/shared/commands.hpp"
 #include "cli/shared/import_options.hpp"
+#include "cli/shared/scene_options.hpp"
 #include "cli/shared/slice_names.hpp"
 
 namespace voxelume::cli {
@@ -19,6 +22,7 @@ constexpr int kMinSide = 64;
 struct ViewCommand {
     std::string from, size = "1280x1000", device;
     std::vector<std::string> outputs;
+    std::vector<std::filesystem::path> assets;
     double around = 35, above = 25;
     double exposure = 0;
 };
@@ -32,6 +36,22 @@ Scene scene_of_model(const std::string& from) {
 
 Volume volume_of_scene(const ViewCommand& command, const Scene& scene) {
     return render_volume(scene, {Device::open(command.device)});
+}
+
+bool is_scene(const Facts& facts) {
+    const auto& members = std::get<std::vector<Facts>>(facts.value);
+    const auto kind = std::ranges::find(members, "kind", &Facts::name);
+    const auto* const text =
+        kind == members.end() ? nullptr : std::get_if<std::string>(&kind->value);
+    return text != nullptr && *text == "scene";
+}
+
+/// A file of JSON is the header of a volumetric image, or a scene that shows one.
+Volume volume_of_json(const ViewCommand& command, const std::string& from) {
+    v1::SceneOptions options;
+    options.assets = command.assets;
+    if (!is_scene(describe_file(from, options))) return Volume::read(from);
+    return volume_of_scene(command, load_scene(from, options));
 }
 
 /// An OpenVDB file is a volumetric image, or else a model. Where it is neither, the first says why.
@@ -56,6 +76,7 @@ Volume volume_of_vdb(const ViewCommand& command, const std::string& from) {
 Volume volume_of(const ViewCommand& command) {
     const std::string from = first_slice(command.from);
     if (ending_of(from) == ".vdb") return volume_of_vdb(command, from);
+    if (ending_of(from) == ".json") return volume_of_json(command, from);
     if (!is_model_file(from)) return Volume::read(from);
     return volume_of_scene(command, scene_of_model(from));
 }
@@ -82,10 +103,11 @@ int run(const ViewCommand& command) {
 
 Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
-    app.add_option("VOLUME", command->from,
-                   "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file (see "
-                   "scenes/manual/model_files.md): " +
-                       model_endings())
+    app.add_option(
+           "VOLUME", command->from,
+           "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a scene, .json, or a "
+           "model file (see scenes/manual/model_files.md): " +
+               model_endings())
         ->required();
     app.add_option("-o,--output", command->outputs,
                    ".png: views from the front and from a side, and slices from near to far; "
@@ -101,8 +123,11 @@ Action add_view(CLI::App& app) {
     app.add_option("--size", command->size,
                    "size of the .png, WIDTHxHEIGHT in pixels; 1280x1000 by default")
         ->type_name("WIDTHxHEIGHT");
+    app.add_option("--assets", command->assets,
+                   "folder to look for a scene's models in; may be given again")
+        ->allow_extra_args(false);
     app.add_option("--device", command->device,
-                   "device for model files: auto, cpu, gpu, a number, or part of a name")
+                   "device for scenes and model files: auto, cpu, gpu, a number, or part of a name")
         ->type_name("DEVICE");
     app.add_option("--exposure", command->exposure, "exposure in stops, 0 by default")
         ->check(in_range(-64, 64));

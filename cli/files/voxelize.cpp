@@ -96,8 +96,7 @@ void tell_of(const VoxelizeCommand& command, const std::string& what, const Voxe
 
 /// Returns the voxels' edge in metres.
 double voxelize_mesh(const VoxelizeCommand& command) {
-    if (command.frame > 0)
-        fail_usage("voxelize: --frame is for scenes; `import` makes one of a file that moves");
+    if (command.frame > 0) fail_usage("voxelize: --frame is for scenes and for files that move");
     const VoxelizeOptions options = options_of(command);
     const Device device = Device::open(command.device);
     const VoxelizeReport report =
@@ -129,16 +128,26 @@ double voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
     return report.voxel_size;
 }
 
+/// The scene that shows a file of voxels, or one that moves.
 Scene scene_of_voxels_in(const std::string& file) {
     ImportOptions import;
     import.ground = false;
     return scene_of_file(file, import);
 }
 
+/// Meshes have no voxels of their own whose size could be kept.
+VoxelizeCommand with_size(VoxelizeCommand command, const std::string& file) {
+    if (command.voxel_size > 0 || command.resolution > 0 || !is_mesh_name(file)) return command;
+    const bool has_vox = std::ranges::any_of(
+        command.outputs, [](const std::string& output) { return ending_of(output) == ".vox"; });
+    command.resolution = has_vox ? 254 : 256;
+    return command;
+}
+
 /// The voxels that a file has, or larger and smaller ones in their place.
 double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
     if (command.voxel_size > 0 || command.resolution > 0 || command.frame > 0)
-        return voxelize_scene(command, scene_of_voxels_in(file));
+        return voxelize_scene(with_size(command, file), scene_of_voxels_in(file));
     for (const std::string& output : command.outputs)
         tell_notes(command, convert_voxels(file, output));
     return 0;
@@ -150,21 +159,24 @@ void check_voxels_output(const std::string& path) {
 
 enum class InputKind : uint8_t { mesh, voxels, scene };
 
-InputKind kind_of(const std::string& file) {
-    if (ending_of(file) == ".json" || file == "-") return InputKind::scene;
+/// A frame of a glTF file is one of the scene that shows it.
+InputKind kind_of(const std::string& file, bool is_frame) {
+    const std::string ending = ending_of(file);
+    if (ending == ".json" || file == "-") return InputKind::scene;
     const bool is_mesh = is_mesh_name(file) || !is_model_file(file);
-    return is_mesh ? InputKind::mesh : InputKind::voxels;
+    const bool is_moving = is_frame && (ending == ".gltf" || ending == ".glb");
+    return is_mesh && !is_moving ? InputKind::mesh : InputKind::voxels;
 }
 
 Scene scene_in(const VoxelizeCommand& command) {
-    if (kind_of(command.file) == InputKind::voxels) return scene_of_voxels_in(command.file);
+    if (kind_of(command.file, true) == InputKind::voxels) return scene_of_voxels_in(command.file);
     return load_scene(command.file, {command.assets, {}, {}, 0});
 }
 
 /// Makes the voxels of one file or frame. Returns their edge in metres; 0: as in the file.
 double voxelize_one(const VoxelizeCommand& command) {
     const std::string file = first_slice(command.file);
-    const InputKind kind = kind_of(file);
+    const InputKind kind = kind_of(file, command.frame > 0);
     if (kind == InputKind::mesh) return voxelize_mesh(command);
     refuse_mesh_options(command);
     return kind == InputKind::scene ? voxelize_scene(command, scene_in(command))
@@ -173,10 +185,10 @@ double voxelize_one(const VoxelizeCommand& command) {
 
 /// The frames of one scene that moves.
 std::vector<VoxelizeNames> moving_frames(const VoxelizeCommand& command) {
-    if (kind_of(command.file) == InputKind::mesh)
+    if (kind_of(command.file, true) == InputKind::mesh)
         fail_usage(
             "voxelize: {}: a mesh is one frame: leave out {}, or name files of frames, as "
-            "#### does for 0001; `import` makes a scene of a file that moves",
+            "#### does for 0001",
             command.file, command.frames.empty() ? "the #### of the output" : "--frames");
     if (command.file == "-")
         fail_usage("voxelize: -: frames are of a scene in a file; --frame chooses one of a stream");

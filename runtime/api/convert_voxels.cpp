@@ -12,6 +12,8 @@
 #include "runtime/import/scene_of_file.hpp"
 #include "runtime/io/arrays/array_files.hpp"
 #include "runtime/io/image/png.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_file_table.hpp"
@@ -26,6 +28,11 @@ bool holds_model(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
     if (ending == ".vox" || ending == ".vxm" || ending == ".vdb") return true;
     return voxel_format_named(path) != nullptr && !is_volume_nrrd(path);
+}
+
+/// True for an OpenVDB file of a display. Throws as read_vdb_summary does.
+bool is_volume_vdb(const std::filesystem::path& path) {
+    return ending_of(path) == ".vdb" && read_vdb_summary(path).metadata.contains(kFrameKey);
 }
 
 /// The cells of a volumetric image that are at least half opaque.
@@ -112,11 +119,12 @@ namespace v1 {
 
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
     const std::string ending = ending_of(to);
-    if (is_grid_name(to)) return holds_model(from) && ending_of(from) != ".vdb";
-    if (!cube_writer(to)) return false;
-    // Volumetric images are written as .kv6 and .nrrd by writers of their own.
-    if (ending != ".kv6" && ending != ".nrrd") return true;
-    return holds_model(from) && ending_of(from) != ".vdb";
+    if (!is_grid_name(to)) {
+        if (!cube_writer(to)) return false;
+        // Volumetric images are written as .kv6 and .nrrd by writers of their own.
+        if (ending != ".kv6" && ending != ".nrrd") return true;
+    }
+    return holds_model(from) && !api::guarded([&] { return is_volume_vdb(from); });
 }
 
 std::vector<std::string> convert_voxels(const std::filesystem::path& from,

@@ -44,11 +44,16 @@ Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOpt
     return static_cast<Surface>(*options.surface);
 }
 
-constexpr int kResolution = 256;  ///< where the options don't say one
+/// Voxels along the longest side where the options don't say how many. A set has up to two more.
+int usual_resolution(const std::vector<fs::path>& outputs) {
+    const bool has_vox = std::ranges::any_of(
+        outputs, [](const fs::path& output) { return ending_of(output) == ".vox"; });
+    return has_vox ? 254 : 256;
+}
 
 /// What a scene would say of the mesh.
 Model model_of(const fs::path& path, const Mesh& mesh, Surface surface,
-               const v1::VoxelizeOptions& options) {
+               const v1::VoxelizeOptions& options, int usual) {
     Model model;
     model.name = path.stem();
     model.mesh = path;
@@ -56,9 +61,9 @@ Model model_of(const fs::path& path, const Mesh& mesh, Surface surface,
     double edge = options.voxel_size;
     const bool is_scan = has_points_alone(mesh) && count_points(mesh).lines == 0;
     if (edge == 0 && options.resolution == 0 && is_scan)
-        edge = voxel_edge_of_points(mesh, longest_side(mesh_bounds(mesh)) / kResolution);
+        edge = voxel_edge_of_points(mesh, longest_side(mesh_bounds(mesh)) / usual);
     model.voxel_size = glm::dvec3(edge);
-    if (edge == 0) model.resolution = options.resolution > 0 ? options.resolution : kResolution;
+    if (edge == 0) model.resolution = options.resolution > 0 ? options.resolution : usual;
     model.surface = surface;
     model.set = static_cast<VoxelSet>(options.set);
     model.normals = static_cast<CubeNormals>(options.normals);
@@ -138,7 +143,8 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
                                      const Device& device, const v1::VoxelizeOptions& options) {
     check_endings(outputs, options.surface == v1::Surface::cubes);
     const Mesh mesh = read_mesh_file(path);
-    const Model model = model_of(path, mesh, surface_of(path, mesh, options), options);
+    const Model model =
+        model_of(path, mesh, surface_of(path, mesh, options), options, usual_resolution(outputs));
     const GridPlan plan = plan_model(model, mesh);
     check_model(model, plan, device.info());
     const auto start = std::chrono::steady_clock::now();

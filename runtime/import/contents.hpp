@@ -19,6 +19,10 @@
 
 namespace voxelume {
 
+/// Local light sends rays from each point to each spot of each emissive object. Together they have
+/// three times the spots of a studio's sun.
+inline constexpr size_t kLampSpots = 72;
+
 struct Contents {
     std::vector<std::string> materials;  ///< members: `"name": {...}`
     std::vector<std::string> models;     ///< members
@@ -31,7 +35,8 @@ struct Contents {
     std::vector<std::string> lights;      ///< items; none: those of a studio
     std::optional<FileLight> file_light;  ///< none: the studio's own
     bool has_glass = false;               ///< shadows are to let light through
-    int emissive_objects = 0;             ///< objects that emit light
+    std::vector<size_t> emissive_objects;  ///< numbers of items that emit light
+    size_t lamps_in_local_light = 16;      ///< of more emissive objects pictures are in global light
     Bounds box;                           ///< around all that is visible, metres
     glm::dvec3 voxel_size{0};             ///< of the world, metres
     glm::dvec3 lattice{0};                ///< a corner of some voxel, metres

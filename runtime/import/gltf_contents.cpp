@@ -91,6 +91,7 @@ class SceneOfGltf {
             add_observer_tracks(gltf_, nodes, frames_, contents_.tracks);
         if (!contents_.tracks.empty()) contents_.frames = frames_.count;
         contents_.fps = kGltfFrameRate;
+        contents_.lamps_in_local_light = kLampSpots;  // each has one
         return std::move(contents_);
     }
 
@@ -118,6 +119,7 @@ class SceneOfGltf {
         contents_.objects.push_back(fmt::format(
             "{{\"name\": {}, \"model\": {}{}{}{}}}", json_text(name), json_text(shown.name),
             materials_member(summary), spots_member(summary), place));
+        if (shines(summary)) contents_.emissive_objects.push_back(contents_.objects.size() - 1);
         const Bounds box = reach_of(shown.morph, gltf_, node.mesh, summary.surface, frames_.count);
         for (const glm::dmat4& map : maps) {
             add_box(map, box);
@@ -191,17 +193,23 @@ class SceneOfGltf {
         return found != material_numbers_.end() && unlit_.contains(int(found->second));
     }
 
+    /// True for a mesh some of whose materials emit light.
+    bool shines(const MeshSummary& summary) const {
+        return std::ranges::any_of(summary.group_names, [&](const std::string& group) {
+            const auto number = material_numbers_.find(group);
+            return number != material_numbers_.end() && !is_unlit(group) &&
+                   gltf_shines(root_.item("materials", number->second));
+        });
+    }
+
     /// What is unlit lights nothing, unless it is one object with what shines.
     std::string spots_member(const MeshSummary& summary) const {
-        bool has_unlit = false;
-        for (const std::string& group : summary.group_names) {
-            const auto number = material_numbers_.find(group);
-            if (number == material_numbers_.end()) continue;
-            if (is_unlit(group))
-                has_unlit |= gltf_has_color(root_.item("materials", number->second));
-            else if (gltf_shines(root_.item("materials", number->second)))
-                return {};
-        }
+        if (shines(summary)) return {};
+        const bool has_unlit =
+            std::ranges::any_of(summary.group_names, [&](const std::string& group) {
+                return is_unlit(group) &&
+                       gltf_has_color(root_.item("materials", material_numbers_.at(group)));
+            });
         return has_unlit ? ", \"spots\": 0" : "";
     }
 

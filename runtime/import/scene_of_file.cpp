@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
@@ -21,8 +22,7 @@ namespace {
 
 constexpr double kFilledShare = 0.92;  // of the image's width or height: shadows need room, too
 constexpr int kSamples = 4;
-// Local light sends rays from each point to each emissive object, global light to one of them.
-constexpr int kEmissiveObjectsInLocalLight = 16, kGlobalSamples = 64;
+constexpr int kGlobalSamples = 64;
 constexpr double kAmbientInside = 0.15;
 
 struct ModelFormat {
@@ -161,6 +161,25 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
     return a;
 }
 
+/// The objects, of which emissive ones share kLampSpots, where there are several.
+std::vector<std::string> lit_objects(const Contents& contents) {
+    std::vector<std::string> objects = contents.objects;
+    const size_t count = contents.emissive_objects.size();
+    if (count < 2) return objects;
+    for (const size_t number : contents.emissive_objects) {
+        objects[number].pop_back();
+        objects[number] +=
+            fmt::format(", \"spots\": {}}}", std::max<size_t>(1, kLampSpots / count));
+    }
+    return objects;
+}
+
+/// How high the observer of a file stands.
+double height_of(const std::string& observer) {
+    const std::string member = observer.substr(0, observer.rfind(','));
+    return nlohmann::json::parse("{" + member + "}")["observer"]["position"][1];
+}
+
 std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const bool is_own = options.has_own_camera && !options.is_lattice;
     const bool has_camera = is_own && !contents.observer.empty();
@@ -171,6 +190,9 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     // for.
     ImportOptions studio_options = options;
     if (has_lights && !options.has_ground) studio_options.has_ground = false;
+    // Neither would a camera below it see anything else.
+    if (has_camera && !options.has_ground && height_of(contents.observer) < contents.box.min.y)
+        studio_options.has_ground = false;
     Studio studio = make_studio(contents.box, contents.voxel_size, from, studio_options,
                                 contents.file_light, has_camera || has_lights ? kAmbientInside : 0);
     if (has_lights) studio.sky.clear();
@@ -181,7 +203,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
         bounds_member(contents, studio.box), studio.sky, studio.medium);
     text += part("materials", '{', joined(contents.materials, studio.materials), '}');
     text += part("models", '{', joined(contents.models, studio.models), '}');
-    text += part("objects", '[', joined(contents.objects, studio.objects), ']');
+    text += part("objects", '[', joined(lit_objects(contents), studio.objects), ']');
     const auto& lights = has_lights ? contents.lights : studio.lights;
     // Scenes without a list of lights get one.
     text += lights.empty() ? "  \"lights\": [],\n" : part("lights", '[', lights, ']');
@@ -192,7 +214,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     text += has_camera ? contents.observer : observer_of(contents.box, studio.box, from, options);
     // Volumetric images are in local light.
     const bool is_global =
-        contents.emissive_objects > kEmissiveObjectsInLocalLight && !options.is_lattice;
+        contents.emissive_objects.size() > contents.lamps_in_local_light && !options.is_lattice;
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}{}{}}}\n}}\n",
                               options.size.x, options.size.y, is_global ? kGlobalSamples : kSamples,
                               is_global ? ", \"light\": \"global\"" : "",

@@ -117,7 +117,8 @@ class VoxContents {
         if (object.hidden || first > 0) text += ", \"visible\": false";
         contents_.objects.push_back(text + "}");
         if (object.hidden) return;
-        contents_.emissive_objects += int(parts_.is_emissive(model));
+        if (parts_.is_emissive(model))
+            contents_.emissive_objects.push_back(contents_.objects.size() - 1);
         if (!is_always) add_visible_track(name, first, last);
         add_pose_tracks(name, object, turns.is_mirrored);
         for (const VoxPose& at : object.poses) add_box(placement_of(at), parts_.box_of(model));

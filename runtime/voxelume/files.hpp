@@ -21,8 +21,9 @@ namespace voxelume::v1 {
 /// How a mesh becomes voxels.
 struct VoxelizeOptions {
     double voxel_size = 0;                     ///< metres; 0: `resolution` decides
-    int resolution = 0;                        ///< voxels along the longest side; 0: 256, and of
-                                               ///< points as few as leave no gaps between them
+    int resolution = 0;                        ///< voxels along the longest side; 0: 256, as many
+                                               ///< as fit one model of a .vox, and of points as
+                                               ///< few as leave no gaps between them
     std::optional<Surface> surface{};          ///< what a voxel shows; without it smooth, and
                                                ///< cubes of points and lines
     VoxelSet set = VoxelSet::supercover;       ///< of cubes
@@ -63,7 +64,8 @@ VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesys
                               const Device& device, const VoxelizeSceneOptions& options = {});
 
 /// Whether `convert_voxels` writes the voxels of the one to the other, by their names and, where
-/// these don't decide, by what the first file begins with.
+/// these don't decide, by what is in the first file. Throws Error::input for an OpenVDB file that
+/// can't be read.
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Writes the voxels of a file to one of another format: those of a model file of cubes (to .vox,

@@ -51,6 +51,39 @@ TEST_F(ApiGltf, EachNodeIsAnObjectOfTheModelOfItsMesh) {
     EXPECT_THAT(whole, Not(HasSubstr("\"part\"")));
 }
 
+TEST_F(ApiGltf, LampsShareTheRaysOfEachPoint) {
+    const auto scene_with = [&](int lamps) {
+        GltfWriter writer = triangle_gltf();
+        writer.json["materials"] = {{{"name", "m"}, {"emissiveFactor", {1, 1, 1}}}};
+        writer.json["meshes"][0]["primitives"][0]["material"] = 0;
+        writer.json["nodes"] = Json::array();
+        writer.json["scenes"][0]["nodes"] = Json::array();
+        for (int i = 0; i < lamps; ++i) {
+            writer.json["nodes"].push_back({{"mesh", 0}, {"translation", {9 * i, 0, 0}}});
+            writer.json["scenes"][0]["nodes"].push_back(i);
+        }
+        return scene_of(writer);
+    };
+    EXPECT_THAT(scene_with(1), Not(HasSubstr("\"spots\": 72")));
+    EXPECT_THAT(scene_with(3), HasSubstr("\"spots\": 24}"));
+    EXPECT_THAT(scene_with(72), HasSubstr("\"spots\": 1}"));
+    EXPECT_THAT(scene_with(72), Not(HasSubstr("global")));
+    EXPECT_THAT(scene_with(73), HasSubstr("\"light\": \"global\""));
+}
+
+TEST_F(ApiGltf, ACameraBelowHasNoGroundAboveIt) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1}}}}};
+    for (const double height : {1.0, -1.0}) {
+        writer.json["nodes"] = {{{"mesh", 0}}, {{"camera", 0}, {"translation", {0, height, 9}}}};
+        writer.json["scenes"][0]["nodes"] = {0, 1};
+        EXPECT_EQ(scene_of(writer).find("\"ground\"") != std::string::npos, height > 0);
+        EXPECT_THAT(scene_of(writer, {.ground = true}), HasSubstr("\"ground\""));
+        EXPECT_THAT(scene_of(writer, {.longitude = 20, .own_camera = false}), HasSubstr("\"ground\""));
+    }
+}
+
 TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
     EXPECT_THAT(
         with_material({{"pbrMetallicRoughness",

@@ -7,6 +7,7 @@
 #include "runtime/io/volume_file.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/volume_samples.hpp"
+#include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 
@@ -53,6 +54,8 @@ TEST_F(CliConvertTest, WhatCantBeConvertedSaysWhy) {
     EXPECT_THAT(failure("a.vdb b.vdx", 2), HasSubstr("ends in one of .vdb"));
     EXPECT_THAT(failure("a.vdb b.vdb --format vbd", 2), HasSubstr("did you mean \"vdb\"?"));
     EXPECT_THAT(failure("a.vdb b.planes --dither floyd", 2), HasSubstr("--dither"));
+    put_bytes(folder / "a.npy", npy_bytes("|u1", "2, 1, 1, 4", "\xff\xff\xff\xff\1\2\3\xff"));
+    EXPECT_THAT(failure("a.npy b.qb", 2), HasSubstr("the name of voxels ends in .vox"));
     EXPECT_THAT(failure("b.vdb c.vdb", 4), HasSubstr("no such file"));
     failure("a.vdb", 2);
     failure("a.vdb nowhere/b.vdb", 5);
@@ -82,8 +85,8 @@ TEST_F(CliConvertTest, InfoDescribesVolumes) {
     EXPECT_EQ(info("a.exr")["step"], 0.3);
     EXPECT_EQ(info("a.planes.json")["format"], "planes");
     EXPECT_EQ(info("a.kv6")["size"], nlohmann::json({7, 3, 5}));
-    put_bytes(folder / "scene.json", "{\"voxelume\": 1}");
-    EXPECT_EQ(run("info scene.json").exit_code, 4);
+    put_bytes(folder / "other.json", "{\"volume\": 1}");
+    EXPECT_EQ(run("info other.json").exit_code, 4);
 }
 
 }  // namespace voxelume

@@ -148,6 +148,15 @@ TEST_F(CliInputsTest, TheFramesOfAnInputHaveItsName) {
     EXPECT_THAT(names(), ElementsAre("scene-0001.png", "scene-0002.png", "scene.json"));
 }
 
+TEST_F(CliInputsTest, ASceneIsViewedAsItsVolumetricImage) {
+    ASSERT_EQ(run("render scene.json -q --volume scene.nrrd").exit_code, 0);
+    ASSERT_EQ(run("view scene.nrrd -o a.png").exit_code, 0);
+    ASSERT_EQ(run("view scene.json -o b.png").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "a.png"), bytes_of(folder / "b.png"));
+    put_bytes(folder / "other.json", "{}");
+    EXPECT_THAT(expect_failure(4, "view other.json -o c.png"), HasSubstr("neither a scene"));
+}
+
 TEST_F(CliInputsTest, ViewsGoRoundASceneAndAModel) {
     put_bytes(folder / "wedge.obj", kTetrahedron);
     ASSERT_EQ(run("render scene.json wedge.obj -q --views 4 -o '{name}{view}.exr' --size 16x12 "

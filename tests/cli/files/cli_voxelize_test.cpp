@@ -5,6 +5,7 @@
 
 #include "tests/cli/scene_program.hpp"
 #include "tests/support/writers/array_writer.hpp"
+#include "tests/support/writers/gltf_writer.hpp"
 
 namespace voxelume {
 
@@ -92,7 +93,9 @@ TEST_F(CliVoxelizeTest, ASceneBecomesTheCubesOfItsWorldInTheirColors) {
                                                              : std::array{0, 0, 0, 0};
                 EXPECT_EQ(cells.at(x, y, z), expected) << x << " " << y << " " << z;
             }
-    for (const char* copy : {"s.vxm", "s.vdb"}) {
+    for (const char* copy : {"s.nrrd", "t.vdb", "s.kv6"})  // as of no display
+        EXPECT_EQ(run(fmt::format("convert s.vdb {}", copy)).exit_code, 0) << copy;
+    for (const char* copy : {"s.vxm", "s.vdb", "s.nrrd", "t.vdb"}) {
         ASSERT_EQ(run(fmt::format("convert {} copy.npy", copy)).exit_code, 0) << copy;
         const ColorCells read = cells_of(bytes_of(folder / "copy.npy"));
         EXPECT_EQ(read.size, cells.size) << copy;
@@ -162,6 +165,30 @@ TEST_F(CliVoxelizeTest, AScanHasTheVoxelsThatItsPictureHas) {
         EXPECT_EQ(made("labels.npy")["voxels"], 3) << command;
         EXPECT_EQ(made("labels.npy")["colors used"], 2) << command;
     }
+}
+
+TEST_F(CliVoxelizeTest, FramesOfAMovingGltfAreThoseOfItsScene) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}},
+         {"samplers",
+          {{{"input", writer.accessor(std::vector<float>{0, 1}, "SCALAR", 1)},
+            {"output", writer.accessor(std::vector<float>{1, 1, 1, 2, 1, 1}, "VEC3", 3)}}}}}};
+    put_bytes(folder / "a.glb", writer.glb());
+    ASSERT_EQ(run("voxelize a.glb -o a.####.npy --frames 1,25 --resolution 40").exit_code, 0);
+    const auto width = [&](const char* name) { return cells_of(bytes_of(folder / name)).size[0]; };
+    EXPECT_NEAR(width("a.0025.npy"), 2 * width("a.0001.npy"), 2);
+    ASSERT_EQ(run("voxelize a.glb -o b.npy --frame 25 --resolution 20").exit_code, 0);
+    EXPECT_NEAR(width("b.npy"), 20, 1);
+}
+
+TEST_F(CliVoxelizeTest, AMeshIsOneModelOfAVox) {
+    put_bytes(folder / "wedge.obj", kTetrahedron);
+    const ProgramResult result = run("voxelize wedge.obj -o a.vox");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json report = Json::parse(run("info a.vox --json").out);
+    EXPECT_EQ(report["models"], 1);
+    EXPECT_GE(report["model list"][0]["size"][0], 254);
 }
 
 TEST_F(CliVoxelizeTest, AFrameOfASceneThatMovesIsChosen) {
