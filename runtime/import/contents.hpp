@@ -36,10 +36,10 @@ struct Contents {
     std::optional<FileLight> file_light;  ///< none: the studio's own
     bool has_glass = false;               ///< shadows are to let light through
     std::vector<size_t> emissive_objects;  ///< numbers of items that emit light
-    size_t lamps_in_local_light = 16;      ///< of more emissive objects pictures are in global light
-    Bounds box;                           ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};             ///< of the world, metres
-    glm::dvec3 lattice{0};                ///< a corner of some voxel, metres
+    size_t lamps_in_local_light = 16;  ///< of more emissive objects pictures are in global light
+    Bounds box;                        ///< around all that is visible, metres
+    glm::dvec3 voxel_size{0};          ///< of the world, metres
+    glm::dvec3 lattice{0};             ///< a corner of some voxel, metres
 };
 
 /// Names that are taken, so that each new one is another.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <map>
@@ -56,12 +57,12 @@ struct MeshModel {
 
 class SceneOfGltf {
   public:
-    explicit SceneOfGltf(const ImportedFile& file)
+    SceneOfGltf(const ImportedFile& file, const glm::dmat4& world_from_file)
         : file_(file),
           gltf_(file.assets.gltf_file(file.path)),
           root_(gltf_.root()),
           clip_(clip_of(gltf_, file.options.clip)),
-          motion_(gltf_, clip_),
+          motion_(gltf_, clip_, world_from_file),
           unlit_(gltf_unlit_materials(gltf_)),
           frames_{motion_, clip_.tracks.empty() ? 1 : frame_count(clip_.seconds)} {
         for (size_t i = 0; i < gltf_.material_names().size(); ++i)
@@ -72,7 +73,9 @@ class SceneOfGltf {
         contents_.box = {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
         std::vector<GltfNode> nodes = gltf_nodes(gltf_);
         for (GltfNode& node : nodes) {
-            if (motion_.moves(node.number)) node.world_from_node = frames_.map_at(node, 1);
+            node.world_from_node = motion_.moves(node.number)
+                                       ? frames_.map_at(node, 1)
+                                       : motion_.world_from_file() * node.world_from_node;
             if (node.mesh >= 0) add_object(node);
         }
         if (contents_.objects.empty() || !(longest_side(contents_.box) > 0))
@@ -80,12 +83,14 @@ class SceneOfGltf {
                         SourcePlace(file_.path.string()));
         contents_.voxel_size = mesh_voxel_size(contents_.box, has_textures_);
         if (!has_area_)
-            contents_.voxel_size = point_voxel_size(file_.assets.mesh(file_.path), contents_, 1);
+            contents_.voxel_size =
+                point_voxel_size(file_.assets.mesh(file_.path), contents_, frames_.scale());
         contents_.materials.insert(contents_.materials.begin(),
                                    fmt::format("\"default\": {{\"color\": {}, \"specular\": 0.1}}",
                                                has_colors_ ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
         for (const MeshModel& model : models_) contents_.models.push_back(model_text(model));
-        contents_.observer = gltf_observer(gltf_, nodes, contents_.box, file_.options.size);
+        contents_.observer =
+            gltf_observer(gltf_, nodes, contents_.box, file_.options.size, frames_.scale());
         contents_.lights = gltf_light_items(gltf_, nodes, contents_.box, frames_, contents_.tracks);
         if (file_.options.has_own_camera && !file_.options.is_lattice)
             add_observer_tracks(gltf_, nodes, frames_, contents_.tracks);
@@ -102,7 +107,7 @@ class SceneOfGltf {
         // Its joints place what has a skin, whatever its node does.
         const bool is_skinned = node.skin >= 0;
         std::vector<glm::dmat4> maps =
-            is_skinned ? std::vector{glm::dmat4(1)} : frames_.maps_of(node);
+            is_skinned ? std::vector{motion_.world_from_file()} : frames_.maps_of(node);
         std::erase_if(maps, [](const glm::dmat4& map) { return !can_be_placed(map); });
         if (maps.empty()) return;
         Model model;
@@ -115,7 +120,8 @@ class SceneOfGltf {
         const std::string wanted = node.name.empty() ? mesh.text("name") : node.name;
         const std::string name = objects_.unique(wanted.empty() ? "object" : wanted);
         MeshModel& shown = model_of(node, mesh, summary);
-        std::string place = is_skinned ? "" : place_text(node, name);
+        const std::string place =
+            is_skinned ? matrix_member(motion_.world_from_file()) : place_text(node, name);
         contents_.objects.push_back(fmt::format(
             "{{\"name\": {}, \"model\": {}{}{}{}}}", json_text(name), json_text(shown.name),
             materials_member(summary), spots_member(summary), place));
@@ -135,8 +141,12 @@ class SceneOfGltf {
             for (std::string& track : place.tracks) contents_.tracks.push_back(std::move(track));
             return place.members;
         }
-        if (node.world_from_node == glm::dmat4(1)) return {};
-        return fmt::format(",\n     \"matrix\": {}", matrix_text(node.world_from_node));
+        return matrix_member(node.world_from_node);
+    }
+
+    static std::string matrix_member(const glm::dmat4& map) {
+        if (map == glm::dmat4(1)) return {};
+        return fmt::format(",\n     \"matrix\": {}", matrix_text(map));
     }
 
     void add_box(const glm::dmat4& map, const Bounds& box) {
@@ -218,7 +228,8 @@ class SceneOfGltf {
         const GltfValue material = root_.item("materials", material_numbers_.at(group));
         contents_.has_glass |= gltf_transmits(material) && !is_unlit(group);
         contents_.materials.push_back(
-            fmt::format("{}: {{{}}}", json_text(name), gltf_values(material, is_unlit(group))));
+            fmt::format("{}: {{{}}}", json_text(name),
+                        gltf_values(material, is_unlit(group), frames_.scale())));
         return name;
     }
 
@@ -242,9 +253,13 @@ class SceneOfGltf {
 }  // namespace
 
 Contents gltf_contents(const ImportedFile& file) {
-    // A size, or another axis that is up, is that of all objects together: they become one model.
-    if (file.options.fit > 0 || file.options.up == UpAxis::z) return mesh_contents(file);
-    return SceneOfGltf(file).read();
+    // Z becomes Y, and Y becomes -Z.
+    const glm::dmat4 z_up(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+    const glm::dmat4 upright = file.options.up == UpAxis::z ? z_up : glm::dmat4(1);
+    Contents contents = SceneOfGltf(file, upright).read();
+    if (file.options.fit == 0) return contents;
+    const double scale = file.options.fit / longest_side(contents.box);
+    return SceneOfGltf(file, glm::scale(glm::dmat4(1), glm::dvec3(scale)) * upright).read();
 }
 
 }  // namespace voxelume

@@ -88,8 +88,9 @@ std::string perspective_display(const GltfValue& camera, const glm::ivec2& size)
 }
 
 /// A box as deep as what the camera shows, behind its near plane.
-std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, double depth) {
-    const double height = 2 * std::max(std::abs(camera.number("ymag", 1)), 1e-6);
+std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, double scale,
+                             double depth) {
+    const double height = 2 * scale * std::max(std::abs(camera.number("ymag", 1)), 1e-6);
     return fmt::format("\"shape\": \"box\", \"size\": [{}, {}, {}]",
                        rounded(height * size.x / size.y, 8), rounded(height, 8), rounded(depth, 8));
 }
@@ -171,7 +172,7 @@ std::vector<glm::dmat4> GltfFrames::maps_of(const GltfNode& node) const {
 }
 
 std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
-                          const Bounds& box, const glm::ivec2& size) {
+                          const Bounds& box, const glm::ivec2& size, double scale) {
     const auto node = first_camera(nodes);
     if (node == nodes.end()) return {};
     const GltfValue camera = file.root().item("cameras", size_t(node->camera));
@@ -185,15 +186,15 @@ std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nod
     std::string display;
     if (camera.text("type") == "orthographic") {
         const GltfValue values = camera.at("orthographic");
-        const double near = near_of(camera);
+        const double near = scale * near_of(camera);
         position += near * towards;
-        const double far = values.number("zfar", near + depth) - near;
-        depth = std::max(std::min(far, 1.01 * depth), 1e-3);
-        display = parallel_display(values, size, depth);
+        const double far = scale * values.number("zfar", (near + depth) / scale) - near;
+        depth = std::max(std::min(far, 1.01 * depth), 1e-3 * scale);
+        display = parallel_display(values, size, scale, depth);
     } else {
         display = perspective_display(camera.at("perspective"), size);
     }
-    const double distance = depth > 0 ? depth / 2 : 1;
+    const double distance = depth > 0 ? depth / 2 : scale;
     return fmt::format(
         "  \"observer\": {{\"position\": {}, \"look_at\": {}, \"up\": {},\n"
         "               \"display\": {{{}}}}},\n",
@@ -205,7 +206,7 @@ void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& node
                          const GltfFrames& frames, std::vector<std::string>& tracks) {
     const auto node = first_camera(nodes);
     if (node == nodes.end() || !frames.motion.moves(node->number)) return;
-    const double near = near_of(file.root().item("cameras", size_t(node->camera)));
+    const double near = frames.scale() * near_of(file.root().item("cameras", size_t(node->camera)));
     const std::vector<glm::dmat4> maps = with_directions(all_maps(frames, *node));
     const auto position = [near](const glm::dmat4& map) {
         return glm::dvec3(map[3]) + near * direction_of(map);

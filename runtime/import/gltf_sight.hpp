@@ -21,6 +21,9 @@ struct GltfFrames {
     const GltfMotion& motion;
     int count = 1;
 
+    /// How many metres a metre of the file has.
+    double scale() const { return glm::length(glm::dvec3(motion.world_from_file()[0])); }
+
     glm::dmat4 map_at(const GltfNode& node, int frame) const {
         return motion.world_from_node(node, (frame - 1) / kGltfFrameRate);
     }
@@ -30,9 +33,9 @@ struct GltfFrames {
 };
 
 /// The observer of the file's first camera; empty where there is none. An image of another shape
-/// than the camera's keeps its height.
+/// than the camera's keeps its height. A metre of the file has `scale` metres.
 std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
-                          const Bounds& box, const glm::ivec2& size);
+                          const Bounds& box, const glm::ivec2& size, double scale);
 
 /// Appends the tracks of that observer, frame by frame, where its camera moves.
 void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& nodes,

@@ -56,7 +56,7 @@ struct Link {
 
 std::vector<Link> links_of(const GltfMotion& motion, const GltfNode& node) {
     std::vector<Link> links;
-    glm::dmat4 still(1);
+    glm::dmat4 still = motion.world_from_file();
     const auto add_still = [&] {
         if (still != glm::dmat4(1)) links.push_back({-1, still});
         still = glm::dmat4(1);

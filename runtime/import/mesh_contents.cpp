@@ -6,10 +6,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
-#include "runtime/import/gltf_values.hpp"
 #include "runtime/import/mtl_values.hpp"
-#include "runtime/io/gltf/gltf_mesh.hpp"
-#include "runtime/io/gltf/gltf_texture_use.hpp"
 
 namespace voxelume {
 namespace {
@@ -28,26 +25,12 @@ std::string plain_values(const MeshSummary& mesh) {
 /// A material that a group of faces has in the file.
 struct FileMaterial {
     std::string group, values;
-    bool transmits = false, is_unlit = false, shines = false;
+    bool transmits = false;
 };
 
-/// The materials of an OBJ file's library, or of a glTF file.
-std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSummary& mesh,
-                                       double scale) {
+/// The materials of an OBJ file's library.
+std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSummary& mesh) {
     std::vector<FileMaterial> materials;
-    if (is_gltf_file(file.path)) {
-        const GltfFile& gltf = file.assets.gltf_file(file.path);
-        const std::set<int> unlit = gltf_unlit_materials(gltf);
-        for (size_t i = 0; i < gltf.root().size("materials"); ++i) {
-            const GltfValue material = gltf.root().item("materials", i);
-            const bool is_unlit = unlit.contains(int(i));
-            materials.push_back({gltf.material_names()[i], gltf_values(material, is_unlit, scale),
-                                 gltf_transmits(material) && !is_unlit,
-                                 is_unlit && gltf_has_color(material),
-                                 !is_unlit && gltf_shines(material)});
-        }
-        return materials;
-    }
     std::vector<std::string> faults;  // the mesh's summary has them, too
     for (MtlMaterial material :
          read_material_libraries(file.path, mesh.material_libraries, faults)) {
@@ -62,18 +45,15 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
 /// that name them, and the material of all other groups, which is named as the model. Where the
 /// file's own is missing, that is the scene's "default", so that a warning asks for another one.
 std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
-                          const std::string& name, double scale, Contents& contents) {
-    const std::vector<FileMaterial> materials = materials_of(file, mesh, scale);
+                          const std::string& name, Contents& contents) {
+    const std::vector<FileMaterial> materials = materials_of(file, mesh);
     std::vector<std::string> members;
-    bool has_unlit = false, shines = false;
     NameList names({"default", "ground", name});
     for (const std::string& group : mesh.group_names) {
         const auto found = std::ranges::find(materials, group, &FileMaterial::group);
         if (found == materials.end()) continue;
         const std::string material = names.unique(group);
         contents.has_glass |= found->transmits;
-        has_unlit |= found->is_unlit;
-        shines |= found->shines;
         contents.materials.push_back(fmt::format("{}: {{{}}}", json_text(material), found->values));
         members.push_back(fmt::format("{}: {}", json_text(group), json_text(material)));
     }
@@ -85,8 +65,6 @@ std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
     }
     if (!members.empty())
         text += fmt::format(",\n     \"materials\": {{{}}}", fmt::join(members, ",\n       "));
-    // What is unlit lights nothing, unless it is one object with what shines.
-    if (has_unlit && !shines) text += ", \"spots\": 0";
     return text;
 }
 
@@ -113,7 +91,7 @@ Contents mesh_contents(const ImportedFile& file) {
     contents.models.push_back(fmt::format("{}: {{\"mesh\": {}, {}{}}}", json_text(name),
                                           json_text(file.name), surface_members(summary, true),
                                           fit_member(file.options)));
-    const std::string members = add_materials(file, summary, name, scale, contents);
+    const std::string members = add_materials(file, summary, name, contents);
     contents.objects.push_back(fmt::format("{{\"name\": {0}, \"model\": {0}{1}{2}}}",
                                            json_text(name), members,
                                            turns ? ", \"turn\": [0, -90, 0]" : ""));

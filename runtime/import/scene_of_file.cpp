@@ -248,11 +248,6 @@ std::string scene_of_file(const std::filesystem::path& file, const std::string& 
     if (!options.clip.empty() && read != gltf_contents)
         throw Error(ErrorKind::usage, "{}: only glTF files have clips; leave {} out",
                     SourcePlace(file.string()), quote(options.clip));
-    if (!options.clip.empty() && (options.fit > 0 || options.up == UpAxis::z))
-        throw Error(ErrorKind::usage,
-                    "{}: a clip moves the parts of a file, which is one mesh where it is fitted or "
-                    "turned; leave one of them out",
-                    SourcePlace(file.string()));
     if (options.spacing && read != voxel_contents)
         throw Error(ErrorKind::usage,
                     "{}: only scans, arrays and files of voxels of one model have a spacing",

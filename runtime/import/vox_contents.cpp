@@ -69,22 +69,23 @@ std::string turn_text(const QuarterTurns& turns) {
 
 class VoxContents {
   public:
-    explicit VoxContents(const ImportedFile& file)
-        : file_(file), vox_(file.assets.vox_file(file.path)), parts_(file, vox_) {}
+    /// Voxels have edges of `edge` metres.
+    VoxContents(const ImportedFile& file, double edge)
+        : file_(file), vox_(file.assets.vox_file(file.path)), parts_(file, vox_), edge_(edge) {}
 
     Contents read() {
-        contents_.voxel_size = glm::dvec3(1);
+        contents_.voxel_size = glm::dvec3(edge_);
         contents_.box = {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
         contents_.frames = vox_.frames;
         for (const VoxObject& object : vox_.objects) add_object(object);
         if (contents_.box.min.x > contents_.box.max.x)
             InputFile(file_.path).refuse("has no voxels to show");
         contents_.models = parts_.models();
-        contents_.materials = parts_.materials();
+        contents_.materials = parts_.materials(edge_);
         contents_.has_glass = parts_.has_glass();
         contents_.from = {-40, 30};  // as in the editor; see vox_light_test.cpp
-        contents_.observer = vox_observer(vox_, contents_.box, file_.options.size);
-        contents_.file_light = vox_file_light(vox_.render);
+        contents_.observer = vox_observer(vox_, contents_.box, file_.options.size, edge_);
+        contents_.file_light = vox_file_light(vox_.render, edge_);
         return std::move(contents_);
     }
 
@@ -113,7 +114,8 @@ class VoxContents {
         const QuarterTurns turns = turns_of(placement_of(*pose));
         if (turns.quarters != QuarterTurns().quarters || turns_change(object))
             text += ", \"turn\": " + turn_text(turns);
-        if (turns.is_mirrored) text += ", \"scale\": -1";
+        const double scale = turns.is_mirrored ? -edge_ : edge_;
+        if (scale != 1) text += fmt::format(", \"scale\": {}", scale);
         if (object.hidden || first > 0) text += ", \"visible\": false";
         contents_.objects.push_back(text + "}");
         if (object.hidden) return;
@@ -124,7 +126,9 @@ class VoxContents {
         for (const VoxPose& at : object.poses) add_box(placement_of(at), parts_.box_of(model));
     }
 
-    static glm::dvec3 position_of(const VoxPose& pose) { return glm::dvec3(placement_of(pose)[3]); }
+    glm::dvec3 position_of(const VoxPose& pose) const {
+        return edge_ * glm::dvec3(placement_of(pose)[3]);
+    }
 
     static bool turns_change(const VoxObject& object) {
         return std::ranges::any_of(object.poses, [&](const VoxPose& pose) {
@@ -175,7 +179,7 @@ class VoxContents {
 
     void add_box(const glm::dmat4& place, const Bounds& box) {
         for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p(place * glm::dvec4(corner(box, i), 1));
+            const glm::dvec3 p = edge_ * glm::dvec3(place * glm::dvec4(corner(box, i), 1));
             contents_.box = {glm::min(contents_.box.min, p), glm::max(contents_.box.max, p)};
         }
     }
@@ -183,6 +187,7 @@ class VoxContents {
     const ImportedFile& file_;
     const VoxFile& vox_;
     VoxParts parts_;
+    double edge_;
     Contents contents_;
     std::map<std::string, int> names_ = {{"ground", 1}};  ///< how many objects have each
 };
@@ -190,8 +195,9 @@ class VoxContents {
 }  // namespace
 
 Contents vox_contents(const ImportedFile& file) {
-    // A size is that of all objects together, so they become one model.
-    return file.options.fit > 0 ? whole_vox_contents(file) : VoxContents(file).read();
+    Contents contents = VoxContents(file, 1).read();
+    if (file.options.fit == 0) return contents;
+    return VoxContents(file, file.options.fit / longest_side(contents.box)).read();
 }
 
 }  // namespace voxelume

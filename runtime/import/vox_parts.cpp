@@ -142,30 +142,13 @@ std::vector<std::string> VoxParts::models() const {
     return members;
 }
 
-std::vector<std::string> VoxParts::materials() const {
+std::vector<std::string> VoxParts::materials(double voxel) const {
     std::vector<std::string> members = {"\"default\": {\"color\": [1, 1, 1]}"};
     for (const int entry : entries_)
         members.push_back(fmt::format(
             "{}: {{{}}}", json_text(material_name(vox_, entry)),
-            material_values(vox_.materials[size_t(entry)], vox_.palette[size_t(entry)])));
+            material_values(vox_.materials[size_t(entry)], vox_.palette[size_t(entry)], voxel)));
     return members;
-}
-
-Contents whole_vox_contents(const ImportedFile& file) {
-    Contents contents = voxel_contents(file);
-    const VoxFile& vox = file.assets.vox_file(file.path);
-    const std::vector<std::string>& groups = file.assets.groups_of(vox_model(file, 0));
-    for (size_t i = 1; i < groups.size(); ++i) {
-        const size_t entry = size_t(entry_of(groups[i]));
-        contents.has_glass |= vox.materials[entry].kind == VoxMaterialKind::glass;
-        contents.materials.push_back(fmt::format(
-            "{}: {{{}}}", json_text(groups[i]),
-            material_values(vox.materials[entry], vox.palette[entry], contents.voxel_size.x)));
-    }
-    contents.objects.front().pop_back();
-    contents.objects.front() += members_of(groups) + "}";
-    contents.file_light = vox_file_light(vox.render, contents.voxel_size.x);
-    return contents;
 }
 
 }  // namespace voxelume

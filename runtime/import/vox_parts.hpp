@@ -30,8 +30,9 @@ class VoxParts {
     /// Whether light goes through a material that is needed.
     bool has_glass() const;
 
-    std::vector<std::string> models() const;     ///< members of those that were named
-    std::vector<std::string> materials() const;  ///< and of the materials that they have
+    std::vector<std::string> models() const;  ///< members of those that were named
+    /// Members of the materials that they have, for voxels with edges of `voxel` metres.
+    std::vector<std::string> materials(double voxel) const;
 
   private:
     const ImportedFile& file_;
@@ -46,8 +47,5 @@ Model vox_model(const ImportedFile& file, int part);
 /// A material of a scene that looks like a palette entry's: its values without braces.
 /// Its voxels have edges of `voxel` metres.
 std::string material_values(const VoxMaterial& material, uint32_t color, double voxel = 1);
-
-/// All objects of the file as one model, which has the size of the options.
-Contents whole_vox_contents(const ImportedFile& file);
 
 }  // namespace voxelume

@@ -49,12 +49,12 @@ double half_height(const VoxCamera& camera, double angle) {
 }
 
 /// The display or projection of a camera that shows so much above its middle.
-std::string display_member(VoxCameraKind kind, double half, const glm::ivec2& size) {
+std::string display_member(VoxCameraKind kind, double half, const glm::ivec2& size, double voxel) {
     switch (kind) {
         case VoxCameraKind::orthographic:
         case VoxCameraKind::isometric:
             return fmt::format("\"projection\": \"orthographic\", \"height\": {}",
-                               rounded(2 * half, 6));
+                               rounded(2 * half * voxel, 6));
         case VoxCameraKind::panoramic:
             return "\"projection\": \"panoramic\"";
         default: {
@@ -66,10 +66,11 @@ std::string display_member(VoxCameraKind kind, double half, const glm::ivec2& si
 }
 
 /// How far back an observer with parallel rays has to step to have all of the box before him.
-double step_back(const Bounds& box, const glm::dvec3& position, const glm::dvec3& backwards) {
+double step_back(const Bounds& box, const glm::dvec3& position, const glm::dvec3& backwards,
+                 double voxel) {
     double back = 0;
     for (int i = 0; i < 8; ++i)
-        back = std::max(back, glm::dot(corner(box, i) - position, backwards) + 1);
+        back = std::max(back, glm::dot(corner(box, i) - position, backwards) + voxel);
     return back;
 }
 
@@ -81,16 +82,17 @@ const VoxCamera* used_camera(const VoxFile& vox) {
     return used == vox.cameras.end() ? nullptr : &*used;
 }
 
-std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size) {
+std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
+                         double voxel) {
     const VoxCamera* camera = used_camera(vox);
     if (camera == nullptr) return {};
     const glm::dmat3 axes = axes_of(*camera);
-    const glm::dvec3 focus = turned(camera->focus);
+    const glm::dvec3 focus = voxel * turned(camera->focus);
     const double half = half_height(*camera, camera->angle.value_or(vox.render.angle));
-    const std::string display = display_member(camera->kind, half, size);
-    glm::dvec3 position = focus + camera->radius * axes[2];
+    const std::string display = display_member(camera->kind, half, size, voxel);
+    glm::dvec3 position = focus + voxel * camera->radius * axes[2];
     if (display.find("orthographic") != std::string::npos)
-        position += step_back(box, position, axes[2]) * axes[2];
+        position += step_back(box, position, axes[2], voxel) * axes[2];
     return fmt::format(
         "  \"observer\": {{\"position\": {}, \"look_at\": {}, \"up\": {},\n"
         "               {}}},\n",

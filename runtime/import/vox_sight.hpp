@@ -15,7 +15,9 @@ namespace voxelume {
 const VoxCamera* used_camera(const VoxFile& vox);
 
 /// `"observer": {...}` of the file's camera, who sees what is in the box; empty where it has none.
-std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size);
+/// Voxels have edges of `voxel` metres.
+std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
+                         double voxel);
 
 /// The light of MagicaVoxel with the file's settings, or its usual ones where it has none. The
 /// scene's voxels have edges of `voxel` metres.

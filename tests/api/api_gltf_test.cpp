@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "tests/api/api_fixture.hpp"
@@ -17,6 +18,8 @@ using Json = nlohmann::json;
 
 class ApiGltf : public ApiTest {
   protected:
+    const CacheOptions no_cache{.enabled = false};
+
     std::string scene_of(const GltfWriter& writer, const ImportOptions& options = {}) const {
         std::ofstream(folder / "a.glb", std::ios::binary) << writer.glb();
         return import_file(folder / "a.glb", folder, options, {.enabled = false});
@@ -46,9 +49,47 @@ TEST_F(ApiGltf, EachNodeIsAnObjectOfTheModelOfItsMesh) {
     EXPECT_THAT(scene, HasSubstr("\"matrix\": [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]]"));
     EXPECT_THAT(scene, Not(HasSubstr("\"name\": \"wedge\""))) << "a flat node can't be placed";
     const Scene read = scene_of_file(folder / "a.glb");
-    const std::string whole = scene_of(writer, {.fit = 2});
-    EXPECT_THAT(whole, HasSubstr("\"fit\": 2"));
-    EXPECT_THAT(whole, Not(HasSubstr("\"part\"")));
+    const std::string quarter = scene_of(writer, {.fit = 2});  // in place of 8 m
+    EXPECT_THAT(quarter, HasSubstr("[[0.25, 0, 0, 0.25], [0, 0.25, 0, 0.5], [0, 0, 0.25, 0.75]]"));
+}
+
+TEST_F(ApiGltf, OfAnotherSizeMovesAndLooksTheSame) {
+    GltfWriter writer = triangle_gltf();
+    const int times = writer.accessor(std::vector<float>{0, 1}, "SCALAR", 1);
+    const int places = writer.accessor(std::vector<float>{0, 0, 0, 2, 1, 0}, "VEC3", 3);
+    writer.json["animations"] = {
+        {{"channels",
+          {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+           {{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", times}, {"output", places}}}}}};
+    writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    writer.json["nodes"] = {{{"mesh", 0}},
+                            {{"translation", {3, 2, 20}}, {"children", {2, 3}}},
+                            {{"camera", 0}},
+                            {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    writer.json["scenes"][0]["nodes"] = {0, 1};
+    for (const Json& camera :
+         {Json{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1}}}},
+          Json{{"type", "orthographic"},
+               {"orthographic", {{"xmag", 6}, {"ymag", 6}, {"znear", 1}, {"zfar", 50}}}}}) {
+        writer.json["cameras"] = {camera};
+        scene_of(writer);
+        const auto picture = [&](const ImportOptions& options) {
+            const Scene scene = scene_of_file(folder / "a.glb", options, {.cache = no_cache});
+            EXPECT_EQ(scene.frames(), 25);
+            return render_image(scene, *device, 13, {.cache = no_cache});
+        };
+        const Image own = picture({.size = {60, 45}});
+        const Image large = picture({.fit = 300, .size = {60, 45}});
+        size_t seen = 0, other = 0;
+        for (size_t i = 0; i < own.object_ids().size(); ++i) {
+            seen += own.object_ids()[i] == 1;
+            other += own.object_ids()[i] != large.object_ids()[i] ||
+                     std::abs(own.plane("G")[i] - large.plane("G")[i]) > 0.01;
+        }
+        EXPECT_GT(seen, 100u) << camera;
+        EXPECT_LT(other, 10u) << camera;
+    }
 }
 
 TEST_F(ApiGltf, LampsShareTheRaysOfEachPoint) {
@@ -144,7 +185,6 @@ TEST_F(ApiGltf, UnlitMaterialsHaveTheirColourInAnyLight) {
     EXPECT_THAT(scene, HasSubstr("\"m\": {\"color\": [0, 0, 0], \"specular\": 0, "
                                  "\"emission\": [0.5, 0.25, 1]}"));
     EXPECT_THAT(scene, HasSubstr("\"spots\": 0"));
-    const CacheOptions no_cache{.enabled = false};
     const Image image = render_image(
         scene_of_file(folder / "a.glb", {.size = {40, 30}}, {.cache = no_cache}).with_samples(1),
         *device, 1, {.cache = no_cache});

@@ -20,8 +20,12 @@ Factors factors_in(const GltfValue& node) {
 
 }  // namespace
 
-GltfMotion::GltfMotion(const GltfFile& file, const GltfClip& clip)
-    : parents_(gltf_parents(file)), tracks_(parents_.size()), factors_(parents_.size()) {
+GltfMotion::GltfMotion(const GltfFile& file, const GltfClip& clip,
+                       const glm::dmat4& world_from_file)
+    : world_from_file_(world_from_file),
+      parents_(gltf_parents(file)),
+      tracks_(parents_.size()),
+      factors_(parents_.size()) {
     const std::vector<GltfValue> nodes = file.root().items("nodes");
     places_.reserve(nodes.size());
     for (const GltfValue& node : nodes) places_.push_back(gltf_parent_from_node(node));
@@ -64,7 +68,7 @@ glm::dmat4 GltfMotion::world_from_node(const GltfNode& node, double seconds) con
         map = (has_tracks(number) ? affine_from_factors(factors_at(number, seconds))
                                   : parent_from_node(number)) *
               map;
-    return map;
+    return world_from_file_ * map;
 }
 
 }  // namespace voxelume

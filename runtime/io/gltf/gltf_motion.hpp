@@ -15,7 +15,9 @@ namespace voxelume {
 /// A clip, which outlives it, that moves a file's nodes.
 class GltfMotion {
   public:
-    GltfMotion(const GltfFile& file, const GltfClip& clip);
+    /// `world_from_file` comes before the file's own places.
+    GltfMotion(const GltfFile& file, const GltfClip& clip,
+               const glm::dmat4& world_from_file = glm::dmat4(1));
 
     /// The tracks of the node's translation, rotation and scale; null where there is none.
     const std::array<const GltfTrack*, 3>& tracks_of(int node) const {
@@ -31,11 +33,13 @@ class GltfMotion {
     const Factors& factors_of(int node) const { return factors_[size_t(node)]; }
     const glm::dmat4& parent_from_node(int node) const { return places_[size_t(node)]; }
 
+    const glm::dmat4& world_from_file() const { return world_from_file_; }
     glm::dmat4 world_from_node(const GltfNode& node, double seconds) const;
 
   private:
     Factors factors_at(int node, double seconds) const;
 
+    glm::dmat4 world_from_file_;
     // By node.
     std::vector<int> parents_;
     std::vector<std::array<const GltfTrack*, 3>> tracks_;

@@ -175,11 +175,6 @@ TEST_F(CliImportTest, ChoicesThatMakeNoSenseAreUsageErrors) {
     EXPECT_THAT(refused("render wedge.obj -o a.png --spacing 1,2"), HasSubstr("0.5,0.5,2"));
     EXPECT_THAT(refused("render wedge.obj -o a.png --clip walk"),
                 HasSubstr("only glTF files have clips; leave \"walk\" out"));
-    put_bytes(folder / "walk.glb", "not read");
-    for (const char* choice : {"--fit 2", "--up z"})
-        EXPECT_THAT(
-            refused(("render walk.glb -o a.png --clip walk " + std::string(choice)).c_str()),
-            HasSubstr("a clip moves the parts of a file"));
     EXPECT_THAT(refused("import scene.json -o b.json"), HasSubstr("model file"));
     EXPECT_EQ(run("render none.obj -o a.png").exit_code, 4);
 }

@@ -7,6 +7,7 @@
 
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/support/vox_fixture.hpp"
 #include "tests/support/writers/lighthouse_vox.hpp"
 
@@ -89,12 +90,45 @@ TEST_F(VoxSceneTest, MaterialsOfBothKindsAreGroupsAndMaterialsOfTheScene) {
     EXPECT_GT(material("emit 4").emission.g, 0.5f);
     EXPECT_THAT(scene_of_file(file, "a.vox", {}, assets), Not(HasSubstr("glass 9")));
     ASSERT_EQ(scene.objects[0].groups.size(), 4u);
-    // With a size of its own the file is one model.
+}
+
+TEST_F(VoxSceneTest, OfAnotherSizeIsTheSameSceneInOtherMetres) {
+    VoxWriter writer;
+    writer.model({4, 1, 1}, {{0, 0, 0, 1}, {3, 0, 0, 2}});
+    writer.transform(0, 1, 0, {}, {{}});
+    writer.group(1, {2, 4});
+    writer.transform(2, 3, 0, {}, {{{"_t", "3 2 1"}}, {{"_f", "5"}, {"_t", "-9 0 7"}}});
+    writer.shape(3, {{0, {}}});
+    writer.transform(4, 5, 0, {}, {{{"_t", "0 0 20"}, {"_r", "20"}}});
+    writer.shape(5, {{0, {}}});
+    writer.chunk("rCAM", VoxWriter::number(0) +
+                             VoxWriter::dictionary({{"_mode", "pers"},
+                                                    {"_focus", "1 2 3"},
+                                                    {"_angle", "10 20 0"},
+                                                    {"_radius", "40"}}));
+    const auto file = put(writer.bytes());
+    AssetStore assets;
+    const Scene own = scene_of(file, assets);
     ImportOptions sized;
-    sized.fit = 3;
-    const std::string whole = scene_of_file(file, "a.vox", sized, assets);
-    EXPECT_THAT(whole, HasSubstr("\"fit\": 3"));
-    EXPECT_THAT(whole, HasSubstr("\"materials\": {\"metal 2\": \"metal 2\""));
+    sized.fit = 2;
+    const Scene small = scene_of(file, assets, sized);
+    const double scale = small.world.voxel_size.x;
+    EXPECT_GT(scale, 0.05);
+    EXPECT_LT(scale, 0.12);
+    ASSERT_EQ(own.animation.frames, 6);
+    ASSERT_EQ(small.objects.size(), own.objects.size());
+    for (const int frame : {1, 6}) {
+        const Scene a = scene_at(own, frame), b = scene_at(small, frame);
+        for (size_t i = 0; i < a.objects.size(); ++i) {
+            if (own.models[size_t(own.objects[i].model)].solid) continue;
+            for (int column = 0; column < 4; ++column)
+                EXPECT_LT(glm::length(glm::dvec3(b.objects[i].world_from_object[column]) -
+                                      scale * glm::dvec3(a.objects[i].world_from_object[column])),
+                          1e-9)
+                    << frame << " " << i << " " << column;
+        }
+        EXPECT_LT(glm::length(b.observer.position - scale * a.observer.position), 1e-5);
+    }
 }
 
 // A blend is a mixture of metal, glass and what is matt.
