@@ -31,6 +31,7 @@ struct VoxelizeCommand {
     std::string surface, set, normals;  ///< empty: not given
     std::string device;
     std::vector<std::filesystem::path> assets;
+    std::vector<std::string> without;
     bool quiet = false;
 };
 
@@ -120,7 +121,7 @@ void refuse_mesh_options(const VoxelizeCommand& command) {
 double voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
     const Device device = Device::open(command.device);
     const VoxelizeSceneOptions options{
-        command.voxel_size, command.resolution, std::max(command.frame, 1), {}};
+        command.voxel_size, command.resolution, std::max(command.frame, 1), {}, command.without};
     const VoxelizeReport report =
         voxelize_scene(scene, {command.outputs.begin(), command.outputs.end()}, device, options);
     const size_t count = scene.object_names().size();
@@ -138,9 +139,7 @@ Scene scene_of_voxels_in(const std::string& file) {
 /// Meshes have no voxels of their own whose size could be kept.
 VoxelizeCommand with_size(VoxelizeCommand command, const std::string& file) {
     if (command.voxel_size > 0 || command.resolution > 0 || !is_mesh_name(file)) return command;
-    const bool has_vox = std::ranges::any_of(
-        command.outputs, [](const std::string& output) { return ending_of(output) == ".vox"; });
-    command.resolution = has_vox ? 254 : 256;
+    command.resolution = 254;  // one model of a .vox has room for two more
     return command;
 }
 
@@ -198,6 +197,7 @@ std::vector<VoxelizeNames> moving_frames(const VoxelizeCommand& command) {
 
 std::vector<VoxelizeNames> frames_of(const VoxelizeCommand& command) {
     if (!is_file_sequence(command.file)) return moving_frames(command);
+    if (!command.without.empty()) fail_usage("voxelize: --without is for objects of scenes");
     if (command.frame > 0)
         fail_usage("voxelize: --frame is for scenes: --frames chooses among numbered files");
     std::vector<std::string> gaps;
@@ -283,6 +283,10 @@ Action add_voxelize(CLI::App& app) {
                    "frames of a scene that moves, or numbers of files, like 1-10,20; by default "
                    "all, where an output or FILE has #### for the number")
         ->excludes(frame);
+    app.add_option("--without", command->without,
+                   "object of a scene to leave out, by its name, such as its ground; may be given "
+                   "again")
+        ->allow_extra_args(false);
     app.add_option("--assets", command->assets,
                    "folder to look for a scene's models in; may be given again")
         ->allow_extra_args(false);

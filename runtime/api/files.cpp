@@ -185,6 +185,18 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
     return report;
 }
 
+/// Leaves out the objects of some names.
+void leave_out(const std::vector<std::string>& names, Scene& scene) {
+    for (const std::string& name : names) {
+        if (std::erase_if(scene.objects, [&](const Object& o) { return o.name == name; }) > 0)
+            continue;
+        std::vector<std::string_view> known;
+        for (const Object& object : scene.objects) known.push_back(object.name);
+        throw Error(ErrorKind::usage, "{}: there is no object {} to leave out{}",
+                    SourcePlace(scene.file.string()), quote(name), suggest(name, known));
+    }
+}
+
 v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
                                            const std::vector<fs::path>& outputs,
                                            const Device& device,
@@ -195,7 +207,8 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
     if (options.frame < 1 || options.frame > frames)
         throw Error(ErrorKind::usage, "{}: there is no frame {}: the last one is {}",
                     SourcePlace(whole.file.string()), options.frame, frames);
-    const Scene scene = scene_at(whole, options.frame);
+    Scene scene = scene_at(whole, options.frame);
+    leave_out(options.without, scene);
     const auto start = std::chrono::steady_clock::now();
     VoxelModel model = world_cubes(device, scene, api::assets_of(handle, options.cache),
                                    {options.voxel_size, options.resolution});

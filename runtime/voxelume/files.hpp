@@ -55,11 +55,12 @@ struct VoxelizeSceneOptions {
     int resolution = 0;     ///< along the longest side of all that is shown; 0: the scene's voxels
     int frame = 1;          ///< of a scene that moves
     CacheOptions cache{};   ///< of models on disk
+    std::vector<std::string> without{};  ///< names of objects to leave out
 };
 
 /// Writes the voxels of a scene's world to files, likewise. All objects are cubes in it, in the
 /// colours of their voxels and materials; lights and reflections aren't told. Throws as `voxelize`
-/// and `render_frames` do.
+/// and `render_frames` do, and Error::usage for an object that the scene doesn't have.
 VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
                               const Device& device, const VoxelizeSceneOptions& options = {});
 

@@ -63,10 +63,11 @@ void check_room(const World& world, uint32_t bricks) {
     constexpr double kBytes = 4.0 * sizeof(uint32_t) * kVoxelsPerBrick;
     const double needed = kBytes * bricks, there = double(main_memory());
     if (needed <= there) return;
-    throw Error(ErrorKind::limit,
-                "{}: as cubes of {:.4g} m the scene needs {} of main memory, of which there is {}: "
-                "use larger voxels, or leave out what is large, such as a ground",
-                world.where, world.voxel_size.x, bytes_text(needed), bytes_text(there));
+    throw Error(
+        ErrorKind::limit,
+        "{}: as cubes of {:.4g} m the scene needs {} of main memory, of which there is {}: "
+        "use larger voxels, or leave out what is large, as `voxelize --without ground` does",
+        world.where, world.voxel_size.x, bytes_text(needed), bytes_text(there));
 }
 
 /// Reads a buffer that is needed no longer.

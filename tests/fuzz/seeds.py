@@ -154,7 +154,11 @@ PLY = (b"ply\nformat %s 1.0\nelement vertex 3\nproperty float x\nproperty float 
 PLYS = [PLY % (b"ascii", b"face", b"vertex_indices") + b"0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n",
         PLY % (b"binary_big_endian", b"tristrips", b"vertex_indices") +
         b"".join(struct.pack(">3fB", i == 1, i == 2, 0, 9) for i in range(3)) +
-        struct.pack(">B3i", 3, 0, 1, 2)]
+        struct.pack(">B3i", 3, 0, 1, 2),
+        b"ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty "
+        b"double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+        b"0 0 0 9 9 9\n1 2 3 255 0 1\n"]
+OBJ_DRAWING = b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 2 1 9 9 9\np 1 -1\nl 1/1 2/2 3 1\nl -2 \\\n-1\n"
 STLS = [b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
         b"endloop\nendfacet\nendsolid a\n",
         b"COLOR=abcd".ljust(80) + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 999)]
@@ -242,7 +246,7 @@ MODELS = [
 ]
 
 SEEDS = {
-    "obj": [OBJ], "ply": PLYS, "stl": STLS, "glb": [glb(TRIANGLE)],
+    "obj": [OBJ, OBJ_DRAWING], "ply": PLYS, "stl": STLS, "glb": [glb(TRIANGLE)],
     "gltf": [gltf("data:application/octet-stream;base64," +
                   base64.b64encode(TRIANGLE).decode()).encode()],
     "npy": [npy(), npy(2), npy(1, ">f2"), npy(1, "|u1")],

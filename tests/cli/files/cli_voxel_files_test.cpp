@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/io/image/exr.hpp"
-#include "tests/support/program_runner.hpp"
+#include "tests/cli/scene_program.hpp"
 #include "tests/support/writers/array_writer.hpp"
 #include "tests/support/writers/png_writer.hpp"
 
@@ -221,6 +221,15 @@ TEST_F(CliVoxelFilesTest, ARenamedFileIsReadByWhatItBeginsWith) {
         EXPECT_EQ(run("info " + copy).exit_code, 0) << ending;
         EXPECT_EQ(run("convert " + copy + " o.vox").exit_code, 0) << ending;
     }
+}
+
+TEST_F(CliVoxelFilesTest, AMeshIsOneModelOfAVox) {
+    put_bytes(folder / "wedge.obj", kTetrahedron);
+    const ProgramResult result = run("voxelize wedge.obj -o a.vox");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto report = nlohmann::json::parse(run("info a.vox --json").out);
+    EXPECT_EQ(report["models"], 1);
+    EXPECT_GE(report["model list"][0]["size"][0], 254);
 }
 
 }  // namespace voxelume

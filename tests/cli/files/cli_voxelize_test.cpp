@@ -182,13 +182,20 @@ TEST_F(CliVoxelizeTest, FramesOfAMovingGltfAreThoseOfItsScene) {
     EXPECT_NEAR(width("b.npy"), 20, 1);
 }
 
-TEST_F(CliVoxelizeTest, AMeshIsOneModelOfAVox) {
-    put_bytes(folder / "wedge.obj", kTetrahedron);
-    const ProgramResult result = run("voxelize wedge.obj -o a.vox");
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    const Json report = Json::parse(run("info a.vox --json").out);
-    EXPECT_EQ(report["models"], 1);
-    EXPECT_GE(report["model list"][0]["size"][0], 254);
+TEST_F(CliVoxelizeTest, ObjectsAreLeftOutByTheirNames) {
+    write_scene([](Json& scene) {
+        scene["objects"].push_back(scene["objects"][0]);
+        scene["objects"][0]["name"] = "left";
+        scene["objects"][1]["name"] = "right";
+        scene["objects"][1]["position"] = {3, 0, 0};
+    });
+    ASSERT_EQ(run("voxelize scene.json -o both.npy").exit_code, 0);
+    ASSERT_EQ(run("voxelize scene.json -o left.npy --without right").exit_code, 0);
+    const auto width = [&](const char* name) { return cells_of(bytes_of(folder / name)).size[0]; };
+    EXPECT_GT(width("both.npy"), width("left.npy"));
+    const ProgramResult result = run("voxelize scene.json -o c.npy --without rihgt");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("did you mean \"right\"?"));
 }
 
 TEST_F(CliVoxelizeTest, AFrameOfASceneThatMovesIsChosen) {
