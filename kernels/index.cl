@@ -8,8 +8,8 @@
 // VXL_VOXEL_NORMALS, VXL_PRIMITIVES say which of the grid's buffers exist.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
-#include "lib/voxelize/brick_grid.h"
 #include "lib/surface/brick_nodes.h"
+#include "lib/voxelize/brick_grid.h"
 #include "lib/voxelize/leaf_voxels.h"
 
 // Moves the mask of one leaf of a brick to another slot. `moves` holds pairs of slots, from and to.

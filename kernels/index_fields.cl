@@ -11,9 +11,9 @@
 // whose fields are written has them. VXL_LINKED: the field before it is the same object's.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
+#include "lib/surface/brick_nodes.h"
 #include "lib/surface/field_brackets.h"
 #include "lib/voxelize/brick_grid.h"
-#include "lib/surface/brick_nodes.h"
 #include "lib/voxelize/chain_parts.h"
 #include "lib/voxelize/leaf_voxels.h"
 

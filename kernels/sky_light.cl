@@ -2,8 +2,8 @@
 // surface points + the sky -> a queue of shadow rays into it: local light's share of skylight.
 #include "lib/lanes/work_item.h"
 #include "lib/light/direct_light.h"
-#include "lib/sampling/directions.h"
 #include "lib/light/sky.h"
+#include "lib/sampling/directions.h"
 
 /// A number that is the same for the same points, in every image.
 static inline lane_uint seed_of_place(Vector position) {

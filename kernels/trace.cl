@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/lanes/work_item.h"
+#include "lib/light/shadow_packet.h"
 #include "lib/packets/begin_inside.h"
 #include "lib/packets/lane_refill.h"
-#include "lib/light/shadow_packet.h"
 #include "lib/packets/sight_rays.h"
 #include "shared/scene.h"
 

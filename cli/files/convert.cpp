@@ -26,16 +26,13 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
                                 std::pair{std::string_view("y"), Axis::y},
                                 std::pair{std::string_view("z"), Axis::z}};
 
-/// The format of a file that is written as its name says.
+/// The format of a volumetric image, which a file of voxels can't become.
 VolumeFormat format_of(const std::string& from, const std::string& to) {
-    try {
-        return volume_format_of(to);
-    } catch (const Error& error) {
-        if (!is_model_file(from) || ending_of(from) == ".vdb") throw;
-        fail_usage(
-            "convert: {}: the name of voxels ends in .vox .kv6 .binvox .npy .nrrd .vxm or .vdb",
-            to);
-    }
+    const bool has_voxels = is_model_file(from) && ending_of(from) != ".vdb";
+    if (has_voxels)
+        fail_usage("convert: {}: voxels are written as .vox .kv6 .binvox .npy .nrrd .vxm or .vdb",
+                   to);
+    return volume_format_of(to);
 }
 
 int run(const ConvertCommand& command) {

@@ -24,9 +24,9 @@ struct DiffLimits {
 /// Declares --fail, --fail-above, --fail-ids and --fail-flip.
 void add_limit_options(CLI::App& app, DiffLimits& limits);
 
-/// Describes the first limit that is exceeded, as part of a sentence; nothing where none is. Colours
-/// that aren't numbers exceed each limit of FLIP. A limit of the RMSE allows no unequal ids, unless
-/// `ids` says how many.
+/// Describes the first limit that is exceeded, as part of a sentence; nothing where none is.
+/// Colours that aren't numbers exceed each limit of FLIP. A limit of the RMSE allows no unequal
+/// ids, unless `ids` says how many.
 std::optional<std::string> excess_of(const ImageDifference& difference, const DiffLimits& limits);
 
 }  // namespace voxelume::cli

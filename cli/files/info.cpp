@@ -70,9 +70,9 @@ Action add_info(CLI::App& app) {
         const std::string path = first_slice(options->path);
         if (options->verify) check_integrity(path);
         const bool is_stack = path != options->path;
-        print_report(report_of(is_stack ? describe_slices(path)
-                                       : describe_file(path, options->scene)),
-                     options->json);
+        print_report(
+            report_of(is_stack ? describe_slices(path) : describe_file(path, options->scene)),
+            options->json);
         return 0;
     };
 }

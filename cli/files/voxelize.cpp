@@ -136,17 +136,10 @@ Scene scene_of_voxels_in(const std::string& file) {
     return scene_of_file(file, import);
 }
 
-/// Meshes have no voxels of their own whose size could be kept.
-VoxelizeCommand with_size(VoxelizeCommand command, const std::string& file) {
-    if (command.voxel_size > 0 || command.resolution > 0 || !is_mesh_name(file)) return command;
-    command.resolution = 254;  // one model of a .vox has room for two more
-    return command;
-}
-
 /// The voxels that a file has, or larger and smaller ones in their place.
 double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
     if (command.voxel_size > 0 || command.resolution > 0 || command.frame > 0)
-        return voxelize_scene(with_size(command, file), scene_of_voxels_in(file));
+        return voxelize_scene(command, scene_of_voxels_in(file));
     for (const std::string& output : command.outputs)
         tell_notes(command, convert_voxels(file, output));
     return 0;
@@ -199,7 +192,7 @@ std::vector<VoxelizeNames> frames_of(const VoxelizeCommand& command) {
     if (!is_file_sequence(command.file)) return moving_frames(command);
     if (!command.without.empty()) fail_usage("voxelize: --without is for objects of scenes");
     if (command.frame > 0)
-        fail_usage("voxelize: --frame is for scenes: --frames chooses among numbered files");
+        fail_usage("voxelize: --frame is of one file: --frames chooses among numbered ones");
     std::vector<std::string> gaps;
     std::vector<VoxelizeNames> frames =
         names_of_files({command.file, command.outputs}, command.frames, gaps);

@@ -124,9 +124,8 @@ void add_import_options(CLI::App& app, ImportChoices& choices) {
     app.add_flag("--transparent", choices.transparent,
                  "show nothing where no object is: .png files are transparent there, and a model "
                  "file has no ground by default");
-    app.add_option(
-           "--fit", choices.fit,
-           "of a model file: length of its longest side in metres; the file's by default")
+    app.add_option("--fit", choices.fit,
+                   "of a model file: length of its longest side in metres; the file's by default")
         ->check(in_range(1e-6, 1e6));
     app.add_option("--up", choices.up,
                    "of a model file: which axis is up, y or z; z by default for .stl alone")

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "runtime/api/describe/describe.hpp"
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/border/process.hpp"
+#include "runtime/api/describe/describe.hpp"
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"

@@ -132,8 +132,8 @@ std::vector<std::string> notes_of_paint(const Mesh& mesh, std::span<const Materi
     const MeshPaint paint = paint_of(mesh);
     if (!has_cubes && (!materials.empty() || paint.textures > 0))
         return {
-            "the colours of its materials and textures aren't kept: --surface cubes keeps them, "
-            "and a scene that shows the mesh itself"};
+            "the colours of its materials and textures aren't kept: cubes keep them, and so does "
+            "a scene that shows the mesh itself"};
     if (has_cubes && paint.has_alpha)
         return {"where its textures are transparent, voxels are opaque all the same"};
     return {};
@@ -191,7 +191,8 @@ void leave_out(const std::vector<std::string>& names, Scene& scene) {
         if (std::erase_if(scene.objects, [&](const Object& o) { return o.name == name; }) > 0)
             continue;
         std::vector<std::string_view> known;
-        for (const Object& object : scene.objects) known.push_back(object.name);
+        known.reserve(scene.objects.size());
+        for (const Object& object : scene.objects) known.emplace_back(object.name);
         throw Error(ErrorKind::usage, "{}: there is no object {} to leave out{}",
                     SourcePlace(scene.file.string()), quote(name), suggest(name, known));
     }
@@ -224,11 +225,9 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
         cube_materials(scene.materials, model.frame.voxel_edge.x);
     for (const fs::path& output : outputs) {
         const auto write = cube_writer(output);
-        add_notes(
-            write ? write(output, cube_list(model, materials))
-                  : write_cubes(output,
-                                VoxelExport(&output == &outputs.back() ? std::move(model) : model)),
-            report);
+        add_notes(write ? write(output, cube_list(model, materials))
+                        : write_cubes(output, VoxelExport(model)),
+                  report);
         if (const std::string note = note_of_edges(output, scene.world.voxel_size); !note.empty())
             add_notes({note}, report);
     }

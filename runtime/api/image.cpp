@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
+#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/image_files.hpp"
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"

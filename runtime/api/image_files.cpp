@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/exposure.hpp"
+#include "runtime/api/frame_hash.hpp"
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
+#include "runtime/api/frame_hash.hpp"
 #include "runtime/base/files/cache_key.hpp"
 #include "runtime/image/join_images.hpp"
 #include "runtime/scene/quilt.hpp"

@@ -6,12 +6,12 @@
 #include <chrono>
 
 #include "runtime/api/border/convert.hpp"
-#include "runtime/api/frame_hash.hpp"
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
-#include "runtime/api/earlier_images.hpp"
-#include "runtime/api/image_files.hpp"
 #include "runtime/api/border/process.hpp"
+#include "runtime/api/earlier_images.hpp"
+#include "runtime/api/frame_hash.hpp"
+#include "runtime/api/image_files.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
 #include "runtime/base/error.hpp"

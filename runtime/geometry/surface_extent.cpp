@@ -120,7 +120,8 @@ TriangleArea area_of(const Mesh& mesh, const glm::uvec3& triangle) {
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 edge = glm::dvec3(mesh.positions[triangle[i]]) -
                                 glm::dvec3(mesh.positions[triangle[(i + 1) % 3]]);
-        area.widths[size_t(i)] = glm::abs(edge) / 2.0;  // the three edges cross each axis' range twice
+        area.widths[size_t(i)] =
+            glm::abs(edge) / 2.0;  // the three edges cross each axis' range twice
         area.half_edges[size_t(i)] = glm::length(edge) / 2.0;
     }
     return area;

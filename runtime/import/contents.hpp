@@ -19,6 +19,12 @@
 
 namespace voxelume {
 
+/// The observer of a file's camera.
+struct FileObserver {
+    std::string text;   ///< `"observer": {...}`; empty: there is none
+    double height = 0;  ///< metres; the least of all frames
+};
+
 /// Local light sends rays from each point to each spot of each emissive object. Together they have
 /// three times the spots of a studio's sun.
 inline constexpr size_t kLampSpots = 72;
@@ -30,11 +36,11 @@ struct Contents {
     std::vector<std::string> tracks;     ///< items; none: nothing moves
     int frames = 1;                      ///< of the animation
     double fps = 24;
-    std::string observer;                 ///< `"observer": {...}` of the file's camera; empty: none
-    ViewFrom from;                        ///< where others look from who see all of it
-    std::vector<std::string> lights;      ///< items; none: those of a studio
-    std::optional<FileLight> file_light;  ///< none: the studio's own
-    bool has_glass = false;               ///< shadows are to let light through
+    FileObserver observer;
+    ViewFrom from;                         ///< where others look from who see all of it
+    std::vector<std::string> lights;       ///< items; none: those of a studio
+    std::optional<FileLight> file_light;   ///< none: the studio's own
+    bool has_glass = false;                ///< shadows are to let light through
     std::vector<size_t> emissive_objects;  ///< numbers of items that emit light
     size_t lamps_in_local_light = 16;  ///< of more emissive objects pictures are in global light
     Bounds box;                        ///< around all that is visible, metres

@@ -90,7 +90,7 @@ class SceneOfGltf {
                                                has_colors_ ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
         for (const MeshModel& model : models_) contents_.models.push_back(model_text(model));
         contents_.observer =
-            gltf_observer(gltf_, nodes, contents_.box, file_.options.size, frames_.scale());
+            gltf_observer(gltf_, nodes, contents_.box, file_.options.size, frames_);
         contents_.lights = gltf_light_items(gltf_, nodes, contents_.box, frames_, contents_.tracks);
         if (file_.options.has_own_camera && !file_.options.is_lattice)
             add_observer_tracks(gltf_, nodes, frames_, contents_.tracks);

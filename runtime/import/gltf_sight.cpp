@@ -95,16 +95,18 @@ std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, do
                        rounded(height * size.x / size.y, 8), rounded(height, 8), rounded(depth, 8));
 }
 
-/// A light's luminous intensity or illuminance, in its colour.
-double brightness(const GltfValue& light) {
-    return std::clamp(light.number("intensity", 1), 0.0, 1e9);
+/// A light's luminous intensity or illuminance, in its colour, in a scene whose metres are as many
+/// to one of the file: what shines from a place has to shine as many times as far.
+double brightness(const GltfValue& light, double scale) {
+    const double own = std::clamp(light.number("intensity", 1), 0.0, 1e9);
+    return light.text("type") == "directional" ? own : own * scale * scale;
 }
 
 double irradiance_at(const glm::dvec3& p, const GltfNode& node, const GltfValue& light,
-                     double nearest) {
-    if (light.text("type") == "directional") return brightness(light);
+                     double nearest, double scale) {
+    if (light.text("type") == "directional") return brightness(light, scale);
     const double distance = std::max(glm::length(p - position_of(node)), nearest);
-    return brightness(light) / (distance * distance);
+    return brightness(light, scale) / (distance * distance);
 }
 
 /// The opening of a whole cone in degrees, for half of it in radians.
@@ -112,8 +114,9 @@ double opening(double half) {
     return std::clamp(2 * glm::degrees(half), 0.01, 179.9);
 }
 
+/// `intensity` is in the units of the scene.
 std::string light_item(const GltfNode& node, const GltfValue& light, const std::string& name,
-                       double scale) {
+                       double intensity) {
     const std::string type = light.text("type");
     std::string text =
         fmt::format("{{\"name\": {}, \"type\": {}", json_text(name), json_text(type));
@@ -132,7 +135,7 @@ std::string light_item(const GltfNode& node, const GltfValue& light, const std::
     if (!color.empty())
         text += fmt::format(", \"color\": [{}, {}, {}]", std::max(color[0], 0.0),
                             std::max(color[1], 0.0), std::max(color[2], 0.0));
-    return text + fmt::format(", \"intensity\": {}}}", rounded(brightness(light) * scale, 6));
+    return text + fmt::format(", \"intensity\": {}}}", rounded(intensity, 6));
 }
 
 void add_light_tracks(const std::string& target, const std::string& type,
@@ -149,7 +152,7 @@ void add_light_tracks(const std::string& target, const std::string& type,
 
 bool is_shown(const GltfValue& light) {
     const std::string type = light.text("type");
-    return (type == "point" || type == "spot" || type == "directional") && brightness(light) > 0;
+    return (type == "point" || type == "spot" || type == "directional") && brightness(light, 1) > 0;
 }
 
 }  // namespace
@@ -171,10 +174,11 @@ std::vector<glm::dmat4> GltfFrames::maps_of(const GltfNode& node) const {
     return maps;
 }
 
-std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
-                          const Bounds& box, const glm::ivec2& size, double scale) {
+FileObserver gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
+                           const Bounds& box, const glm::ivec2& size, const GltfFrames& frames) {
     const auto node = first_camera(nodes);
     if (node == nodes.end()) return {};
+    const double scale = frames.scale();
     const GltfValue camera = file.root().item("cameras", size_t(node->camera));
     const bool is_flat = !has_directions(node->world_from_node);  // tracks say more, if it moves
     const glm::dvec3 towards = is_flat ? glm::dvec3(0, 0, -1) : direction_of(*node);
@@ -195,11 +199,16 @@ std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nod
         display = perspective_display(camera.at("perspective"), size);
     }
     const double distance = depth > 0 ? depth / 2 : scale;
-    return fmt::format(
+    FileObserver observer;
+    observer.height = position.y;
+    for (const glm::dmat4& map : frames.maps_of(*node))
+        observer.height = std::min(observer.height, map[3].y);
+    observer.text = fmt::format(
         "  \"observer\": {{\"position\": {}, \"look_at\": {}, \"up\": {},\n"
         "               \"display\": {{{}}}}},\n",
         json_list(rounded(position, 9)), json_list(rounded(position + distance * towards, 9)),
         json_list(rounded(up, 9)), display);
+    return observer;
 }
 
 void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& nodes,
@@ -227,14 +236,15 @@ std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vecto
     double sum = 0;
     for (const GltfNode& node : nodes)
         if (node.light >= 0 && is_shown(lights[size_t(node.light)]))
-            sum += irradiance_at(middle, node, lights[size_t(node.light)], longest_side(box) / 8);
+            sum += irradiance_at(middle, node, lights[size_t(node.light)], longest_side(box) / 8,
+                                 frames.scale());
     std::vector<std::string> items;
     NameList names({});
     for (const GltfNode& node : nodes) {
         if (node.light < 0 || !is_shown(lights[size_t(node.light)])) continue;
         const GltfValue& light = lights[size_t(node.light)];
         const std::string name = names.unique(node.name.empty() ? "light" : node.name);
-        items.push_back(light_item(node, light, name, 1 / sum));
+        items.push_back(light_item(node, light, name, brightness(light, frames.scale()) / sum));
         if (frames.motion.moves(node.number))
             add_light_tracks("lights." + target_name(name), light.text("type"),
                              with_directions(all_maps(frames, node)), tracks);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/import/contents.hpp"
 #include "runtime/io/gltf/gltf_motion.hpp"
 #include "runtime/scene/parts/bounds.hpp"
 
@@ -33,9 +34,9 @@ struct GltfFrames {
 };
 
 /// The observer of the file's first camera; empty where there is none. An image of another shape
-/// than the camera's keeps its height. A metre of the file has `scale` metres.
-std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
-                          const Bounds& box, const glm::ivec2& size, double scale);
+/// than the camera's keeps its height.
+FileObserver gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
+                           const Bounds& box, const glm::ivec2& size, const GltfFrames& frames);
 
 /// Appends the tracks of that observer, frame by frame, where its camera moves.
 void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& nodes,

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
@@ -174,15 +173,9 @@ std::vector<std::string> lit_objects(const Contents& contents) {
     return objects;
 }
 
-/// How high the observer of a file stands.
-double height_of(const std::string& observer) {
-    const std::string member = observer.substr(0, observer.rfind(','));
-    return nlohmann::json::parse("{" + member + "}")["observer"]["position"][1];
-}
-
 std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const bool is_own = options.has_own_camera && !options.is_lattice;
-    const bool has_camera = is_own && !contents.observer.empty();
+    const bool has_camera = is_own && !contents.observer.text.empty();
     const bool has_lights = !contents.lights.empty();
     // A file's own camera may be in a closed room, and its lights may leave much in the dark.
     const ViewFrom from = view_from(contents, options);
@@ -191,7 +184,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     ImportOptions studio_options = options;
     if (has_lights && !options.has_ground) studio_options.has_ground = false;
     // Neither would a camera below it see anything else.
-    if (has_camera && !options.has_ground && height_of(contents.observer) < contents.box.min.y)
+    if (has_camera && !options.has_ground && contents.observer.height < contents.box.min.y)
         studio_options.has_ground = false;
     Studio studio = make_studio(contents.box, contents.voxel_size, from, studio_options,
                                 contents.file_light, has_camera || has_lights ? kAmbientInside : 0);
@@ -211,7 +204,8 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
         text += fmt::format(
             "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",
             contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
-    text += has_camera ? contents.observer : observer_of(contents.box, studio.box, from, options);
+    text +=
+        has_camera ? contents.observer.text : observer_of(contents.box, studio.box, from, options);
     // Volumetric images are in local light.
     const bool is_global =
         contents.emissive_objects.size() > contents.lamps_in_local_light && !options.is_lattice;

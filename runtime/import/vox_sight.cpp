@@ -82,8 +82,8 @@ const VoxCamera* used_camera(const VoxFile& vox) {
     return used == vox.cameras.end() ? nullptr : &*used;
 }
 
-std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
-                         double voxel) {
+FileObserver vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
+                          double voxel) {
     const VoxCamera* camera = used_camera(vox);
     if (camera == nullptr) return {};
     const glm::dmat3 axes = axes_of(*camera);
@@ -93,11 +93,12 @@ std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2
     glm::dvec3 position = focus + voxel * camera->radius * axes[2];
     if (display.find("orthographic") != std::string::npos)
         position += step_back(box, position, axes[2], voxel) * axes[2];
-    return fmt::format(
+    const std::string text = fmt::format(
         "  \"observer\": {{\"position\": {}, \"look_at\": {}, \"up\": {},\n"
         "               {}}},\n",
         json_list(rounded(position, 6)), json_list(rounded(focus, 6)),
         json_list(rounded(axes[1], 9)), display);
+    return {text, position.y};
 }
 
 FileLight vox_file_light(const VoxRender& render, double voxel) {

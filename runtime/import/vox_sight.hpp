@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <string>
 
+#include "runtime/import/contents.hpp"
 #include "runtime/import/file_light.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
 #include "runtime/scene/parts/bounds.hpp"
@@ -16,8 +17,8 @@ const VoxCamera* used_camera(const VoxFile& vox);
 
 /// `"observer": {...}` of the file's camera, who sees what is in the box; empty where it has none.
 /// Voxels have edges of `voxel` metres.
-std::string vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
-                         double voxel);
+FileObserver vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
+                          double voxel);
 
 /// The light of MagicaVoxel with the file's settings, or its usual ones where it has none. The
 /// scene's voxels have edges of `voxel` metres.

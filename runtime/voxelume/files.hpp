@@ -21,8 +21,8 @@ namespace voxelume::v1 {
 /// How a mesh becomes voxels.
 struct VoxelizeOptions {
     double voxel_size = 0;                     ///< metres; 0: `resolution` decides
-    int resolution = 0;                        ///< voxels along the longest side; 0: 256, as many
-                                               ///< as fit one model of a .vox, and of points as
+    int resolution = 0;                        ///< voxels along the longest side; 0: 256, or 254
+                                               ///< where an output is a .vox, and of points as
                                                ///< few as leave no gaps between them
     std::optional<Surface> surface{};          ///< what a voxel shows; without it smooth, and
                                                ///< cubes of points and lines

@@ -62,11 +62,13 @@ TEST_F(ApiGltf, OfAnotherSizeMovesAndLooksTheSame) {
           {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
            {{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}}},
          {"samplers", {{{"input", times}, {"output", places}}}}}};
-    writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 400}}, {{"type", "directional"}}};
     writer.json["nodes"] = {{{"mesh", 0}},
-                            {{"translation", {3, 2, 20}}, {"children", {2, 3}}},
+                            {{"translation", {3, 2, 20}}, {"children", {2, 3, 4}}},
                             {{"camera", 0}},
-                            {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+                            {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+                            {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}}};
     writer.json["scenes"][0]["nodes"] = {0, 1};
     for (const Json& camera :
          {Json{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1}}}},
@@ -121,7 +123,8 @@ TEST_F(ApiGltf, ACameraBelowHasNoGroundAboveIt) {
         writer.json["scenes"][0]["nodes"] = {0, 1};
         EXPECT_EQ(scene_of(writer).find("\"ground\"") != std::string::npos, height > 0);
         EXPECT_THAT(scene_of(writer, {.ground = true}), HasSubstr("\"ground\""));
-        EXPECT_THAT(scene_of(writer, {.longitude = 20, .own_camera = false}), HasSubstr("\"ground\""));
+        EXPECT_THAT(scene_of(writer, {.longitude = 20, .own_camera = false}),
+                    HasSubstr("\"ground\""));
     }
 }
 

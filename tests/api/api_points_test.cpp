@@ -99,7 +99,8 @@ TEST_F(ApiPoints, AreVoxelizedWithoutGapsUnlessASizeIsGiven) {
     for (int i = 0; i < 10000; ++i) file << i % 100 << " " << i / 100 << " 0\n";
     file.close();
     const auto longest = [&](const VoxelizeOptions& options) {
-        return voxelize(folder / "flat.ply", {folder / "flat.vxm"}, device->front(), options).size[0];
+        return voxelize(folder / "flat.ply", {folder / "flat.vxm"}, device->front(), options)
+            .size[0];
     };
     EXPECT_GT(longest({}), 32);
     EXPECT_LT(longest({}), 70) << "three points in a voxel";

@@ -2,8 +2,8 @@
 // The crossings of one probe line in their order, without those that other objects hide.
 //
 // Inside an object that lets light through, surfaces of objects that come after it in the order of
-// priorities are not seen: see lib/traverse/medium_set.h, whose rules these are for a line that goes
-// on through everything.
+// priorities are not seen: see lib/traverse/medium_set.h, whose rules these are for a line that
+// goes on through everything.
 #ifndef VXL_LINE_ORDER_H
 #define VXL_LINE_ORDER_H
 

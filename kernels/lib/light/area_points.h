@@ -3,8 +3,8 @@
 #ifndef VXL_AREA_POINTS_H
 #define VXL_AREA_POINTS_H
 
-#include "lib/sampling/directions.h"
 #include "lib/light/path_samples.h"
+#include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
 /// The points of light number `number` that the paths' samples choose, all of which are equally

@@ -4,11 +4,11 @@
 #define VXL_FILTER_H
 
 #include "lib/lanes/fixed_point.h"
-#include "lib/traverse/surroundings.h"
+#include "lib/packets/instances.h"
 #include "lib/surface/glass_faces.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_alpha.h"
-#include "lib/packets/instances.h"
+#include "lib/traverse/surroundings.h"
 
 /// Finds the body of cubes that the rays are inside of.
 static inline void find_body(RayState* ray_state, global const float* restrict materials) {

@@ -4,8 +4,8 @@
 #define VXL_NEXT_RAYS_H
 
 #include "lib/light/child_rays.h"
-#include "lib/sampling/directions.h"
 #include "lib/light/lobes.h"
+#include "lib/sampling/directions.h"
 
 /// The least cosine with its surface of a way on which a matt one scatters light: where normals
 /// are smoothed, ways that come closer to the surface are moved up to there.

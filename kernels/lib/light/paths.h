@@ -3,9 +3,9 @@
 #ifndef VXL_PATHS_H
 #define VXL_PATHS_H
 
+#include "lib/surface/cube_body.h"
 #include "lib/traverse/medium_set.h"
 #include "lib/traverse/surroundings.h"
-#include "lib/surface/cube_body.h"
 
 /// No node: an entry that sends no ray.
 #define VXL_NO_CHILD 0xFFFFFFFFu

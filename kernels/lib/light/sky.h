@@ -5,8 +5,8 @@
 
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/vector.h"
-#include "lib/traverse/medium_set.h"
 #include "lib/light/sky_map.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/emitters.h"
 #include "shared/paths.h"

@@ -8,8 +8,8 @@
 #define VXL_FLIGHT_H
 
 #include "lib/lanes/exact_exp.h"
-#include "lib/sampling/sobol.h"
 #include "lib/medium/phase.h"
+#include "lib/sampling/sobol.h"
 #include "lib/traverse/segment.h"
 
 /// How far paths go before the medium scatters them.

@@ -4,11 +4,11 @@
 #define VXL_BEGIN_INSIDE_H
 
 #include "lib/lanes/vector.h"
-#include "lib/traverse/surroundings.h"
-#include "lib/surface/surface_color.h"
-#include "lib/traverse/instance_hit.h"
 #include "lib/packets/instances.h"
 #include "lib/packets/packet.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/instance_hit.h"
+#include "lib/traverse/surroundings.h"
 
 /// Mask: rays have met their surfaces from behind, as each kind of surface tells.
 static inline lane_int meets_from_behind(const WorldView* world, const Walk* w,

@@ -9,8 +9,8 @@
 #ifndef VXL_INSTANCES_H
 #define VXL_INSTANCES_H
 
-#include "lib/traverse/bounds_slack.h"
 #include "lib/packets/packet.h"
+#include "lib/traverse/bounds_slack.h"
 #include "lib/traverse/transformed_ray.h"
 
 /// A ray as slab tests read it.

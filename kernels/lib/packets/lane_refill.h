@@ -3,8 +3,8 @@
 #ifndef VXL_LANE_REFILL_H
 #define VXL_LANE_REFILL_H
 
-#include "lib/traverse/ray_queue.h"
 #include "lib/packets/sight_rays.h"
+#include "lib/traverse/ray_queue.h"
 
 /// Stores what the rays of the `landing` lanes have met.
 static inline void store_hits(const Packet* f, lane_int landing, const RayBatch* batch) {

@@ -9,8 +9,8 @@
 #ifndef VXL_CUBE_BODY_H
 #define VXL_CUBE_BODY_H
 
-#include "lib/traverse/medium_set.h"
 #include "lib/surface/surface_color.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/traverse/walk.h"
 
 /// Mask: a surface is the face of a cube.

@@ -32,7 +32,8 @@ static inline lane_uint glass_in(const PyramidView* p, const SurfaceView* s, Fac
     const lane_uint none = (lane_uint)VXL_NO_MEDIUM;
     asked &= LANE_MASK(c.x >= 0) & LANE_MASK(c.y >= 0) & LANE_MASK(c.z >= 0) &
              LANE_MASK(c.x < p->size_x) & LANE_MASK(c.y < p->size_y) & LANE_MASK(c.z < p->size_z);
-    if (!VXL_ATTRIBUTES || !lanes_any(asked)) return none;  // a single object has no glass beside it
+    if (!VXL_ATTRIBUTES || !lanes_any(asked))
+        return none;  // a single object has no glass beside it
     const lane_int x = c.x & asked, y = c.y & asked, z = c.z & asked;
     LastSector last = no_sector();
     const CellState cell = look_up(p, x, y, z, asked, &last);

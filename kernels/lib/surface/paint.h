@@ -4,12 +4,12 @@
 #ifndef VXL_PAINT_H
 #define VXL_PAINT_H
 
-#include "lib/traverse/medium_set.h"
 #include "lib/surface/shading_normal.h"
 #include "lib/surface/source_mesh.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/texture_maps.h"
 #include "lib/surface/texture_mean.h"
+#include "lib/traverse/medium_set.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/shaded_hit.h"
 #include "shared/footprint.h"

@@ -3,8 +3,8 @@
 #ifndef VXL_SURFACE_HIT_H
 #define VXL_SURFACE_HIT_H
 
-#include "lib/traverse/medium_set.h"
 #include "lib/surface/cube_behind.h"
+#include "lib/traverse/medium_set.h"
 #include "shared/trace.h"
 
 #define VXL_NO_OBJECT 0xFFFFFFFFu

@@ -22,11 +22,11 @@ Report list_of(const glm::dvec3& v) {
 Report model_row(const Model& model) {
     const bool is_unknown = model.is_surface_open && model.surface_reason.empty();
     const std::filesystem::path& file = model.voxels.empty() ? model.mesh : model.voxels;
-    return {{"model", model.name},
-            {"of", model.solid
-                       ? std::string(solid_types()[static_cast<size_t>(model.solid->kind)].name)
-                       : file.string()},
-            {"surface", is_unknown ? "auto" : kind_of(model.surface).name}};
+    return {
+        {"model", model.name},
+        {"of", model.solid ? std::string(solid_types()[static_cast<size_t>(model.solid->kind)].name)
+                           : file.string()},
+        {"surface", is_unknown ? "auto" : kind_of(model.surface).name}};
 }
 
 Report object_row(const Scene& scene, const Object& object) {
@@ -60,6 +60,9 @@ Report describe_scene(const Scene& scene) {
     report["voxel edges"] = list_of(world.voxel_size);
     report["observer"] = list_of(observer.position);
     report["looking along"] = list_of(observer.world_from_observer[2]);
+    report["projection"] = observer.projection == Projection::display        ? "perspective"
+                           : observer.projection == Projection::orthographic ? "orthographic"
+                                                                             : "panoramic";
     report["display"] = shape_row(observer.display).name;
     const glm::ivec3 voxels = observer.display.voxels;
     report["display voxels"] = {voxels.x, voxels.y, voxels.z};

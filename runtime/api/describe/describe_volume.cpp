@@ -62,7 +62,8 @@ Report describe_volume_header(const fs::path& path) {
     const InputFile file(path);
     const Report header = read_header(file);
     if (header.is_null())
-        file.refuse("is neither a scene, which has \"objects\", nor the header of a display's volume");
+        file.refuse(
+            "is neither a scene, which has \"objects\", nor the header of a display's volume");
     if (header.value("format", Report()) == "raw") return describe_volume(path, "raw volume");
     Report report = {{"kind", "header of a display's volume"}};
     for (const char* key : {"format", "data", "shape", "axes", "bits", "dither", "bytes"})

@@ -55,7 +55,7 @@ TEST_F(CliConvertTest, WhatCantBeConvertedSaysWhy) {
     EXPECT_THAT(failure("a.vdb b.vdb --format vbd", 2), HasSubstr("did you mean \"vdb\"?"));
     EXPECT_THAT(failure("a.vdb b.planes --dither floyd", 2), HasSubstr("--dither"));
     put_bytes(folder / "a.npy", npy_bytes("|u1", "2, 1, 1, 4", "\xff\xff\xff\xff\1\2\3\xff"));
-    EXPECT_THAT(failure("a.npy b.qb", 2), HasSubstr("the name of voxels ends in .vox"));
+    EXPECT_THAT(failure("a.npy b.qb", 2), HasSubstr("voxels are written as .vox"));
     EXPECT_THAT(failure("b.vdb c.vdb", 4), HasSubstr("no such file"));
     failure("a.vdb", 2);
     failure("a.vdb nowhere/b.vdb", 5);

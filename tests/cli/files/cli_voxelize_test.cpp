@@ -259,7 +259,7 @@ TEST_F(CliVoxelizeTest, FramesThatAreMissingOrShareAFileAreRefusedBeforeAnyIsWri
                      "7 of the 8 files are missing: m.0001.obj, m.0003.obj"},
           {4, "n.####.obj -o v.####.vox", "no file has such a name"},
           {2, "t.obj -o v.####.vox", "a mesh is one frame"},
-          {2, "m.####.obj -o v.####.vox --frame 2", "--frames chooses among numbered files"},
+          {2, "m.####.obj -o v.####.vox --frame 2", "--frames chooses among numbered ones"},
           {2, "m.####.obj -o v.####.vox -o v.%04d.vox", "v.0002.vox"},
           {2, "scene.json --frames 1-2 -o v.####.vox", "no frame 2: the last one is 1"},
           {2, "scene.json --frames 1 --frame 1 -o v.####.vox", "excludes"}})

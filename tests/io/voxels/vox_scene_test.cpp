@@ -101,11 +101,10 @@ TEST_F(VoxSceneTest, OfAnotherSizeIsTheSameSceneInOtherMetres) {
     writer.shape(3, {{0, {}}});
     writer.transform(4, 5, 0, {}, {{{"_t", "0 0 20"}, {"_r", "20"}}});
     writer.shape(5, {{0, {}}});
-    writer.chunk("rCAM", VoxWriter::number(0) +
-                             VoxWriter::dictionary({{"_mode", "pers"},
-                                                    {"_focus", "1 2 3"},
-                                                    {"_angle", "10 20 0"},
-                                                    {"_radius", "40"}}));
+    writer.chunk("rCAM", VoxWriter::number(0) + VoxWriter::dictionary({{"_mode", "pers"},
+                                                                       {"_focus", "1 2 3"},
+                                                                       {"_angle", "10 20 0"},
+                                                                       {"_radius", "40"}}));
     const auto file = put(writer.bytes());
     AssetStore assets;
     const Scene own = scene_of(file, assets);
