@@ -215,6 +215,7 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
                                    {options.voxel_size, options.resolution});
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (const fs::path& output : outputs) check_colors(output, size_of_cubes(model));
     v1::VoxelizeReport report{0,
                               api::array_of(size_of_cubes(model)),
                               model.frame.voxel_edge.x,

@@ -66,6 +66,10 @@ WriterNotes write_npy(const std::filesystem::path& path, const CubeList& cubes);
 /// NRRD, gzip: the same values as of a numpy array, x fastest, with the place in metres.
 WriterNotes write_nrrd(const std::filesystem::path& path, const CubeList& cubes);
 
+/// Throws Error::limit where coloured voxels in a box of such a size are too many for a file of that
+/// name, without listing them.
+void check_colors(const std::filesystem::path& path, const glm::ivec3& size);
+
 /// The writer for a file's name; null where the ending is of none.
 WriterNotes (*cube_writer(const std::filesystem::path& path))(const std::filesystem::path&,
                                                               const CubeList&);

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string>
 
+#include "runtime/base/error.hpp"
 #include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 
 namespace voxelume {
@@ -14,6 +17,17 @@ namespace {
 
 constexpr uint64_t kMaxDenseBytes = uint64_t{1} << 33;
 constexpr uint64_t kMaxBinvoxCells = uint64_t{1} << 31;
+
+uint64_t cells_in(const glm::ivec3& size) {
+    return uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
+}
+
+void check_dense(const glm::ivec3& size, uint64_t bytes) {
+    if (bytes > kMaxDenseBytes)
+        throw Error(ErrorKind::limit,
+                    "an array of {} x {} x {} cells takes {:.1f} GB; use larger voxels", size.x,
+                    size.y, size.z, double(bytes) / 1e9);
+}
 
 /// Numbers of the cells in a file, and how many values each has.
 struct DenseOrder {
@@ -25,10 +39,7 @@ struct DenseOrder {
 /// One byte a cell, or red, green, blue and opacity.
 std::vector<uint8_t> dense_bytes(const CubeList& cubes, const DenseOrder& order) {
     const uint64_t bytes = order.cells * order.channels;
-    if (bytes > kMaxDenseBytes)
-        throw Error(ErrorKind::limit,
-                    "an array of {} x {} x {} cells takes {:.1f} GB; use larger voxels",
-                    cubes.size.x, cubes.size.y, cubes.size.z, double(bytes) / 1e9);
+    check_dense(cubes.size, bytes);
     std::vector<uint8_t> dense(bytes);
     for (size_t i = 0; i < cubes.cells.size(); ++i) {
         const glm::ivec3& cell = cubes.cells[i];
@@ -46,10 +57,6 @@ std::vector<uint8_t> dense_bytes(const CubeList& cubes, const DenseOrder& order)
         at[3] = uint8_t(255 - (color >> 24));
     }
     return dense;
-}
-
-uint64_t cells_in(const glm::ivec3& size) {
-    return uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z);
 }
 
 /// Writes bytes as one gzip member whose header has no time.
@@ -77,6 +84,11 @@ void write_gzip(AtomicFile& file, const std::vector<uint8_t>& bytes) {
 }
 
 }  // namespace
+
+void check_colors(const std::filesystem::path& path, const glm::ivec3& size) {
+    const std::string ending = ending_of(path);
+    if (ending == ".npy" || ending == ".nrrd") check_dense(size, 4 * cells_in(size));
+}
 
 WriterNotes write_npy(const std::filesystem::path& path, const CubeList& cubes) {
     const glm::ivec3& n = cubes.size;
