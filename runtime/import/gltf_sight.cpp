@@ -95,8 +95,8 @@ std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, do
                        rounded(height * size.x / size.y, 8), rounded(height, 8), rounded(depth, 8));
 }
 
-/// A light's luminous intensity or illuminance, in its colour, in a scene whose metres are as many
-/// to one of the file: what shines from a place has to shine as many times as far.
+/// A light's luminous intensity or illuminance, in its colour. A metre of the file has `scale`
+/// metres in the scene, over which the light of a place falls off: it is stronger by the square.
 double brightness(const GltfValue& light, double scale) {
     const double own = std::clamp(light.number("intensity", 1), 0.0, 1e9);
     return light.text("type") == "directional" ? own : own * scale * scale;

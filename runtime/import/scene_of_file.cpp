@@ -183,7 +183,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     // for.
     ImportOptions studio_options = options;
     if (has_lights && !options.has_ground) studio_options.has_ground = false;
-    // Neither would a camera below it see anything else.
+    // A camera below the ground would see nothing but its underside.
     if (has_camera && !options.has_ground && contents.observer.height < contents.box.min.y)
         studio_options.has_ground = false;
     Studio studio = make_studio(contents.box, contents.voxel_size, from, studio_options,

@@ -66,8 +66,8 @@ WriterNotes write_npy(const std::filesystem::path& path, const CubeList& cubes);
 /// NRRD, gzip: the same values as of a numpy array, x fastest, with the place in metres.
 WriterNotes write_nrrd(const std::filesystem::path& path, const CubeList& cubes);
 
-/// Throws Error::limit where coloured voxels in a box of such a size are too many for a file of that
-/// name, without listing them.
+/// Throws Error::limit where coloured voxels in a box of such a size are too many for a file of
+/// that name, without listing them.
 void check_colors(const std::filesystem::path& path, const glm::ivec3& size);
 
 /// The writer for a file's name; null where the ending is of none.
