@@ -74,7 +74,7 @@ TEST_F(ApiGltf, OfAnotherSizeMovesAndLooksTheSame) {
          {Json{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1}}}},
           Json{{"type", "orthographic"},
                {"orthographic", {{"xmag", 6}, {"ymag", 6}, {"znear", 1}, {"zfar", 50}}}}}) {
-        writer.json["cameras"] = {camera};
+        writer.json["cameras"] = Json::array({camera});
         scene_of(writer);
         const auto picture = [&](const ImportOptions& options) {
             const Scene scene = scene_of_file(folder / "a.glb", options, {.cache = no_cache});
