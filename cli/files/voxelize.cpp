@@ -138,7 +138,8 @@ Scene scene_of_voxels_in(const std::string& file) {
 
 /// The voxels that a file has, or larger and smaller ones in their place.
 double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
-    if (command.voxel_size > 0 || command.resolution > 0 || command.frame > 0)
+    const bool has_other_size = command.voxel_size > 0 || command.resolution > 0;
+    if (has_other_size || command.frame > 0 || !command.without.empty())
         return voxelize_scene(command, scene_of_voxels_in(file));
     for (const std::string& output : command.outputs)
         tell_notes(command, convert_voxels(file, output));
@@ -252,10 +253,10 @@ Action add_voxelize(CLI::App& app) {
     const auto size =
         app.add_option("--voxel-size", command->voxel_size, "edge of a voxel in metres")
             ->check(in_range(1e-9, 1e9));
-    app.add_option(
-           "--resolution", command->resolution,
-           "voxels along the longest side; if neither is given, 256 of a mesh, of points as few as "
-           "leave no gaps, and else the voxels that there are")
+    app.add_option("--resolution", command->resolution,
+                   "voxels along the longest side; if neither is given, 256 of a mesh or, for "
+                   ".vox, 254, of "
+                   "points as few as leave no gaps, and else the voxels that there are")
         ->check(in_range(1, 16384, Number::whole))
         ->excludes(size);
     app.add_option("--surface", command->surface,

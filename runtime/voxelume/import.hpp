@@ -41,7 +41,7 @@ struct ImportOptions {
     bool turns = false;
     double angle = 40;  ///< degrees, horizontal opening of the observer's pyramid
     /// A ground that shadows fall on, where the observer is above it. There is one by default
-    /// unless the file says otherwise (.vox) or has lights (glTF).
+    /// unless the file says otherwise (.vox), has lights (glTF), or has a camera below it.
     std::optional<bool> ground{};
     /// Radiance of the background and of the ground; the file's (.vox) or grey by default.
     std::optional<Color> background{};

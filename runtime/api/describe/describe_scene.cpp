@@ -60,9 +60,9 @@ Report describe_scene(const Scene& scene) {
     report["voxel edges"] = list_of(world.voxel_size);
     report["observer"] = list_of(observer.position);
     report["looking along"] = list_of(observer.world_from_observer[2]);
-    report["projection"] = observer.projection == Projection::display        ? "perspective"
-                           : observer.projection == Projection::orthographic ? "orthographic"
-                                                                             : "panoramic";
+    if (observer.projection != Projection::display)
+        report["projection"] =
+            observer.projection == Projection::panoramic ? "panoramic" : "orthographic";
     report["display"] = shape_row(observer.display).name;
     const glm::ivec3 voxels = observer.display.voxels;
     report["display voxels"] = {voxels.x, voxels.y, voxels.z};

@@ -29,7 +29,7 @@ std::string read_all_inflated(const InputFile& file, size_t max) {
     const bool is_gzip = mark[0] == '\x1f' && mark[1] == '\x8b';
     ByteStream stream(file, 0, is_gzip ? DataEncoding::gzip : DataEncoding::raw);
     std::string bytes;
-    // Room that isn't used costs nothing, and growing would copy all that there is.
+    // Pages that aren't touched take no memory, and growing would copy all that there is.
     const uint64_t largest = is_gzip ? kDeflateRatio * file.size() : file.size();
     bytes.reserve(std::min<uint64_t>(largest, max) + kPiece);
     for (size_t got = kPiece; got == kPiece;) {

@@ -223,6 +223,18 @@ TEST_F(CliVoxelFilesTest, ARenamedFileIsReadByWhatItBeginsWith) {
     }
 }
 
+TEST_F(CliVoxelFilesTest, ObjectsOfAFileAreLeftOutByTheirNames) {
+    const std::string file = "voxelize '" VXL_SOURCE_DIR "/scenes/lighthouse.vox' -o a.vox";
+    ASSERT_EQ(run(file).exit_code, 0);
+    const auto voxels = [&] {
+        return nlohmann::json::parse(run("info a.vox --json").out)["voxels"].get<int>();
+    };
+    const int all = voxels();
+    ASSERT_EQ(run(file + " --without tower").exit_code, 0);
+    EXPECT_LT(voxels(), all);
+    EXPECT_EQ(run(file + " --without nobody").exit_code, 2);
+}
+
 TEST_F(CliVoxelFilesTest, AMeshIsOneModelOfAVox) {
     put_bytes(folder / "wedge.obj", kTetrahedron);
     const ProgramResult result = run("voxelize wedge.obj -o a.vox");
