@@ -163,6 +163,8 @@ struct Pyramid {
     InstanceSet instances;
     SourceMeshes sources;
     Buffer<float> cube_steps;  ///< of each of the scene's objects: runtime/analysis/cube_steps.hpp
+    Buffer<uint32_t> order;    ///< of each of the scene's objects, its coincidence_order(); empty
+                               ///< where no two exact surfaces can coincide
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
                                          ///< unknown
     bool clear = false;  ///< true if the space between them is known to hold no medium

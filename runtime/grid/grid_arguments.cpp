@@ -42,8 +42,8 @@ void bind(KernelArguments& to, const Pyramid& pyramid) {
            pyramid.attributes, pyramid.attribute, pyramid.colors, pyramid.normals, pyramid.fields,
            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
            pyramid.triangle_attributes, pyramid.triangle_normals, pyramid.triangle_textures,
-           pyramid.textures, pyramid.solids, pyramid.instances.records, pyramid.instances.nodes,
-           pyramid.instances.materials);
+           pyramid.textures, pyramid.solids, pyramid.order, pyramid.instances.records,
+           pyramid.instances.nodes, pyramid.instances.materials);
 }
 
 }  // namespace voxelume

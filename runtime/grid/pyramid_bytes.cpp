@@ -45,6 +45,7 @@ uint64_t bytes_of(const Pyramid& pyramid) {
         visit("", pyramid.sources.words);
         visit("", pyramid.sources.objects);
         visit("", pyramid.cube_steps);
+        visit("", pyramid.order);
     });
 }
 

@@ -71,6 +71,7 @@ class FollowingWalk {
             count_joining(device_, instances.listed, indexed.pyramid, instances.models, kept);
         joined.sources = std::move(sources);
         joined.cube_steps = count_cube_steps(device_, scene_, meshes_, objects_.boxes());
+        joined.order = count_order(device_, scene_);
         joined.object_boxes = objects_.boxes();
         joined.clear = medium_.is_zero;
         const uint64_t before = bytes_in_use(), volume = volume_height(joined);

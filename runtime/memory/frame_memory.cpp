@@ -49,6 +49,7 @@ class FrameWalk {
             count_joining(device_, instances.listed, placed.pyramid, instances.models, kept);
         joined.sources = std::move(sources);
         joined.cube_steps = count_cube_steps(device_, scene_, meshes_, objects_.boxes());
+        joined.order = count_order(device_, scene_);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);

@@ -72,6 +72,17 @@ bool transmits(const Scene& scene, const Object& object) {
            });
 }
 
+std::vector<uint32_t> coincidence_order(const Scene& scene) {
+    const bool has_exact = std::ranges::any_of(scene.objects, [&](const Object& object) {
+        return scene.models[size_t(object.model)].surface == Surface::exact;
+    });
+    if (scene.objects.size() < 2 || !has_exact) return {};
+    std::vector<uint32_t> order = object_ranks(scene.objects);
+    for (size_t i = 0; i < order.size(); ++i)
+        if (transmits(scene, scene.objects[i])) order[i] += uint32_t(order.size());
+    return order;
+}
+
 bool has_emission(const Scene& scene, const Object& object) {
     const auto emits = [&](int material) {
         return (effects_of(scene.materials[size_t(material)]) & kEmits) != 0;

@@ -34,6 +34,11 @@ bool has_emission(const Scene& scene, const Object& object);
 /// first.
 std::vector<uint32_t> object_ranks(const std::vector<Object>& objects);
 
+/// For each object, its place among those whose surfaces coincide, of which a ray meets the first:
+/// opaque ones come before others, and each of these in the order of object_ranks. Empty for scenes
+/// with fewer than two objects or without exact surfaces.
+std::vector<uint32_t> coincidence_order(const Scene& scene);
+
 /// Whether light goes through or past surfaces of the material.
 bool transmits(const Material& material);
 

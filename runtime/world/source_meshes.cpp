@@ -9,6 +9,7 @@
 #include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/object_lattice.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {
@@ -105,6 +106,12 @@ Buffer<float> cube_steps_on(const Device& device, const Scene& scene, AssetStore
     const std::vector<float> steps = cube_steps(scene, meshes, boxes);
     if (steps.empty()) return {};
     return Buffer<float>(device, "cube steps", std::span<const float>(steps));
+}
+
+Buffer<uint32_t> coincidence_order_on(const Device& device, const Scene& scene) {
+    const std::vector<uint32_t> order = coincidence_order(scene);
+    if (order.empty()) return {};
+    return Buffer<uint32_t>(device, "order of objects", std::span<const uint32_t>(order));
 }
 
 }  // namespace voxelume

@@ -35,4 +35,7 @@ class SourceMeshCache {
 Buffer<float> cube_steps_on(const Device& device, const Scene& scene, AssetStore& meshes,
                             std::span<const VoxelBox> boxes);
 
+/// Pyramid::order of a scene.
+Buffer<uint32_t> coincidence_order_on(const Device& device, const Scene& scene);
+
 }  // namespace voxelume

@@ -177,6 +177,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
     built.pyramid.cube_steps = cube_steps_on(device_, scene, meshes_, boxes);
+    built.pyramid.order = coincidence_order_on(device_, scene);
     built.pyramid.object_boxes = std::move(boxes);
     built.pyramid.sources = std::move(sources);
     built.pyramid.clear = plan.medium.is_zero;

@@ -49,7 +49,7 @@ kernel void probe(global const SolidShape* solids, global const float* rays, uin
     const lane_uint number = LANES_LOAD(numbers, i);
     const lane_int known = (lane_int)from_solid;
     const lane_int inside = go_inside(solids, number, &ray, known);
-    const lane_int hit = hit_solids(solids, number, &ray, (lane_float)0.0f, known, inside,
+    const lane_int hit = hit_solids(solids, number, &ray, (lane_float)0.0f, (lane_float)0.0f, known, inside,
                                     (lane_int)-1, &t);
     const SolidPoint n = solid_normals(solids, number, &ray, t, hit);
     LANES_STORE(t, hits, i);

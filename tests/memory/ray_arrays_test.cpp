@@ -62,7 +62,7 @@ constexpr const char* kGlass = R"({"refraction": 0.9, "reflection": 0.1, "ior": 
 
 RayBytes planned(const Scene& scene) {
     AssetStore meshes;
-    return plan_scene(scene, meshes).rays;
+    return plan_scene(scene, meshes, test_device().info()).rays;
 }
 
 /// The peak bytes of a frame's rays, with some small tables.

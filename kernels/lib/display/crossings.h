@@ -184,7 +184,7 @@ static INLINED void scan_solid(const PyramidView* p, const SurfaceView* s, const
     const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
     for (int i = 0; i < VXL_SOLID_CROSSINGS && lanes_any(tested); ++i) {
         lane_float at = t_exit;
-        tested &= hit_solids(s->solids, number, &ray, t, (lane_int)0, (lane_int)0, tested, &at);
+        tested &= hit_solids(s->solids, number, &ray, t, t, (lane_int)0, (lane_int)0, tested, &at);
         const lane_int crossed = tested & is_in_world(p, w, at);
         if (lanes_any(crossed)) {
             const SolidRay from = {fma(w->dx, at, w->ox),
@@ -230,9 +230,10 @@ static inline void scan_primitives(const WorldView* world, const PyramidView* p,
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~is_solid;
             lane_float t = t_exit;
+            lane_int front;
             const lane_int crossed = hit_triangle(p, t_first, (lane_int)-1, s->triangles,
                                                   primitive & LANES_AS_UINT(triangle), w, &shear,
-                                                  (lane_int)0, (lane_int)0, triangle, &t);
+                                                  (lane_int)0, (lane_int)0, triangle, &t, &front);
             lane_float inward = (lane_float)0.0f;
             if (r->covers || VXL_TRANSMISSION)
                 inward = triangle_inward(s->triangles, primitive & LANES_AS_UINT(triangle), w);

@@ -120,13 +120,14 @@ static INLINED SolidEvent event_at(global const SolidShape* solids, uint number,
 
 /// The solid of one shape: its ends in order, without asking for events.
 static INLINED lane_float first_end_of_shape(global const SolidShape* s, const SolidRay* ray,
-                                             lane_float t_first, lane_int known, lane_int inside) {
+                                             lane_float t_first, lane_float t_clear, lane_int known,
+                                             lane_int inside) {
     const ShapePath path = shape_path(s, ray);
     const TorusSpans spans = shape_spans(s, &path);
     const lane_float a0 = spans.first.enter, a1 = spans.first.leave;
     const lane_float b0 = spans.second.enter, b1 = spans.second.leave;
-    const lane_int in_a = LANE_MASK(a0 <= t_first) & LANE_MASK(a1 > t_first);
-    const lane_int in_b = LANE_MASK(b0 <= t_first) & LANE_MASK(b1 > t_first);
+    const lane_int in_a = LANE_MASK(a0 <= t_first) & LANE_MASK(a1 > t_clear);
+    const lane_int in_b = LANE_MASK(b0 <= t_first) & LANE_MASK(b1 > t_clear);
     const lane_int flip = (lane_int)((s->kind & VXL_SOLID_COMPLEMENT) ? -1 : 0);
     const lane_int in_shape = LANES_SELECT(known, inside ^ flip, in_a | in_b);
     const lane_float a = LANES_SELECT(in_shape, a1, a0), b = LANES_SELECT(in_shape, b1, b0);
@@ -139,15 +140,18 @@ static INLINED lane_float first_end_of_shape(global const SolidShape* s, const S
 /// and in lanes that are not `tested`.
 ///
 /// In the lanes of `known` the ray is known to travel `inside` (mask) of the solid or outside of it
-/// from t_first on, see goes_inside; in the others the point at t_first itself tells.
+/// from t_first on, see goes_inside; in the others the point at t_first itself tells. But a ray
+/// that would leave the solid by t_clear, which is t_first or later, began on that surface, not
+/// inside.
 static INLINED lane_float solid_crossing(global const SolidShape* solids, uint number,
-                                         const SolidRay* ray, lane_float t_first, lane_int known,
-                                         lane_int inside, lane_int tested) {
+                                         const SolidRay* ray, lane_float t_first,
+                                         lane_float t_clear, lane_int known, lane_int inside,
+                                         lane_int tested) {
     const lane_float far = (lane_float)INFINITY;
     if (solids[number].shape_count == 1u)
-        return LANES_SELECT(tested,
-                            first_end_of_shape(solids + number, ray, t_first, known, inside), far);
-    SolidEvent event = event_at(solids, number, ray, t_first);
+        return LANES_SELECT(
+            tested, first_end_of_shape(solids + number, ray, t_first, t_clear, known, inside), far);
+    SolidEvent event = event_at(solids, number, ray, LANES_SELECT(known, t_first, t_clear));
     inside = LANES_SELECT(known, inside, event.after);
     lane_float t = LANES_SELECT(tested, event.next, far);
     lane_int searched = tested & LANE_MASK(t < far);

@@ -112,16 +112,18 @@ static inline lane_int goes_inside(global const SolidShape* solids, uint number,
 ///
 /// The hit is the first of the whole ray, wherever the voxel that lists the solid lies. A ray that
 /// is known to travel inside or outside of the solid from t_first on says so in `known` and
-/// `inside`; then a surface point at t_first is not met again.
+/// `inside`; then a surface point at t_first is not met again. See solid_crossing for t_clear.
 static INLINED lane_int hit_solids(global const SolidShape* solids, lane_uint number,
-                                   const SolidRay* ray, lane_float t_first, lane_int known,
-                                   lane_int inside, lane_int tested, lane_float* t) {
+                                   const SolidRay* ray, lane_float t_first, lane_float t_clear,
+                                   lane_int known, lane_int inside, lane_int tested,
+                                   lane_float* t) {
     lane_int closer = (lane_int)0, left = tested;
     while (lanes_any(left)) {
         const uint one = lanes_min(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
         const lane_int same = left & LANE_MASK(number == one);
         left &= ~same;
-        const lane_float at = solid_crossing(solids, one, ray, t_first, known, inside, same);
+        const lane_float at =
+            solid_crossing(solids, one, ray, t_first, t_clear, known, inside, same);
         const lane_int nearer = same & LANE_MASK(at < *t);
         *t = LANES_SELECT(nearer, at, *t);
         closer |= nearer;

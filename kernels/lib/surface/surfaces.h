@@ -4,6 +4,7 @@
 #define VXL_SURFACES_H
 
 #include "lib/solid/solid_surface.h"
+#include "lib/surface/coincident.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field_chain.h"
 #include "lib/surface/mixed_mesh.h"
@@ -44,8 +45,8 @@ static inline lane_float float_before(lane_float t) {
 /// begin one unit of t before their origin.
 static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
                                             const Walk* w, lane_uint number,
-                                            const RayState* ray_state, lane_int tested,
-                                            lane_int from_solid, lane_int at_least,
+                                            const RayState* ray_state, const RayBeginning* from,
+                                            lane_int tested, lane_int from_solid, lane_int at_least,
                                             lane_int entering, lane_float* t) {
     lane_int closer = (lane_int)0;
     const lane_int nothing = (lane_int)0;
@@ -53,8 +54,8 @@ static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceV
     if (lanes_any(early)) {
         const SolidRay ray = {w->ox - w->dx, w->oy - w->dy, w->oz - w->dz, w->dx, w->dy, w->dz};
         lane_float from_before = (lane_float)INFINITY;
-        const lane_int met = hit_solids(s->solids, number, &ray, (lane_float)0.0f, nothing, nothing,
-                                        early, &from_before);
+        const lane_int met = hit_solids(s->solids, number, &ray, (lane_float)0.0f, (lane_float)0.0f,
+                                        nothing, nothing, early, &from_before);
         const lane_float at = LANES_SELECT(met, from_before - 1.0f, (lane_float)0.0f);
         closer = met & is_in_world(p, w, at) & LANE_MASK(at < *t);
         *t = LANES_SELECT(closer, at, *t);
@@ -74,7 +75,13 @@ static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceV
             known |= holds;
             inside |= holds & ~from_solid;
         }
-        met = hit_solids(s->solids, number, &ray, t_first, known, inside, left, &at);
+        lane_float t_clear = t_first;
+        if (may_coincide(s)) {
+            const lane_float none = (lane_float)0.0f;
+            t_clear += LANES_SELECT(from->begins & ~from_solid, from->slack, none);
+            t_first -= LANES_SELECT(from->goes_on & ~from_solid, from->slack, none);
+        }
+        met = hit_solids(s->solids, number, &ray, t_first, t_clear, known, inside, left, &at);
     }
     met &= is_in_world(p, w, LANES_SELECT(met, at, (lane_float)0.0f));
     *t = LANES_SELECT(met, at, *t);
@@ -101,6 +108,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
     const lane_float t_min = LANES_SELECT(entering, (lane_float)-INFINITY, ray_state->t_first);
     const RayShear shear = ray_shear(w);
+    const RayBeginning from = beginning_of(p, s, &shear, ray_state);
     voxel &= LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
     const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
@@ -112,6 +120,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
         const lane_int of_source = LANE_MASK(primitive == ray_state->source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
         lane_int closer = (lane_int)0, at_least = (lane_int)0;
+        lane_float at = found->t + from.slack;
         if (VXL_TRANSMISSION)
             at_least = ray_state->goes_on & comes_after(primitive, ray_state->source);
         if (VXL_TRIANGLES) {
@@ -124,8 +133,8 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
                     if (VXL_TRANSMISSION) within = medium_set_holds(&ray_state->media, packed);
                     if (VXL_MIXED) outside = is_of_object(ray_state->field_of, packed);
                 }
-                closer |= hit_triangle(p, t_min, at_least, s->triangles, number, w, &shear, within,
-                                       outside, triangle, &found->t);
+                closer |= hit_triangle_ahead(p, s, w, number, &shear, ray_state, &from, t_min,
+                                             at_least, within, outside, triangle, &at);
             }
         }
         if (VXL_SOLIDS) {  // one test of a solid covers the whole ray
@@ -134,8 +143,10 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             if (lanes_any(solid))
                 closer |= hit_solids_in_world(
                     p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), ray_state,
-                    solid, of_source, at_least, entering, &found->t);
+                    &from, solid, of_source, at_least, entering, &at);
         }
+        closer = comes_first(s, ray_state, primitive, at, from.slack, closer, found);
+        found->t = LANES_SELECT(closer, at, found->t);
         found->primitive = LANES_SELECT(closer, primitive, found->primitive);
         next += 1u;
         listing &= LANE_MASK(next < end);

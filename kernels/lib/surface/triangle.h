@@ -76,11 +76,11 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
 /// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_min, or at it
 /// where `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's
 /// object meet its back only: the neighbour across an edge that they came in by has its face
-/// towards them. Rays from `outside` meet its face only.
+/// towards them. Rays from `outside` meet its face only. `front` is set where they meet its face.
 static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min, lane_int at_least,
                                     global const float* triangles, lane_uint number, const Walk* w,
                                     const RayShear* s, lane_int within, lane_int outside,
-                                    lane_int tested, lane_float* t) {
+                                    lane_int tested, lane_float* t, lane_int* front) {
     const lane_uint first = number * 9u;
     const ShearedCorner a = shear_corner(triangles, first, w, s);
     const ShearedCorner b = shear_corner(triangles, first + 3u, w, s);
@@ -94,7 +94,8 @@ static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min, lane
     lane_int solid = LANE_MASK(determinant != 0.0f) & one_side & tested;
     // The determinant's sign is that of -(n . d) times the direction along the sheared z.
     if (VXL_TRANSMISSION) solid &= ~within | LANE_MASK(determinant * s->scale < 0.0f);
-    if (VXL_MIXED) solid &= ~outside | LANE_MASK(determinant * s->scale > 0.0f);
+    *front = LANE_MASK(determinant * s->scale > 0.0f);
+    if (VXL_MIXED) solid &= ~outside | *front;
     if (!lanes_any(solid)) return solid;
     const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
     const lane_float at =

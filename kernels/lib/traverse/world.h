@@ -19,7 +19,7 @@
         global const uint *restrict triangle_attributes,                                         \
         global const uint *restrict triangle_normals,                                            \
         global const uint *restrict triangle_textures, global const uint *restrict textures,     \
-        global const SolidShape *restrict solids,                                                \
+        global const SolidShape *restrict solids, global const uint *restrict order,             \
         global const InstanceRecord *restrict instance_records,                                  \
         global const InstanceNode *restrict instance_nodes,                                      \
         global const uint *restrict group_materials
@@ -39,6 +39,7 @@ typedef struct {
     global const uint* restrict triangle_textures;
     global const uint* restrict textures;
     global const SolidShape* restrict solids;
+    global const uint* restrict order;  // Pyramid::order; null where nothing can coincide
 } SurfaceView;
 
 /// The instances of models whose pyramids lie behind the world's.
@@ -59,24 +60,26 @@ typedef struct {
 } WorldView;
 
 /// The value of a WorldView in a kernel with these parameters.
-#define VXL_WORLD                                                                               \
-    {                                                                                           \
-        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels), {attributes,          \
-                                                                           constant_attribute,  \
-                                                                           colors,              \
-                                                                           voxel_normals,       \
-                                                                           fields,              \
-                                                                           primitive_first,     \
-                                                                           primitives,          \
-                                                                           triangles,           \
-                                                                           triangle_attributes, \
-                                                                           triangle_normals,    \
-                                                                           triangle_textures,   \
-                                                                           textures,            \
-                                                                           solids},             \
-        {                                                                                       \
-            instance_records, instance_nodes, group_materials, 0                                \
-        }                                                                                       \
+#define VXL_WORLD                                                         \
+    {                                                                     \
+        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels), \
+            {attributes,                                                  \
+             constant_attribute,                                          \
+             colors,                                                      \
+             voxel_normals,                                               \
+             fields,                                                      \
+             primitive_first,                                             \
+             primitives,                                                  \
+             triangles,                                                   \
+             triangle_attributes,                                         \
+             triangle_normals,                                            \
+             triangle_textures,                                           \
+             textures,                                                    \
+             solids,                                                      \
+             order},                                                      \
+        {                                                                 \
+            instance_records, instance_nodes, group_materials, 0          \
+        }                                                                 \
     }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/source_objects.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/lookup/source_mesh.hpp"
 
 namespace voxelume {
@@ -26,6 +27,12 @@ Buffer<float> count_cube_steps(const Device& device, const Scene& scene, AssetSt
                                std::span<const VoxelBox> boxes) {
     const size_t numbers = cube_steps(scene, meshes, boxes).size();
     return numbers == 0 ? Buffer<float>() : Buffer<float>(device, "cube steps", numbers);
+}
+
+Buffer<uint32_t> count_order(const Device& device, const Scene& scene) {
+    const size_t objects = coincidence_order(scene).size();
+    return objects == 0 ? Buffer<uint32_t>()
+                        : Buffer<uint32_t>(device, "order of objects", objects);
 }
 
 }  // namespace voxelume

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces of two objects that coincide: of glass that stands on a table, of boxes with one top.
+//
+// Rounding puts the points where a ray meets them a little before or behind each other, here so and
+// there so. So of hits that rounding may have exchanged, one counts by its object: opaque ones
+// first, then those that the ray enters, then those that it leaves, each by their priorities. And a
+// ray that begins on one of the surfaces has passed the back of the other.
+#ifndef VXL_COINCIDENT_H
+#define VXL_COINCIDENT_H
+
+#include "lib/surface/surface_hit.h"
+#include "lib/surface/triangle.h"
+#include "lib/traverse/hit_attributes.h"
+#include "lib/traverse/world.h"
+
+// Objects that a ray leaves come after all that it enters.
+#define VXL_ORDER_LEAVING 0x40000000u
+
+/// Whether a world's exact surfaces may coincide: they are of several objects.
+static inline bool may_coincide(const SurfaceView* s) {
+    return VXL_ATTRIBUTES && s->order != 0;
+}
+
+/// The most by which rounding sets coinciding surfaces apart, in t. Points of a ray are right
+/// within plane_bound; on surfaces that a ray grazes, 8 of it lie between two such points at 7
+/// degrees.
+static inline lane_float coincidence(const PyramidView* p, const RayShear* shear) {
+    return fabs(shear->scale) * (8.0f * p->plane_bound);
+}
+
+/// Mask: a source, or what was hit, is a triangle or solid.
+static inline lane_int is_primitive(lane_uint number) {
+    return LANE_MASK(number != VXL_NO_PRIMITIVE) & LANE_MASK((number >> 30) != 1u);
+}
+
+/// The place of a primitive's object in the order of coinciding surfaces.
+static inline lane_uint place_in_order(const SurfaceView* s, const RayState* ray_state,
+                                       lane_uint primitive, lane_int some) {
+    const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, some);
+    const lane_uint object = packed & VXL_OBJECT_MASK & LANES_AS_UINT(some);
+    lane_uint place = LANES_GATHER_UINT(s->order, object);
+    if (VXL_TRANSMISSION)
+        place |= LANES_AS_UINT(medium_set_holds(&ray_state->media, packed)) & VXL_ORDER_LEAVING;
+    return place;
+}
+
+/// Mask: of the lanes that `met` a primitive at `at`, those that take it instead of what they have
+/// found.
+static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_state,
+                                   lane_uint primitive, lane_float at, lane_float slack,
+                                   lane_int met, const SurfaceHit* found) {
+    const lane_int closer = met & LANE_MASK(at < found->t);
+    if (!may_coincide(s)) return closer;
+    const lane_int both =
+        met & is_primitive(found->primitive) & LANE_MASK(fabs(at - found->t) <= slack);
+    if (!lanes_any(both)) return closer;
+    const lane_uint own = place_in_order(s, ray_state, primitive, both);
+    const lane_uint other = place_in_order(s, ray_state, found->primitive, both);
+    return LANES_SELECT(both & LANE_MASK(own != other), LANE_MASK(own < other), closer);
+}
+
+/// Mask: of the lanes that met a triangle close to where they begin, those for which it is ahead.
+/// Of the source's own object it is ahead by its t; of others a ray meets the `front`, or the back
+/// where it is `within`.
+static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
+                                lane_uint primitive, lane_float at, lane_int at_least,
+                                lane_int front, lane_int within, lane_int near) {
+    const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, near);
+    const lane_uint of_source = attributes_of_hit(s, (lane_uint)0, ray_state->source, near);
+    const lane_int same = LANE_MASK(((packed ^ of_source) & VXL_OBJECT_MASK) == 0u);
+    const lane_int later =
+        LANE_MASK(at > ray_state->t_first) | (at_least & LANE_MASK(at == ray_state->t_first));
+    return near & LANES_SELECT(same, later, front | within);
+}
+
+/// Where rays that begin on surfaces meet others: those that coincide with theirs may seem to lie
+/// `slack` before or behind them.
+typedef struct {
+    lane_int begins;   // mask: others' backs by the ray's beginning were passed
+    lane_int goes_on;  // mask: others' faces there are ahead, even if they seem to lie behind
+    lane_float slack;
+} RayBeginning;
+
+/// What a packet's rays begin on in the world's exact surfaces.
+static inline RayBeginning beginning_of(const PyramidView* p, const SurfaceView* s,
+                                        const RayShear* shear, const RayState* ray_state) {
+    RayBeginning from = {(lane_int)0, (lane_int)0, (lane_float)0.0f};
+    if (!may_coincide(s)) return from;
+    from.slack = coincidence(p, shear);
+    from.begins = (ray_state->on_surface | ray_state->goes_on) & is_primitive(ray_state->source);
+    if (VXL_TRANSMISSION) from.goes_on = from.begins & (ray_state->goes_on | ray_state->refracted);
+    return from;
+}
+
+/// hit_triangle, where surfaces may coincide with the one that the ray begins on.
+static inline lane_int hit_triangle_ahead(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                                          lane_uint number, const RayShear* shear,
+                                          const RayState* ray_state, const RayBeginning* from,
+                                          lane_float t_min, lane_int at_least, lane_int within,
+                                          lane_int outside, lane_int tested, lane_float* t) {
+    lane_int front = (lane_int)0;
+    lane_float at = *t;
+    const lane_float back = LANES_SELECT(from->goes_on, from->slack, (lane_float)0.0f);
+    lane_int met = hit_triangle(p, t_min - back, at_least, s->triangles, number, w, shear, within,
+                                outside, tested, &at, &front);
+    if (may_coincide(s)) {
+        const lane_int near =
+            met & from->begins & LANE_MASK(at <= ray_state->t_first + from->slack);
+        if (lanes_any(near))
+            met &= ~near | is_ahead(s, ray_state, number, at, at_least, front, within, near);
+    }
+    *t = LANES_SELECT(met, at, *t);
+    return met;
+}
+
+#endif
