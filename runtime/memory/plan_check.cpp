@@ -22,10 +22,6 @@ std::string larger_voxels(const glm::dvec3& edge, double factor) {
     return fmt::format("voxels larger than {:.2g} x {:.2g} x {:.2g} m", e.x, e.y, e.z);
 }
 
-/// What the program, an OpenCL driver and its compiler take of main memory in addition to all that
-/// is counted: PoCL 3.1 with LLVM 15, compiling the kernels of a scene of all features, 0.28 GB.
-constexpr double kDriverBytes = 3e8;
-
 /// `needs`: "3 GB on a device, which has 2 GB".
 [[noreturn]] void refuse_world(const World& world, const std::string& needs, double factor) {
     throw Error(ErrorKind::limit, "{}: a world of {} voxels needs {}: use {}", world.where,

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/image/image.hpp"
+#include "runtime/io/image/image_rows.hpp"
 
 namespace voxelume {
 
@@ -39,6 +41,15 @@ void set_exr_threads(int threads);
 size_t write_exr(const std::filesystem::path& path, const Image& image,
                  const ExrStorage& storage = {},
                  const std::map<std::string, std::string>& others = {});
+
+/// The file that `write_exr` writes, in bands. A text `noise` that is only known at the end may be
+/// told then. Chunks of all parts but the first wait in a hidden file beside it for the last band.
+std::unique_ptr<ImageRows> exr_rows(const std::filesystem::path& path, const ImageWindow& window,
+                                    const ExrStorage& storage,
+                                    const std::map<std::string, std::string>& others);
+
+/// The bytes of main memory that writing a band takes besides the band, of rows of so many bytes.
+double exr_band_bytes(double row_bytes);
 
 /// The bytes of the file that `write_exr` writes.
 std::string exr_bytes(const Image& image, const ExrStorage& storage = {},
