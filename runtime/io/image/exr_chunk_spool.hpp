@@ -2,12 +2,13 @@
 // Where compressed chunks wait until it is their turn in a file.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/input_file.hpp"
 
 namespace voxelume {
 
@@ -18,10 +19,23 @@ class ExrChunkSpool {
     explicit ExrChunkSpool(const std::filesystem::path& beside) : file_(beside) {}
 
     /// Keeps a chunk, whose first row is `row`. Those of one part come from the top down.
-    void put(size_t part, int row, const std::string& bytes);
+    void put(size_t part, int row, const std::string& bytes) {
+        chunks_.push_back({part, row, file_.position(), bytes.size()});
+        file_.write(bytes.data(), bytes.size());
+    }
 
-    /// Calls `write` with all chunks, part after part.
-    void take_out(const std::function<void(size_t part, int row, const std::string& bytes)>& write);
+    /// Calls `write` with the part, the row and the bytes of all chunks, part after part.
+    template <class Write>
+    void take_out(const Write& write) {
+        std::ranges::stable_sort(chunks_, {}, &Chunk::part);
+        const InputFile written(file_.temporary());
+        std::string bytes;
+        for (const Chunk& chunk : chunks_) {
+            bytes.resize(chunk.size);
+            written.read(chunk.position, bytes.data(), chunk.size);
+            write(chunk.part, chunk.row, bytes);
+        }
+    }
 
   private:
     struct Chunk {
