@@ -11,6 +11,7 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/border/process.hpp"
+#include "runtime/api/compiler_watch.hpp"
 #include "runtime/api/earlier_images.hpp"
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/image_files.hpp"
@@ -82,23 +83,6 @@ void check_names(const v1::FrameJob& job) {
         for (const std::filesystem::path& volume : frame.volumes) volume_format_of(volume);
     }
 }
-
-/// Lets a caller hear of compiling as long as it lives.
-class CompilerWatch {
-  public:
-    CompilerWatch(std::span<const Device> devices, const CompileListener& listener)
-        : devices_(devices) {
-        for (const Device& device : devices_) device.listen_to_compiler(listener);
-    }
-    ~CompilerWatch() {
-        for (const Device& device : devices_) device.listen_to_compiler({});
-    }
-    CompilerWatch(const CompilerWatch&) = delete;
-    CompilerWatch& operator=(const CompilerWatch&) = delete;
-
-  private:
-    std::span<const Device> devices_;
-};
 
 /// A run of frames for a caller.
 class Run {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "runtime/base/files/stamp.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -139,7 +140,7 @@ TEST_F(ImageRowsTest, OnAFullDiskSayWhyAndLeaveNoFile) {
         [&] { return exr_rows(in_bands(), window_of(image), ExrStorage({}, true), {}); },
         [&] { return png_rows(in_bands(), window_of(image), {.bits = 16}); }};
     for (const auto& begin : kinds)
-        for (const rlim_t limit : {1000, 100'000, 200'000}) {
+        for (const rlim_t limit : {1000, 60'000, 120'000}) {
             const FileSizeLimit full(limit);
             const Error error = error_of([&] {
                 const auto file = begin();
@@ -157,6 +158,17 @@ TEST_F(ImageRowsTest, TellATextOfAnotherLengthAsAFault) {
     const auto file = exr_rows(in_bands(), window_of(image), {}, {{"noise", "0.00000"}});
     add_bands(image, 16, *file);
     EXPECT_EQ(error_of([&] { file->retell("noise", "12.34567"); }).kind(), ErrorKind::output);
+}
+
+TEST_F(ImageRowsTest, OfAnImageLargerThanMemoryAreRefusedByItsReader) {
+    write_exr(whole(), varied_image(30, 20));  // 9 channels of 4 bytes
+    limit_main_memory(30 * 20 * 36 - 1);
+    const Error error = error_of([&] { read_exr(whole()); });
+    EXPECT_FALSE(fits_memory(read_exr_header(whole())));
+    limit_main_memory(0);
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), HasSubstr("whole: an image of 30x20 pixels takes "));
+    EXPECT_EQ(read_exr(whole()).width, 30);
 }
 
 }  // namespace
