@@ -140,7 +140,8 @@ class Run {
         batch.progress = api::callback(options_.progress);
         batch.is_part = options_.is_part;
         batch.earlier = earlier_.images();
-        if (!job_.deliver_images) batch.bands = [this](int frame) { return band_files(frame); };
+        if (!job_.deliver_images)
+            batch.bands = [this](size_t n) { return band_files(job_.frames[n]); };
         batch.warn = [this](std::span<const Warning> warnings) { tell(warnings); };
         batch.stop = options_.stop;
         return batch;
@@ -171,14 +172,13 @@ class Run {
     }
 
     /// Who writes a frame's image in bands.
-    std::shared_ptr<BandSink> band_files(int frame) {
-        const auto files = std::ranges::find(job_.frames, frame, &v1::FrameFiles::frame);
+    std::shared_ptr<BandSink> band_files(const v1::FrameFiles& files) {
         const RenderSettings& render = scene_.render;
         const std::lock_guard lock(hashes_mutex_);
         return std::make_shared<api::BandFiles>(
             ImageWindow{render.size, render.crop.first, render.crop.frame},
-            texts_of_image(frame, nullptr), *files, job_.image_files,
-            [this, frame](const auto& band) { return with_motion(band, frame); });
+            texts_of_image(files.frame, nullptr), files, job_.image_files,
+            [this, frame = files.frame](const auto& band) { return with_motion(band, frame); });
     }
 
     void take(const FrameResult& result) {

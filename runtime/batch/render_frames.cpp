@@ -176,7 +176,7 @@ class Batch {
             result.image =
                 renderers.image.image(input.scene, input.world, report, progress_after(0));
         } else if (options_.image) {
-            result.bands = options_.bands(result.report.frame);
+            result.bands = options_.bands(input.frame);
             BandedImage image(bands_, scene_.render, *result.bands, progress_after(0));
             image.render(devices_[input.device], input.scene, input.world, report);
             result.shown = image.shown();
@@ -219,10 +219,10 @@ class Batch {
     /// The only frame in bands, which all devices take in turn.
     BatchOutcome run_image_bands() {
         const size_t count = devices_.size();
+        const std::stop_token stop = options_.stop;
         FrameResult result;
         result.report.frame = options_.frames[0];
-        result.bands = options_.bands(options_.frames[0]);
-        std::stop_token stop = options_.stop;
+        result.bands = options_.bands(0);
         const auto tell = [&](uint32_t done, uint32_t total) {
             if (stop.stop_requested()) throw Cancelled();
             advance(0, double(done) / total);

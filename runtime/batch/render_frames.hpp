@@ -34,8 +34,9 @@ struct EarlierImage {
 /// Gives those of frames, by their numbers. Several threads call it.
 using EarlierImages = std::function<EarlierImage(int frame)>;
 
-/// Makes who takes the bands of a frame's image, by the frame's number. Several threads call it.
-using BandSinks = std::function<std::shared_ptr<BandSink>(int frame)>;
+/// Makes who takes the bands of a frame's image, by the frame's place in the run. Several threads
+/// call it.
+using BandSinks = std::function<std::shared_ptr<BandSink>(size_t n)>;
 
 /// What to render of a scene.
 struct BatchOptions {

@@ -19,7 +19,8 @@ constexpr double kSmallPart = 1.0 / 16;
 
 bool is_small(const Scene& scene, const DeviceInfo& device) {
     const double there = std::min(double(device.memory), double(main_memory()) - kDriverBytes);
-    return image_bytes(scene.render) <= kSmallPart * there;
+    const double bytes = image_bytes(scene.render);
+    return bytes <= kSmallPart * there && bytes <= double(device.max_allocation);
 }
 
 /// What else lies in main memory while a band is written: planes of the light's parts, other

@@ -69,9 +69,9 @@ std::map<int, std::shared_ptr<Joined>> run_in_bands(const std::vector<Device>& d
                                                     const Scene& scene, BatchOptions options) {
     std::map<int, std::shared_ptr<Joined>> joined;
     std::mutex mutex;
-    options.bands = [&](int frame) {
+    options.bands = [&](size_t n) {
         const std::lock_guard lock(mutex);
-        return joined[frame] = std::make_shared<Joined>();
+        return joined[options.frames[n]] = std::make_shared<Joined>();
     };
     int last = 0;
     const BatchOutcome outcome =
@@ -168,7 +168,7 @@ TEST(BandedImage, ThatIsCancelledOrFailsIsNeverFinished) {
                 stop.request_stop();
             };
             BatchOptions options{.frames = {3}};
-            options.bands = [&](int) { return sink; };
+            options.bands = [&](size_t) { return sink; };
             options.stop = stop.get_token();
             bool is_output = false;
             const auto run = [&] {

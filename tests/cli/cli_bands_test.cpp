@@ -41,13 +41,13 @@ class CliBandsTest : public SceneProgramTest {
     }
 
     /// Renders whole and in bands, into the same files.
-    void expect_same_files(const std::string& options) const {
+    void expect_same_files(const std::string& options, const char* limit = kLimit) const {
         SCOPED_TRACE(options);
         const std::string line = "render scene.json -q --stats-json stats.json -o a.exr -o a.png ";
         ASSERT_EQ(run(line + options).exit_code, 0) << bytes_of(folder / "stderr.txt");
         EXPECT_EQ(statistics()["bands"], 1);
         const std::string exr = bytes_of(folder / "a.exr"), png = bytes_of(folder / "a.png");
-        ASSERT_EQ(run(line + options + kLimit).exit_code, 0) << bytes_of(folder / "stderr.txt");
+        ASSERT_EQ(run(line + options + limit).exit_code, 0) << bytes_of(folder / "stderr.txt");
         EXPECT_GT(statistics()["bands"], 1);
         EXPECT_TRUE(bytes_of(folder / "a.exr") == exr);
         EXPECT_TRUE(bytes_of(folder / "a.png") == png);
@@ -70,10 +70,9 @@ TEST_F(CliBandsTest, FilesOfSeveralPartsAreThoseOfAWholeImage) {
 }
 
 TEST_F(CliBandsTest, FilesInGlobalLightWithANoiseAreThoseOfAWholeImage) {
-    write_scene([](Json& scene) {
-        scene["render"] = {{"size", {1101, 797}}, {"light", "global"}};
-    });
-    expect_same_files("--noise 0.1 --samples 64 --channels RGBA,samples,noise");
+    write_scene([](Json& scene) { scene["render"] = {{"size", {501, 397}}, {"light", "global"}}; });
+    expect_same_files("--noise 0.1 --samples 64 --channels RGBA,samples,noise",
+                      " --memory-limit 320MB");
 }
 
 TEST_F(CliBandsTest, PartsOfImagesAreThoseOfOneInOnePiece) {
@@ -89,12 +88,24 @@ TEST_F(CliBandsTest, FramesAreThoseOfWholeImages) {
     const std::string line = "render scene.json -q --frames 1-2 -o f.#.exr";
     ASSERT_EQ(run(line).exit_code, 0);
     const std::string first = bytes_of(folder / "f.1.exr"), second = bytes_of(folder / "f.2.exr");
-    const ProgramResult banded = run(line + kLimit);
+    const ProgramResult banded = run(line + kLimit + " --stats-json stats.json");
     ASSERT_EQ(banded.exit_code, 0) << banded.err;
+    EXPECT_GT(statistics()["bands"], 2);
     EXPECT_TRUE(bytes_of(folder / "f.1.exr") == first);
     EXPECT_TRUE(bytes_of(folder / "f.2.exr") == second);
     const ProgramResult again = run("render scene.json --frames 1-2 -o f.#.exr --resume");
     EXPECT_THAT(again.err, HasSubstr("2 of 2 frames are there already"));
+}
+
+TEST_F(CliBandsTest, VolumetricImagesBesideThemAreWhole) {
+    const std::string line =
+        "render scene.json -q --stats-json stats.json -o a.png --volume a.nrrd";
+    ASSERT_EQ(run(line).exit_code, 0);
+    const std::string png = bytes_of(folder / "a.png"), volume = bytes_of(folder / "a.nrrd");
+    ASSERT_EQ(run(line + " --memory-limit 330MB").exit_code, 0);
+    EXPECT_GT(statistics()["bands"], 1);
+    EXPECT_TRUE(bytes_of(folder / "a.png") == png);
+    EXPECT_TRUE(bytes_of(folder / "a.nrrd") == volume);
 }
 
 TEST_F(CliBandsTest, TakeNoMoreMemoryThanTheLimit) {

@@ -56,6 +56,14 @@ TEST_F(ImageBandsTest, AreHalvesOfHalvesUntilOneFits) {
     }
 }
 
+TEST_F(ImageBandsTest, FitTheLargestBufferThatADeviceAllows) {
+    DeviceInfo device = device_of(4e9);
+    device.max_allocation = 10'000'000;
+    const ImageBands cut = bands(picture({1000, 1000}), device);
+    EXPECT_LE(cut.rows * 48'000, 10'000'000);
+    EXPECT_GT(2 * cut.rows * 48'000, 9'000'000);
+}
+
 TEST_F(ImageBandsTest, AreSmallerWhereSeveralDevicesHaveOne) {
     const Scene scene = picture({1000, 1000});
     const DeviceInfo device = device_of(30e6);
