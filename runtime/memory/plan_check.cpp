@@ -199,6 +199,15 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
                     "the program and its OpenCL driver take {} of main memory, of which this "
                     "process may take {}: allow it more",
                     bytes_text(kDriverBytes), bytes_text(there));
+    const bool shares = device.kind == DeviceKind::cpu;
+    const double image =
+        (shares ? 3 : 2) * image_bytes(scene.render) + (shares ? plan.rays.minimum() : 0);
+    if (host > there && scene.render.shows_image && image > (host - kDriverBytes) / 2)
+        throw Error(ErrorKind::limit,
+                    "an image of {}x{} pixels and its world need {} of main memory, of which this "
+                    "process may take {}: {}",
+                    scene.render.size.x, scene.render.size.y, bytes_text(host), bytes_text(there),
+                    smaller_image(scene.render, plan.rays));
     if (host > there)
         refuse_world(scene.world,
                      fmt::format("{} of main memory, of which this process may take {}",

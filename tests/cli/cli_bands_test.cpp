@@ -70,9 +70,9 @@ TEST_F(CliBandsTest, FilesOfSeveralPartsAreThoseOfAWholeImage) {
 }
 
 TEST_F(CliBandsTest, FilesInGlobalLightWithANoiseAreThoseOfAWholeImage) {
-    write_scene([](Json& scene) { scene["render"] = {{"size", {501, 397}}, {"light", "global"}}; });
+    write_scene([](Json& scene) { scene["render"] = {{"size", {701, 597}}, {"light", "global"}}; });
     expect_same_files("--noise 0.1 --samples 64 --channels RGBA,samples,noise",
-                      " --memory-limit 320MB");
+                      " --memory-limit 345MB");
 }
 
 TEST_F(CliBandsTest, PartsOfImagesAreThoseOfOneInOnePiece) {
@@ -148,6 +148,13 @@ TEST_F(CliBandsTest, WhatNeedsAWholeImageIsRefusedWithWhatToDo) {
         run(std::string("check scene.json --time 5 --size 3000x2000") + kLimit);
     EXPECT_EQ(check.exit_code, 8) << check.err;
     EXPECT_THAT(check.err, HasSubstr("ask for a noise or for samples instead of a time"));
+}
+
+TEST_F(CliBandsTest, AreRefusedForTheImageWhereNotEvenTheSmallestFits) {
+    const ProgramResult result = run("check scene.json --size 3000x2000 --memory-limit 305MB");
+    EXPECT_EQ(result.exit_code, 8) << result.err;
+    EXPECT_THAT(result.err, testing::ContainsRegex(
+                                "an image of 3000x2000 pixels needs .*: render a smaller one"));
 }
 
 TEST_F(CliBandsTest, SamplesAreNotAddedToAnImageInBands) {
