@@ -72,6 +72,7 @@ void add_verdict(const Plan& plan, Report& report) {
     report["least MB"] = megabytes(plan.min_bytes);
     report["most MB"] = megabytes(plan.max_bytes);
     report["device MB"] = megabytes(plan.device_bytes);
+    report["bands"] = plan.bands;
     report["warnings"] = Report::array();
     for (const Warning& warning : plan.warnings)
         report["warnings"].push_back(
@@ -115,6 +116,9 @@ void print_volume(const Plan& plan) {
 }
 
 void print_verdict(const Plan& plan, size_t frames) {
+    if (plan.bands > 1)
+        fmt::print("\n{} is rendered in {} bands of {} rows, as memory doesn't suffice for it\n",
+                   frames > 1 ? "each image" : "the image", plan.bands, plan.band_rows);
     const std::string of_frames = frames > 1 ? fmt::format(" by frame {}", plan.frame) : "";
     const std::string chosen =
         plan.chosen_frames > 0

@@ -49,6 +49,8 @@ std::string reuse_text(const std::vector<FrameStatistics>& frames) {
 
 /// What memory didn't suffice for.
 void print_lacks(const Statistics& statistics) {
+    if (statistics.bands > 1)
+        tell("  {} bands of rows: memory doesn't suffice for a whole image\n", statistics.bands);
     if (statistics.one_by_one_from)
         tell("  one frame at a time from frame {} on: memory doesn't suffice for two\n",
              *statistics.one_by_one_from);

@@ -71,7 +71,7 @@ Report describe_exr(const fs::path& path) {
         report["parts"].push_back(row);
     }
     report["channels"] = Report::array();
-    if (header.layout.starts_with("deep")) {
+    if (header.layout.starts_with("deep") || !fits_memory(header)) {
         for (const auto& [name, type] : header.channels)
             report["channels"].push_back({{"channel", name}, {"type", type}});
         return report;

@@ -105,9 +105,12 @@ auto with_storage(const v1::Image::Implementation& image, const ImageFormatEntry
     if (std::ranges::none_of(image.image->planes, is_extra) &&
         std::ranges::none_of(image.image->id_planes, is_extra))
         return write(*image.image, how);
-    Image shown = *image.image;
-    std::erase_if(shown.planes, is_extra);
-    std::erase_if(shown.id_planes, is_extra);
+    const Image& all = *image.image;
+    Image shown{all.width, all.height, {}, {}, all.attributes, all.first, all.frame};
+    for (const auto& plane : all.planes)
+        if (!is_extra(plane)) shown.planes.insert(plane);
+    for (const auto& plane : all.id_planes)
+        if (!is_extra(plane)) shown.id_planes.insert(plane);
     forget_mattes(shown);
     return write(shown, how);
 }
@@ -135,6 +138,16 @@ void write_image(const std::filesystem::path& file, const v1::Image::Implementat
     const ImageFormatEntry& format = format_of_image(file);
     with_storage(image, format, options, [&](const Image& shown, const ImageStorage& how) {
         format.write(file, shown, how);
+    });
+}
+
+void write_band(const std::filesystem::path& file, const ImageWindow& whole,
+                const v1::Image::Implementation& band, const v1::ImageFileOptions& options,
+                std::unique_ptr<ImageRows>& rows) {
+    const ImageFormatEntry& format = format_of_image(file);
+    with_storage(band, format, options, [&](const Image& shown, const ImageStorage& how) {
+        if (!rows) rows = format.begin(file, whole, how);
+        rows->add(shown);
     });
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,11 @@ const ImageFormatEntry& format_in_file(const std::filesystem::path& file);
 /// wrong, Error::output.
 void write_image(const std::filesystem::path& file, const v1::Image::Implementation& image,
                  const v1::ImageFileOptions& options);
+
+/// Writes a band of the image to the file, which the first band begins.
+void write_band(const std::filesystem::path& file, const ImageWindow& whole,
+                const v1::Image::Implementation& band, const v1::ImageFileOptions& options,
+                std::unique_ptr<ImageRows>& rows);
 
 /// The bytes of the file that `write_image` writes under a name with this ending.
 std::string encode_image(std::string_view ending, const v1::Image::Implementation& image,

@@ -16,6 +16,7 @@
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
 #include "runtime/memory/frame_plans.hpp"
+#include "runtime/memory/image_bands.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
@@ -90,6 +91,16 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
     return result;
 }
 
+/// The bands that files are written in.
+ImageBands planned_bands(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
+                         const DeviceInfo& device) {
+    const ImageBands bands = bands_that_fit(scene, frames, meshes, device);
+    const std::optional<NeedOfWhole> need = need_of_whole(scene.render);
+    if (bands.are_one() || !need) return bands;
+    if (bands.are_needed) refuse_bands(scene, device, *need);
+    return {scene.render.size.y, 1};
+}
+
 }  // namespace
 
 namespace v1 {
@@ -113,6 +124,8 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         make_choices(planned, meshes);
         const std::vector<voxelume::Warning> warnings = scene_warnings(planned, frames, meshes);
         find_potentially_visible(planned, frames, meshes);
+        const ImageBands bands = planned_bands(planned, frames, meshes, info);
+        planned = band_of(planned, bands, 0);
         const auto progress = [&](size_t done) { options.progress(done, frames.size()); };
         Plan result =
             plan_for_callers(planned,
@@ -120,6 +133,8 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
                                          options.progress ? std::function<void(size_t)>(progress)
                                                           : std::function<void(size_t)>()),
                              frames.size(), info);
+        result.bands = bands.count;
+        result.band_rows = bands.rows;
         result.warnings = api::warnings_for_callers(warnings);
         return result;
     });

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 
+#include "runtime/api/band_files.hpp"
 #include "runtime/api/border/convert.hpp"
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/api/border/process.hpp"
+#include "runtime/api/compiler_watch.hpp"
 #include "runtime/api/earlier_images.hpp"
 #include "runtime/api/frame_hash.hpp"
 #include "runtime/api/image_files.hpp"
@@ -20,6 +23,7 @@
 #include "runtime/base/version.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/render/motion_vectors.hpp"
+#include "runtime/render/noise.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
@@ -80,23 +84,6 @@ void check_names(const v1::FrameJob& job) {
     }
 }
 
-/// Lets a caller hear of compiling as long as it lives.
-class CompilerWatch {
-  public:
-    CompilerWatch(std::span<const Device> devices, const CompileListener& listener)
-        : devices_(devices) {
-        for (const Device& device : devices_) device.listen_to_compiler(listener);
-    }
-    ~CompilerWatch() {
-        for (const Device& device : devices_) device.listen_to_compiler({});
-    }
-    CompilerWatch(const CompilerWatch&) = delete;
-    CompilerWatch& operator=(const CompilerWatch&) = delete;
-
-  private:
-    std::span<const Device> devices_;
-};
-
 /// A run of frames for a caller.
 class Run {
   public:
@@ -131,6 +118,7 @@ class Run {
         statistics.size = api::array_of(scene_.render.size);
         if (wanted_.volumes) statistics.volume_size = api::array_of(scene_.observer.display.voxels);
         statistics.images = wanted_.images;
+        statistics.bands = outcome.bands;
         statistics.files = files_;
         statistics.open_seconds = outcome.check_seconds;
         statistics.write_seconds = write_seconds_;
@@ -152,6 +140,8 @@ class Run {
         batch.progress = api::callback(options_.progress);
         batch.is_part = options_.is_part;
         batch.earlier = earlier_.images();
+        if (!job_.deliver_images)
+            batch.bands = [this](size_t n) { return band_files(job_.frames[n]); };
         batch.warn = [this](std::span<const Warning> warnings) { tell(warnings); };
         batch.stop = options_.stop;
         return batch;
@@ -170,23 +160,40 @@ class Run {
                     fmt::format("{}: {}{}", found[0].where, found[0].text, more));
     }
 
+    /// The texts of an image's files. An image in bands hears of its noise when all have it.
+    api::Attributes texts_of_image(int frame, const NoiseReached* noise) {
+        api::Attributes texts = attributes_of(scene_, frame);
+        if (!noise && measures_noise(scene_)) texts["noise"] = api::noise_text({});
+        if (noise && noise->tiles > 0) texts["noise"] = api::noise_text(*noise);
+        texts.merge(api::sampling_texts(scene_));
+        if (scene_.render.transparent) texts[api::kTransparent] = "true";
+        texts[api::kFrameHash] = hashes_.of(frame);
+        return texts;
+    }
+
+    /// Who writes a frame's image in bands.
+    std::shared_ptr<BandSink> band_files(const v1::FrameFiles& files) {
+        const RenderSettings& render = scene_.render;
+        const std::lock_guard lock(hashes_mutex_);
+        return std::make_shared<api::BandFiles>(
+            ImageWindow{render.size, render.crop.first, render.crop.frame},
+            texts_of_image(files.frame, nullptr), files, job_.image_files,
+            [this, frame = files.frame](const auto& band) { return with_motion(band, frame); });
+    }
+
     void take(const FrameResult& result) {
         const v1::FrameFiles& files = job_.frames[reports_.size()];
         reports_.push_back(result.report);
-        api::Attributes attributes = attributes_of(scene_, files.frame);
         v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
-        if (result.image) {
-            api::Attributes all = attributes;
-            const NoiseReached& noise = result.report.report.noise;
-            if (noise.tiles > 0) all["noise"] = fmt::format("{:.5f}", noise.mean());
-            all.merge(api::sampling_texts(scene_));
-            if (scene_.render.transparent) all[api::kTransparent] = "true";
-            all[api::kFrameHash] = hashes_.of(files.frame);
-            rendered.image = api::handle_of(with_motion(result.image, files.frame), std::move(all));
-        }
+        if (result.image)
+            rendered.image =
+                api::handle_of(with_motion(result.image, files.frame),
+                               texts_of_image(files.frame, &result.report.report.noise));
+        if (result.bands)
+            write_seconds_ += static_cast<const api::BandFiles&>(*result.bands).seconds();
         if (result.volume) {
             api::Attributes all = result.volume->attributes;
-            for (const auto& [name, text] : attributes) all[name] = text;
+            for (const auto& [name, text] : attributes_of(scene_, files.frame)) all[name] = text;
             all[api::kStamp] = stamp_of(hashes_.of_volume(files.frame));
             rendered.volume = api::handle_of(result.volume, std::move(all));
         }
@@ -211,8 +218,9 @@ class Run {
 
     void write(const v1::RenderedFrame& rendered, const v1::FrameFiles& files) {
         const auto start = Clock::now();
-        for (const std::filesystem::path& file : files.images)
-            rendered.image->write(file, job_.image_files);
+        if (rendered.image)
+            for (const std::filesystem::path& file : files.images)
+                rendered.image->write(file, job_.image_files);
         for (const std::filesystem::path& file : files.volumes) rendered.volume->write(file);
         files_ += files.images.size() + files.volumes.size();
         write_seconds_ += seconds_since(start);
@@ -221,6 +229,7 @@ class Run {
     Scene scene_;
     AssetStore assets_;
     api::FrameHashes hashes_;
+    std::mutex hashes_mutex_;
     std::vector<Device> devices_;
     const v1::FrameJob& job_;
     const v1::RenderOptions& options_;

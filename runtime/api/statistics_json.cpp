@@ -85,6 +85,7 @@ std::string to_json(const Statistics& statistics) {
     json["version"] = voxelume::version();
     add_devices(statistics, json);
     json["size"] = {statistics.size[0], statistics.size[1]};
+    json["bands"] = statistics.bands;
     if (statistics.volume_size) json["volume_size"] = *statistics.volume_size;
     json["files"] = statistics.files;
     json["warnings"] = json_of(statistics.warnings);

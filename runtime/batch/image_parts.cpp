@@ -37,6 +37,8 @@ double seconds_of(const WorldReport& world) {
            world.keep_seconds;
 }
 
+}  // namespace
+
 void add_report(const RenderReport& part, RenderReport& sum) {
     const uint64_t meshes_read = std::max(part.world.meshes_read, sum.world.meshes_read);
     if (seconds_of(part.world) > seconds_of(sum.world)) sum.world = part.world;
@@ -46,8 +48,6 @@ void add_report(const RenderReport& part, RenderReport& sum) {
     sum.world_bytes = part.world_bytes;
     add_counts(part, sum);
 }
-
-}  // namespace
 
 Image join_parts(std::vector<ImagePart> parts, RenderReport& report) {
     Image image = std::move(parts.front().image);

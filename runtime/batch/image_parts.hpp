@@ -15,6 +15,9 @@ struct ImagePart {
     RenderReport report;
 };
 
+/// Adds what one device made of an image to what others did, as join_parts does.
+void add_report(const RenderReport& part, RenderReport& sum);
+
 /// The image of parts that have all its tiles. `report` counts the rays of all; its world and its
 /// times are those of the device that took longest.
 Image join_parts(std::vector<ImagePart> parts, RenderReport& report);

@@ -15,6 +15,7 @@
 #include "runtime/batch/image_parts.hpp"
 #include "runtime/batch/run_warnings.hpp"
 #include "runtime/memory/frame_plans.hpp"
+#include "runtime/memory/image_bands.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -57,8 +58,12 @@ class Batch {
         const std::chrono::duration<double> checked = std::chrono::steady_clock::now() - start;
         // The pixels of an adaptive image depend on their neighbours, which others would render.
         const bool shares_image = devices_.size() > 1 && options_.frames.size() == 1 &&
-                                  !options_.volume && !is_adaptive(scene_.render);
-        BatchOutcome outcome = shares_image ? run_image_parts() : run_whole_frames();
+                                  !options_.volume &&
+                                  !(bands_.are_one() && is_adaptive(scene_.render));
+        BatchOutcome outcome = !shares_image      ? run_whole_frames()
+                               : bands_.are_one() ? run_image_parts()
+                                                  : run_image_bands();
+        outcome.bands = bands_.count;
         for (const Device& device : devices_) device.finish();
         outcome.is_cancelled = outcome.frames_done < options_.frames.size();
         if (options_.warn && !outcome.is_cancelled)
@@ -74,14 +79,39 @@ class Batch {
             warnings_.emplace(scene_warnings(scene_, options_.frames, options_.meshes),
                               options_.meshes.cache(), options_.warn);
         find_potentially_visible(scene_, options_.frames, options_.meshes);
+        if (options_.image) choose_bands();
         if (options_.frames.size() == 1) return;  // it is planned when its world is built
+        const Scene planned = band_of(scene_, bands_, 0);
         for (const Device& device : devices_)
-            check_frames(scene_, options_.frames, options_.meshes, device.info());
+            check_frames(planned, options_.frames, options_.meshes, device.info());
     }
 
-    /// A frame's scene, whose image has the samples alone that it lacks.
+    /// Whether images are rendered in bands, which have to suit all devices.
+    void choose_bands() {
+        for (const Device& device : devices_) {
+            const ImageBands bands = bands_that_fit(scene_, options_.frames, options_.meshes,
+                                                    device.info(), int(devices_.size()));
+            if (bands.are_one()) continue;
+            if (const std::optional<NeedOfWhole> need = need_of_whole()) {
+                if (bands.are_needed) refuse_bands(scene_, device.info(), *need);
+                continue;
+            }
+            if (bands.count > bands_.count) bands_ = bands;
+        }
+    }
+
+    std::optional<NeedOfWhole> need_of_whole() const {
+        if (options_.earlier)
+            return NeedOfWhole{"samples are added to whole images", "render it anew"};
+        if (!options_.bands)
+            return NeedOfWhole{"only files are written in bands", "write it to a file"};
+        return voxelume::need_of_whole(scene_.render);
+    }
+
+    /// A frame's scene, whose image is the first of its bands, and has the samples alone that it
+    /// lacks.
     Scene scene_of(int frame) const {
-        Scene scene = scene_at(scene_, frame);
+        Scene scene = band_of(scene_at(scene_, frame), bands_, 0);
         if (!options_.earlier) return scene;
         const auto [image, samples] = options_.earlier(frame);
         if (!image) return scene;
@@ -142,9 +172,15 @@ class Batch {
                 advance(input.frame, (before + double(done) / total) / pictures);
             };
         };
-        if (options_.image)
+        if (options_.image && bands_.are_one()) {
             result.image =
                 renderers.image.image(input.scene, input.world, report, progress_after(0));
+        } else if (options_.image) {
+            result.bands = options_.bands(input.frame);
+            BandedImage image(bands_, scene_.render, *result.bands, progress_after(0));
+            image.render(devices_[input.device], input.scene, input.world, report);
+            result.shown = image.shown();
+        }
         if (options_.volume)
             result.volume = renderers.volume.volume(input.scene, input.world, report,
                                                     progress_after(int(options_.image)));
@@ -180,6 +216,36 @@ class Batch {
         return outcome;
     }
 
+    /// The only frame in bands, which all devices take in turn.
+    BatchOutcome run_image_bands() {
+        const size_t count = devices_.size();
+        const std::stop_token stop = options_.stop;
+        FrameResult result;
+        result.report.frame = options_.frames[0];
+        result.bands = options_.bands(0);
+        const auto tell = [&](uint32_t done, uint32_t total) {
+            if (stop.stop_requested()) throw Cancelled();
+            advance(0, double(done) / total);
+        };
+        BandedImage image(bands_, scene_.render, *result.bands, tell);
+        std::vector<RenderReport> reports(count);
+        FrameSteps steps = steps_of(std::vector(count, options_.frames[0]));
+        steps.render = [&](const FrameInput& input) -> OutputStep {
+            const std::stop_callback cancel(input.stop, [&] { image.close(); });
+            reports[input.device].world = input.report;
+            image.render(devices_[input.device], input.scene, input.world, reports[input.device]);
+            return [] {};
+        };
+        steps.failed = [&] { image.close(); };
+        if (run_frames(devices_, count, steps, schedule(true)).frames_done < count) return {};
+        for (const RenderReport& report : reports) add_report(report, result.report.report);
+        result.shown = image.shown();
+        output_of(0, std::move(result))();
+        BatchOutcome outcome;
+        outcome.frames_done = 1;
+        return outcome;
+    }
+
     /// Tells that `part` of a frame is done. It is less than before where the frame is begun again.
     void advance(size_t n, double part) {
         const std::lock_guard lock(progress_mutex_);
@@ -200,6 +266,7 @@ class Batch {
         advance(n, 1);
         return [this, result = std::move(result)] {
             if (warnings_) warnings_->add(result);
+            if (result.bands) result.bands->finish(result.report.report);
             output_(result);
         };
     }
@@ -208,6 +275,7 @@ class Batch {
     Scene scene_;
     BatchOptions options_;
     const FrameOutput& output_;
+    ImageBands bands_;
     std::mutex progress_mutex_;
     std::vector<uint64_t> done_;  ///< of each frame, of kSteps
     uint64_t sum_ = 0;            ///< of them

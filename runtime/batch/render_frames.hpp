@@ -11,6 +11,7 @@
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/base/warning.hpp"
+#include "runtime/batch/banded_image.hpp"
 #include "runtime/image/volume.hpp"
 #include "runtime/render/renderer.hpp"
 
@@ -33,6 +34,10 @@ struct EarlierImage {
 /// Gives those of frames, by their numbers. Several threads call it.
 using EarlierImages = std::function<EarlierImage(int frame)>;
 
+/// Makes who takes the bands of a frame's image, by the frame's place in the run. Several threads
+/// call it.
+using BandSinks = std::function<std::shared_ptr<BandSink>(size_t n)>;
+
 /// What to render of a scene.
 struct BatchOptions {
     std::vector<int> frames = {1};  ///< their numbers, in the order of the results; one or more
@@ -42,6 +47,7 @@ struct BatchOptions {
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
     bool is_part = false;  ///< other runs render the other frames: nothing counts as never shown
     EarlierImages earlier = {};  ///< empty: images have all samples
+    BandSinks bands = {};        ///< empty: images that are larger than memory are refused
     BatchProgress progress = {};
     BatchWarnings warn = {};    ///< without it nothing is looked for
     std::stop_token stop = {};  ///< cancels the run
@@ -57,7 +63,9 @@ struct FrameReport {
 /// One frame, rendered. The caller may keep the pointers; frames that show the same share them.
 struct FrameResult {
     FrameReport report;
-    std::shared_ptr<const Image> image;  ///< null where none is asked for
+    std::shared_ptr<const Image> image;  ///< null where none is asked for, or `bands` had it
+    std::shared_ptr<BandSink> bands;     ///< who took the image, finished; null: it is whole
+    ShownContent shown;                  ///< what those bands show
     std::shared_ptr<Volume> volume;  ///< null where none is asked for; its attributes may be set
 };
 
@@ -68,6 +76,7 @@ using FrameOutput = std::function<void(const FrameResult&)>;
 struct BatchOutcome {
     size_t frames_done = 0;     ///< results that the output took
     bool is_cancelled = false;  ///< stopped before all frames were done
+    int bands = 1;              ///< of each image
     double check_seconds = 0;   ///< finding potentially visible objects, planning, before frame one
     /// The frame from which on nothing overlapped, because memory suffices for one world only.
     std::optional<int> one_by_one_from;
@@ -81,6 +90,8 @@ struct BatchOutcome {
 ///   as memory suffices.
 /// - Several devices take a frame each, as they become free, and build its world themselves.
 /// - Several devices share the tiles of an image that is the only result of the run.
+/// - Images for which memory doesn't suffice are rendered in bands, in one world, and given to
+///   `BatchOptions::bands`. Several devices take the bands of one that is the only result.
 ///
 /// An error, of `output` too, ends the run once the frames before it were given to `output`; it is
 /// thrown with the frame's number where the scene moves. Cancelling ends the run between two

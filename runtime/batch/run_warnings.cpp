@@ -114,6 +114,7 @@ void RunWarnings::add(const FrameResult& result) {
         content_.objects |= content.objects;
         content_.light |= content.objects && content.light;
     };
+    if (result.bands) note(result.shown);
     if (result.image && !content_.light) note(content_of(*result.image));
     if (result.volume && !content_.light) note(content_of(*result.volume));
 }

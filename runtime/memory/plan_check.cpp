@@ -22,10 +22,6 @@ std::string larger_voxels(const glm::dvec3& edge, double factor) {
     return fmt::format("voxels larger than {:.2g} x {:.2g} x {:.2g} m", e.x, e.y, e.z);
 }
 
-/// What the program, an OpenCL driver and its compiler take of main memory in addition to all that
-/// is counted: PoCL 3.1 with LLVM 15, compiling the kernels of a scene of all features, 0.28 GB.
-constexpr double kDriverBytes = 3e8;
-
 /// `needs`: "3 GB on a device, which has 2 GB".
 [[noreturn]] void refuse_world(const World& world, const std::string& needs, double factor) {
     throw Error(ErrorKind::limit, "{}: a world of {} voxels needs {}: use {}", world.where,
@@ -203,6 +199,15 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
                     "the program and its OpenCL driver take {} of main memory, of which this "
                     "process may take {}: allow it more",
                     bytes_text(kDriverBytes), bytes_text(there));
+    const bool shares = device.kind == DeviceKind::cpu;
+    const double image =
+        (shares ? 3 : 2) * image_bytes(scene.render) + (shares ? plan.rays.minimum() : 0);
+    if (host > there && scene.render.shows_image && image > (host - kDriverBytes) / 2)
+        throw Error(ErrorKind::limit,
+                    "an image of {}x{} pixels and its world need {} of main memory, of which this "
+                    "process may take {}: {}",
+                    scene.render.size.x, scene.render.size.y, bytes_text(host), bytes_text(there),
+                    smaller_image(scene.render, plan.rays));
     if (host > there)
         refuse_world(scene.world,
                      fmt::format("{} of main memory, of which this process may take {}",

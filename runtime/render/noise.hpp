@@ -2,20 +2,45 @@
 // How noisy an image is, by two halves of its samples.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "runtime/image/image.hpp"
+#include "runtime/scene/scene.hpp"
 
 namespace voxelume {
 
-/// The noise of the tiles of an image.
-struct NoiseReached {
-    double squares = 0;  ///< of the tiles' relative standard errors, added up
+/// The noise of the tiles of an image: a sum that is the same in any order of tiles.
+class NoiseReached {
+  public:
     uint64_t tiles = 0;
 
-    double mean() const { return tiles == 0 ? 0 : std::sqrt(squares / double(tiles)); }
+    /// Adds a tile's relative standard error.
+    void add(double error) {
+        squares_ += Wide(std::min(error * error, kMost) * kUnit);
+        ++tiles;
+    }
+    NoiseReached& operator+=(const NoiseReached& other) {
+        squares_ += other.squares_;
+        tiles += other.tiles;
+        return *this;
+    }
+    double mean() const {
+        return tiles == 0 ? 0 : std::sqrt(double(squares_) / kUnit / double(tiles));
+    }
+
+  private:
+    __extension__ using Wide = unsigned __int128;
+    static constexpr double kUnit = 0x1p64, kMost = 0x1p30;
+    Wide squares_ = 0;  ///< in units of 2^-64
 };
+
+/// Whether an image with a target of noise has colour for that alone.
+bool adds_color_for_noise(const Scene& scene);
+
+/// Whether it is known of an image of a scene, once it is rendered.
+bool measures_noise(const Scene& scene);
 
 /// Whether a tile shows surfaces of which no light came.
 bool is_dark_tile(uint32_t tile, const Image& image);

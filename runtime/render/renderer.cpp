@@ -31,8 +31,7 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.ended_paths += report.ended_paths;
     sum.medium_overflows += report.medium_overflows;
     sum.not_finite += report.not_finite;
-    sum.noise.squares += report.noise.squares;
-    sum.noise.tiles += report.noise.tiles;
+    sum.noise += report.noise;
 }
 
 namespace {
@@ -149,10 +148,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
         Scene shown = scene;
         // Passes have as many samples as all light needs.
-        const ImageChannels& channels = scene.render.channels;
-        const bool adds_color =
-            scene.render.noise.is_given() && !channels.color &&
-            (channels.samples || channels.noise || !light_passes(scene).empty());
+        const bool adds_color = adds_color_for_noise(scene);
         if (adds_color) shown.render.channels.color = true;
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/base/error.hpp"
+#include "runtime/render/light_passes.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
 
@@ -102,9 +103,7 @@ class TileSamples {
     NoiseReached reached(const std::vector<TileRange>& tiles) const {
         NoiseReached sum;
         for_each_tile(tiles, [&](uint32_t tile) {
-            if (!std::isfinite(errors_[tile])) return;
-            sum.squares += double(errors_[tile]) * double(errors_[tile]);
-            ++sum.tiles;
+            if (std::isfinite(errors_[tile])) sum.add(double(errors_[tile]));
         });
         return sum;
     }
@@ -157,6 +156,18 @@ void take_all(const Renderer::Tiles& tiles) {
 }
 
 }  // namespace
+
+bool adds_color_for_noise(const Scene& scene) {
+    const ImageChannels& channels = scene.render.channels;
+    return scene.render.noise.is_given() && !channels.color &&
+           (channels.samples || channels.noise || !light_passes(scene).empty());
+}
+
+bool measures_noise(const Scene& scene) {
+    const RenderSettings& render = scene.render;
+    return render.noise.is_given() && (render.channels.color || adds_color_for_noise(scene)) &&
+           render.samples >= 2 * std::min(kFirstSamples, render.samples);
+}
 
 /// The weight of what is rendered first, of an image's work: with a target of noise it is a part of
 /// the samples that tiles may need.

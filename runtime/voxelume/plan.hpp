@@ -61,9 +61,11 @@ struct Plan {
     /// Number of the frames that were planned where those that change are too many to plan all:
     /// chosen at the tracks' keys, evenly between them, and around the largest. 0: all are planned.
     int chosen_frames = 0;
-    double min_bytes = 0;             ///< of the device, at least
-    double max_bytes = 0;             ///< of the device, at most, for what the options want
-    double device_bytes = 0;          ///< that can be used
+    int bands = 1;            ///< of rows, in which each image is rendered to files; 1: it is whole
+    int band_rows = 0;        ///< of each but perhaps the last; estimates are for such an image
+    double min_bytes = 0;     ///< of the device, at least
+    double max_bytes = 0;     ///< of the device, at most, for what the options want
+    double device_bytes = 0;  ///< that can be used
     double largest_buffer_bytes = 0;  ///< of any stage
     double host_bytes = 0;            ///< of main memory
     std::vector<GridPlan> grids{};    ///< the world's is the last

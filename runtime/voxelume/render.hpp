@@ -96,7 +96,7 @@ Image join_views(const std::vector<Image>& views, const Quilt& quilt);
 /// A frame that was rendered. What the job doesn't ask for is empty.
 struct RenderedFrame {
     int frame = 1;                   ///< its number
-    std::optional<Image> image{};    ///< empty if none was asked for
+    std::optional<Image> image{};    ///< empty if none was asked for, or it was written in bands
     std::optional<Volume> volume{};  ///< empty if none was asked for
     FrameStatistics statistics{};    ///< of this frame
 };
@@ -169,6 +169,10 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
 
 /// Renders frames of a scene. What a frame shows doesn't depend on the frames before it, nor on the
 /// number of devices: several devices take a frame each, or the tiles of a job's only image.
+///
+/// Images that are larger than memory are rendered and written in bands of rows, unless `deliver`
+/// wants them, a time is their target, or samples are added to them: then they are refused. Their
+/// RenderedFrame has no image.
 ///
 /// Throws as render_image does, and as Image::write and Volume::write do; frames before the one
 /// that failed are written and delivered. Before any frame is rendered it throws Error::input for

@@ -99,6 +99,7 @@ struct Statistics {
     std::vector<DeviceStatistics> devices{};          ///< that rendered
     Size size{};                                      ///< pixels of an image
     bool images = true;                               ///< false: volumetric images alone
+    int bands = 1;                                    ///< of each image; 1: it was whole
     std::optional<std::array<int, 3>> volume_size{};  ///< voxels of a volumetric image, if any
     size_t files = 0;                                 ///< written
     uint64_t voxels = 0;                              ///< with a surface, of the frame with most

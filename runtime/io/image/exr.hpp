@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/image/image.hpp"
+#include "runtime/io/image/image_rows.hpp"
 
 namespace voxelume {
 
@@ -40,19 +42,18 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  const ExrStorage& storage = {},
                  const std::map<std::string, std::string>& others = {});
 
+/// The file that `write_exr` writes, in bands. A text `noise` that is only known at the end may be
+/// told then. Chunks of all parts but the first wait in a hidden file beside it for the last band.
+std::unique_ptr<ImageRows> exr_rows(const std::filesystem::path& path, const ImageWindow& window,
+                                    const ExrStorage& storage,
+                                    const std::map<std::string, std::string>& others);
+
+/// The bytes of main memory that writing a band takes besides the band, of rows of so many bytes.
+double exr_band_bytes(double row_bytes);
+
 /// The bytes of the file that `write_exr` writes.
 std::string exr_bytes(const Image& image, const ExrStorage& storage = {},
                       const std::map<std::string, std::string>& others = {});
-
-/// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,
-/// where its data window is a part of its display window, the place of that.
-///
-/// A file with several parts gives the first and all flat ones with the same data window. A
-/// channel of a later part whose name is taken has the part's name before its own: "albedo.R".
-///
-/// Throws Error::input for a file that is missing, damaged, deep or subsampled, or that declares
-/// more pixels than it can hold.
-Image read_exr(const std::filesystem::path& path);
 
 /// A part of a file with several.
 struct ExrPartHeader {
@@ -72,6 +73,19 @@ struct ExrHeader {
     std::map<std::string, std::string> attributes;  ///< text and chromaticities, both as text
     std::vector<ExrPartHeader> parts;               ///< empty for a file with one
 };
+
+/// Whether main memory has room for the channels of a flat file.
+bool fits_memory(const ExrHeader& header);
+
+/// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,
+/// where its data window is a part of its display window, the place of that.
+///
+/// A file with several parts gives the first and all flat ones with the same data window. A
+/// channel of a later part whose name is taken has the part's name before its own: "albedo.R".
+///
+/// Throws Error::input for a file that is missing, damaged, deep or subsampled, or that declares
+/// more pixels than it can hold, and Error::limit for one that memory doesn't hold.
+Image read_exr(const std::filesystem::path& path);
 
 /// Reads the headers alone. Throws Error::input.
 ExrHeader read_exr_header(const std::filesystem::path& path);

@@ -100,6 +100,12 @@ ExrChunk make_chunk(const std::vector<ExrPlane>& planes, int width, int first_ro
 
 }  // namespace
 
+int threads_for_band(size_t chunk_bytes, int threads) {
+    constexpr size_t kBytes = size_t{64} << 20;
+    const size_t chunks = kBytes / (kChunkCopies * std::max<size_t>(chunk_bytes, 1));
+    return std::min(threads, std::max(int(std::min<size_t>(chunks, 1024)) - 1, 0));
+}
+
 void compress_chunks(const std::vector<ExrPlane>& planes, int width, int height, int threads,
                      const std::function<void(const ExrChunk&)>& write) {
     const auto policy = threads > 0 ? std::launch::async : std::launch::deferred;

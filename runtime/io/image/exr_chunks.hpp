@@ -8,10 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/io/image/image_rows.hpp"
+
 namespace voxelume {
 
 /// The number of rows in a chunk of ZIP compression.
-inline constexpr int kExrChunkRows = 16;
+inline constexpr int kExrChunkRows = kBandRows;
 
 /// One channel of an image, with 32 bits a value.
 struct ExrPlane {
@@ -28,6 +30,13 @@ struct ExrChunk {
     std::string bytes;
     size_t replaced = 0;
 };
+
+/// How often the bytes of a chunk lie in memory while it is compressed.
+inline constexpr int kChunkCopies = 4;
+
+/// How many threads, of so many, compress chunks of so many bytes without taking much memory
+/// besides a band of an image: 64 MiB, or what one takes.
+int threads_for_band(size_t chunk_bytes, int threads);
 
 /// Calls `write` with every chunk of the image, from the top down. `threads` threads compress them.
 ///

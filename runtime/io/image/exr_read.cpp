@@ -9,6 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/exr_header.hpp"
 #include "runtime/io/image/exr_header_check.hpp"
@@ -80,7 +81,15 @@ void add_texts(const Imf::Header& header, bool has_parts, Image& image) {
     }
 }
 
+double channel_bytes(const ExrHeader& header) {
+    return 4.0 * double(header.channels.size()) * header.width * header.height;
+}
+
 }  // namespace
+
+bool fits_memory(const ExrHeader& header) {
+    return channel_bytes(header) <= double(main_memory());
+}
 
 ExrHeader read_exr_header(const std::filesystem::path& path) {
     const InputFile file(path);  // reports what is wrong with the file itself
@@ -95,6 +104,13 @@ Image read_exr(const std::filesystem::path& path) {
     const ExrHeader header = reader.read();
     check_size(file, header);
     reader.check_chunks();
+    if (!fits_memory(header))
+        throw Error(
+            ErrorKind::limit,
+            "{}: an image of {}x{} pixels takes {:.1f} GB, and this process may take {:.1f} "
+            "GB: allow it more, or render a part of the image",
+            SourcePlace(path.string()), header.width, header.height, channel_bytes(header) / 1e9,
+            double(main_memory()) / 1e9);
     const std::vector<ExrChannel> channels = reader.channels();
     try {
         Imf::MultiPartInputFile input(path.c_str());

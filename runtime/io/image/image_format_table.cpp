@@ -15,12 +15,22 @@ void write_channels(const std::filesystem::path& path, const Image& image,
     write_exr(path, image, how.exr, how.attributes);
 }
 
+std::unique_ptr<ImageRows> begin_channels(const std::filesystem::path& path,
+                                          const ImageWindow& window, const ImageStorage& how) {
+    return exr_rows(path, window, how.exr, how.attributes);
+}
+
 std::string encode_channels(const Image& image, const ImageStorage& how) {
     return exr_bytes(image, how.exr, how.attributes);
 }
 
 void write_codes(const std::filesystem::path& path, const Image& image, const ImageStorage& how) {
     write_png(path, image, how.png);
+}
+
+std::unique_ptr<ImageRows> begin_codes(const std::filesystem::path& path, const ImageWindow& window,
+                                       const ImageStorage& how) {
+    return png_rows(path, window, how.png);
 }
 
 std::string encode_codes(const Image& image, const ImageStorage& how) {
@@ -48,13 +58,13 @@ Picture parse_png_texture(std::span<const uint8_t> bytes, const std::filesystem:
 
 // clang-format off
 constexpr std::array<ImageFormatEntry, 4> kImageFormats = {{
-    {".exr", "\x76\x2f\x31\x01", true, write_channels, encode_channels, read_exr,
+    {".exr", "\x76\x2f\x31\x01", true, write_channels, begin_channels, encode_channels, read_exr,
      read_exr_colors, read_exr_size, nullptr},
-    {".hdr", "#?", false, nullptr, nullptr, nullptr,
+    {".hdr", "#?", false, nullptr, nullptr, nullptr, nullptr,
      read_radiance_colors, read_radiance_size, nullptr},
-    {".png", "\x89PNG", false, write_codes, encode_codes, read_codes,
+    {".png", "\x89PNG", false, write_codes, begin_codes, encode_codes, read_codes,
      read_png_colors, read_png_size, parse_png_texture},
-    {".jpg", "\xff\xd8\xff", false, nullptr, nullptr, nullptr,
+    {".jpg", "\xff\xd8\xff", false, nullptr, nullptr, nullptr, nullptr,
      nullptr, nullptr, parse_jpeg},
 }};
 // clang-format on

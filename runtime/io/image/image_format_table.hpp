@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ struct ImageFormatEntry {
 
     // Images:
     void (*write)(const std::filesystem::path& path, const Image& image, const ImageStorage& how);
+    /// The same file in bands.
+    std::unique_ptr<ImageRows> (*begin)(const std::filesystem::path& path,
+                                        const ImageWindow& window, const ImageStorage& how);
     std::string (*encode)(const Image& image, const ImageStorage& how);
     Image (*read)(const std::filesystem::path& path);
 

@@ -21,110 +21,6 @@ namespace {
 
 using Context = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
 
-/// The planes that a picture needs, with defaults for missing ones.
-struct ColorPlanes {
-    const Plane<float>& red;
-    const Plane<float>& green;
-    const Plane<float>& blue;
-    const Plane<float>* alpha;  ///< null for an opaque image
-
-    glm::vec3 color(size_t i) const { return {red[i], green[i], blue[i]}; }
-};
-
-ColorPlanes find_planes(ByteSink& file, const Image& image) {
-    if (image.width <= 0 || image.height <= 0) file.fail("the image has no pixels");
-    const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-    for (const char* name : {"R", "G", "B"}) {
-        const auto plane = image.planes.find(name);
-        if (plane == image.planes.end() || plane->second.size() != pixels)
-            file.fail(fmt::format("the image has no plane {} of its size", name));
-    }
-    const auto alpha = image.planes.find("A");
-    const bool has_alpha = alpha != image.planes.end() && alpha->second.size() == pixels;
-    return {image.planes.at("R"), image.planes.at("G"), image.planes.at("B"),
-            has_alpha ? &alpha->second : nullptr};
-}
-
-/// The codes of a picture's channels, `channels` to a pixel.
-std::vector<uint16_t> develop(const ColorPlanes& planes, const PngOptions& options) {
-    const float gain = std::exp2(options.exposure);
-    const ColorCodes codes(options.view_transform, options.bits);
-    std::vector<uint16_t> values;
-    values.reserve(planes.red.size() * (options.keep_alpha ? 4 : 3));
-    for (size_t i = 0; i < planes.red.size(); ++i) {
-        const float raw = planes.alpha ? (*planes.alpha)[i] : 1.0f;
-        const float alpha = std::isnan(raw) ? 1.0f : raw;
-        glm::vec3 color = planes.color(i);
-        if (!options.keep_alpha)
-            color += (1.0f - alpha) * options.background;
-        else if (alpha > 0.0f)
-            color /= alpha;
-        for (const uint16_t code : codes(color * gain)) values.push_back(code);
-        if (!options.keep_alpha) continue;
-        const float maximum = codes.maximum();
-        values.push_back(uint16_t(std::lround(std::clamp(alpha, 0.0f, 1.0f) * maximum)));
-    }
-    return values;
-}
-
-/// The bytes of codes, in this machine's order where they have two.
-std::vector<uint8_t> bytes_of(const std::vector<uint16_t>& codes, int bits) {
-    if (bits == 8) return {codes.begin(), codes.end()};
-    std::vector<uint8_t> bytes(codes.size() * 2);
-    std::memcpy(bytes.data(), codes.data(), bytes.size());
-    return bytes;
-}
-
-void check_encoding(ByteSink& file, int code) {
-    if (code != 0) file.fail(spng_strerror(code));
-}
-
-/// Texts of pictures come before their pixels. The library reads `stamp` when it encodes these.
-void put_stamp(ByteSink& file, spng_ctx* context, std::string& stamp) {
-    if (stamp.empty()) return;
-    spng_text text{};
-    text.type = SPNG_TEXT;
-    constexpr std::string_view kKeyword = "Comment";
-    kKeyword.copy(text.keyword, kKeyword.size());
-    text.text = stamp.data();
-    text.length = stamp.size();
-    check_encoding(file, spng_set_text(context, &text, 1));
-}
-
-/// Says what the codes stand for: sRGB, or with a gamma of 1 light itself.
-void put_meaning(ByteSink& file, spng_ctx* context, ViewTransform transform) {
-    constexpr uint8_t kPerceptual = 0;
-    if (transform == ViewTransform::none)
-        check_encoding(file, spng_set_gama(context, 1.0));
-    else
-        check_encoding(file, spng_set_srgb(context, kPerceptual));
-}
-
-void encode(ByteSink& file, const Image& image, const PngOptions& options) {
-    const bool with_alpha = options.keep_alpha;
-    const std::vector<uint8_t> bytes =
-        bytes_of(develop(find_planes(file, image), options), options.bits);
-    const Context context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
-    check_encoding(file, spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
-    spng_ihdr header{};
-    header.width = static_cast<uint32_t>(image.width);
-    header.height = static_cast<uint32_t>(image.height);
-    header.bit_depth = static_cast<uint8_t>(options.bits);
-    header.color_type = with_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
-    check_encoding(file, spng_set_ihdr(context.get(), &header));
-    put_meaning(file, context.get(), options.view_transform);
-    std::string stamp = options.stamp;
-    put_stamp(file, context.get(), stamp);
-    check_encoding(file, spng_encode_image(context.get(), bytes.data(), bytes.size(), SPNG_FMT_PNG,
-                                           SPNG_ENCODE_FINALIZE));
-    size_t size = 0;
-    int code = 0;
-    const std::unique_ptr<void, decltype(&std::free)> png(
-        spng_get_png_buffer(context.get(), &size, &code), std::free);
-    check_encoding(file, code);
-    file.write(png.get(), size);
-}
-
 }  // namespace
 
 uint8_t srgb_code(float linear) {
@@ -134,20 +30,6 @@ uint8_t srgb_code(float linear) {
     if (std::isnan(linear)) return 0;
     return static_cast<uint8_t>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -
                                 thresholds.begin());
-}
-
-void write_png(const std::filesystem::path& path, const Image& image, const PngOptions& options) {
-    AtomicFile file(path);
-    encode(file, image, options);
-    file.commit();
-}
-
-std::string png_bytes(const Image& image, const PngOptions& options) {
-    MemorySink sink("PNG");
-    encode(sink, image, options);
-    std::string bytes = sink.take();
-    seal(bytes);
-    return bytes;
 }
 
 Picture parse_png(std::span<const uint8_t> bytes, const std::filesystem::path& name,

@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/image/image.hpp"
 #include "runtime/image/view_transform.hpp"
+#include "runtime/io/image/image_rows.hpp"
 
 namespace voxelume {
 
@@ -43,6 +45,10 @@ uint8_t srgb_code(float linear);
 /// images give equal bytes. Throws Error::output.
 void write_png(const std::filesystem::path& path, const Image& image,
                const PngOptions& options = {});
+
+/// The file that `write_png` writes, in bands.
+std::unique_ptr<ImageRows> png_rows(const std::filesystem::path& path, const ImageWindow& window,
+                                    const PngOptions& options = {});
 
 /// The bytes of the file that `write_png` writes.
 std::string png_bytes(const Image& image, const PngOptions& options = {});

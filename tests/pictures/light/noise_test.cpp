@@ -146,7 +146,7 @@ TEST(Noise, GivesPassesTheSamplesOfAllLight) {
         const Image image = render(test_device(), scene, report);
         EXPECT_EQ(report.sight_rays, 3 * alone.report.sight_rays);
         EXPECT_EQ(report.noise.tiles, 64u);
-        EXPECT_EQ(report.noise.squares, alone.report.noise.squares);
+        EXPECT_EQ(report.noise.mean(), alone.report.noise.mean());
         EXPECT_EQ(image.planes.contains("R"), has_color);
         EXPECT_EQ(image.planes.contains("A"), has_color);
         // No light is of a group.

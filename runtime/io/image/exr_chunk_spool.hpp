@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where compressed chunks wait until it is their turn in a file.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/base/files/atomic_file.hpp"
+#include "runtime/base/files/input_file.hpp"
+
+namespace voxelume {
+
+/// A hidden file, beside the one that chunks are for. It never gets a name, and is gone with the
+/// spool.
+class ExrChunkSpool {
+  public:
+    explicit ExrChunkSpool(const std::filesystem::path& beside) : file_(beside) {}
+
+    /// Keeps a chunk, whose first row is `row`. Those of one part come from the top down.
+    void put(size_t part, int row, const std::string& bytes) {
+        chunks_.push_back({part, row, file_.position(), bytes.size()});
+        file_.write(bytes.data(), bytes.size());
+    }
+
+    /// Calls `write` with the part, the row and the bytes of all chunks, part after part.
+    template <class Write>
+    void take_out(const Write& write) {
+        std::ranges::stable_sort(chunks_, {}, &Chunk::part);
+        const InputFile written(file_.temporary());
+        std::string bytes;
+        for (const Chunk& chunk : chunks_) {
+            bytes.resize(chunk.size);
+            written.read(chunk.position, bytes.data(), chunk.size);
+            write(chunk.part, chunk.row, bytes);
+        }
+    }
+
+  private:
+    struct Chunk {
+        size_t part = 0;
+        int row = 0;
+        uint64_t position = 0;
+        size_t size = 0;
+    };
+
+    AtomicFile file_;
+    std::vector<Chunk> chunks_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/memory/image_bands.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/main_memory.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/memory/count/solid_extents.hpp"
+
+namespace voxelume {
+namespace {
+
+/// An image that takes less than this part of the memory needs no bands: where it doesn't fit, its
+/// world is too large.
+constexpr double kSmallPart = 1.0 / 16;
+
+bool is_small(const Scene& scene, const DeviceInfo& device) {
+    const double there = std::min(double(device.memory), double(main_memory()) - kDriverBytes);
+    const double bytes = image_bytes(scene.render);
+    return bytes <= kSmallPart * there && bytes <= double(device.max_allocation);
+}
+
+/// What else lies in main memory while a band is written: planes of the light's parts, other
+/// samples, and chunks of files.
+double writing_bytes(const Scene& scene) {
+    const ImageChannels& channels = scene.render.channels;
+    std::set<std::string> groups;
+    for (const Light& light : scene.lights) groups.insert(light.group);
+    const int passes = int(channels.albedo) + int(channels.direct) + int(channels.indirect) +
+                       int(channels.shadow) + (channels.light_groups ? int(groups.size()) + 1 : 0);
+    const int planes = 3 * passes + int(channels.samples) + int(channels.noise);
+    const int again = scene.render.noise.is_given() ? 4 : 0;
+    const double row =
+        image_bytes(scene.render) / scene.render.size.y + 4.0 * planes * scene.render.size.x;
+    return 2 * 4.0 * (planes + again) * scene.render.size.x * scene.render.size.y +
+           exr_band_bytes(row);
+}
+
+/// True if all that a run is expected to take is there.
+bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
+                 const DeviceInfo& device) {
+    const double memory = double(device.memory), most = plan.run_bytes(frames, memory);
+    const double host = plan.host_bytes + writing_bytes(scene) + kDriverBytes +
+                        (device.kind == DeviceKind::cpu ? most : 0);
+    return most <= memory && host <= double(main_memory()) && !is_refused({1, scene, plan}, device);
+}
+
+/// The bands if there are so many, or, as rows are rounded up, fewer.
+ImageBands cut(int height, int count) {
+    const int rows = (height + count - 1) / count;
+    const int rounded = (rows + kBandRows - 1) / kBandRows * kBandRows;
+    return {rounded, (height + rounded - 1) / rounded};
+}
+
+/// The first bands whose scene and plan `fits` accepts, by halves of an image; one without any.
+template <class Fits>
+ImageBands halve(const Scene& scene, AssetStore& meshes, const DeviceInfo& device,
+                 const Fits& fits) {
+    const int height = scene.render.size.y;
+    SolidExtents solids;
+    const auto do_fit = [&](const ImageBands& bands) {
+        const Scene band = band_of(scene, bands, 0);
+        return fits(band, plan_scene(band, meshes, device, solids));
+    };
+    if (!do_fit(cut(height, height))) return {height, 1};
+    ImageBands bands = cut(height, 2);
+    for (int count = 4; !bands.are_one() && !do_fit(bands); count *= 2) bands = cut(height, count);
+    return bands;
+}
+
+}  // namespace
+
+Scene band_of(const Scene& scene, const ImageBands& bands, int band) {
+    Scene part = scene;
+    if (bands.are_one()) return part;
+    const glm::ivec2 size = scene.render.size, first = scene.render.crop.first;
+    const int row = band * bands.rows;
+    crop(part, {first.x, first.y + row}, {size.x, std::min(bands.rows, size.y - row)});
+    return part;
+}
+
+ImageBands bands_that_fit(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
+                          const DeviceInfo& device, int at_once) {
+    const ImageBands one{scene.render.size.y, 1};
+    if (!scene.render.shows_image || is_small(scene, device)) return one;
+    const FramePlan whole = plan_frames(scene, frames, meshes, device);
+    const auto surely = [&](const Scene& band, const ScenePlan& plan) {
+        return fits_surely(band, plan, frames.size(), device);
+    };
+    if (surely(whole.scene, whole.plan)) return one;
+    const bool are_needed = is_refused(whole, device);
+    ImageBands bands = halve(whole.scene, meshes, device, surely);
+    if (bands.are_one() && are_needed)
+        bands = halve(whole.scene, meshes, device, [&](const Scene& band, const ScenePlan& plan) {
+            return !is_refused({1, band, plan}, device);
+        });
+    if (!bands.are_one()) bands = cut(scene.render.size.y, bands.count * at_once);
+    bands.are_needed = are_needed;
+    return bands;
+}
+
+std::optional<NeedOfWhole> need_of_whole(const RenderSettings& render) {
+    if (render.noise.seconds > 0)
+        return NeedOfWhole{"its time is shared by all of its pixels",
+                           "ask for a noise or for samples instead of a time"};
+    return {};
+}
+
+void refuse_bands(const Scene& scene, const DeviceInfo& device, const NeedOfWhole& need) {
+    throw Error(ErrorKind::limit,
+                "an image of {}x{} pixels doesn't fit the memory of \"{}\" at once, nor can it be "
+                "rendered in bands, for {}: {}, or render a smaller one",
+                scene.render.size.x, scene.render.size.y, device.name, need.reason, need.advice);
+}
+
+}  // namespace voxelume
