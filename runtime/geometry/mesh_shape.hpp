@@ -26,14 +26,18 @@ inline constexpr double kMaxThinShare = 0.35;
 
 /// What is asked of a mesh besides its summary.
 struct MeshShape {
-    double sharp_length = 0;  ///< metres, of sharp_length_of(); below 0 if it isn't measured
+    MeshCreases creases;  ///< their length is below 0 if they aren't measured
     MeshThickness thickness;
 };
 
 MeshShape shape_of(const Mesh& mesh);
 
-/// True if so many of its edges are sharp that chords next to them say nothing of thin parts.
-bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
+/// The shape of a mesh that is this many times as large.
+MeshShape scaled(const MeshShape& shape, double scale);
+
+/// True if so many of its edges are sharp, or rounded so narrowly that they are in such voxels,
+/// that distances would bead them. Chords next to them say nothing of thin parts.
+bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
 /// A surface with the reason for it, as the second half of a sentence.
 struct SurfaceChoice {

@@ -120,7 +120,7 @@ Report describe_mesh(const std::filesystem::path& path) {
                      {"groups", mesh.group_names},
                      {"closed", open == 0},
                      {"open edges", open},
-                     {"sharp edges, m", shape.sharp_length},
+                     {"sharp edges, m", shape.creases.length},
                      {"thickness, m", shape.thickness.body},
                      {"thickness of thin parts, m", shape.thickness.part}};
     report["min"] = {box.min.x, box.min.y, box.min.z};
