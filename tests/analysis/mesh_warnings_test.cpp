@@ -34,6 +34,23 @@ TEST_F(MeshWarnings, NameAMeshInMillimetresAndNothingElseOfIt) {
     EXPECT_THAT(warnings()[0].text, HasSubstr("change its model's \"unit\""));
 }
 
+TEST_F(MeshWarnings, OfTheWrongUnitDontSayThatItHoldsTheObserver) {
+    show_mesh("part.obj", ball({0, 0, 0}, 150, 32, 16));
+    json["models"]["ball"]["surface"] = "exact";
+    json["lights"] = Json::parse(R"([{"type": "directional", "direction": [0, -1, 0]}])");
+    json["objects"].erase(1);
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
+}
+
+TEST_F(MeshWarnings, NameTheUnitThatMakesAMeshTooSmall) {
+    show_mesh("part.obj", ball({0, 0, 0}, 0.3, 32, 16));
+    json["models"]["ball"]["unit"] = "mm";
+    ASSERT_THAT(kinds(), testing::Contains(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text,
+                HasSubstr("so its unit is probably wrong: its model's \"unit\" takes the file's "
+                          "coordinate 1 for 0.001 m; if it is 1 m, leave \"unit\" out"));
+}
+
 TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
     show_mesh("part.obj", ball({0, 0, 0}, 0.3, 32, 16));
     json["world"] = {{"voxel_size", 10},

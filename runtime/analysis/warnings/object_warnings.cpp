@@ -47,9 +47,22 @@ std::string unit_advice(const Model& model, double times_world) {
     for (const Unit& unit : kUnits)
         if (model.object_from_file.is_identity() && times_world * unit.metres > 0.02 &&
             times_world * unit.metres < 2)
-            return fmt::format("if the file is in {}, give its model \"unit\": \"{}\"", unit.name,
-                               unit.key);
-    return "change its model's \"unit\", or the object's \"scale\"";
+            return fmt::format(
+                "coordinates are metres; if the file is in {}, give its model \"unit\": \"{}\"",
+                unit.name, unit.key);
+    return "coordinates are metres; change its model's \"unit\", or the object's \"scale\"";
+}
+
+/// What makes a mesh that is too small fit the world.
+std::string small_unit_advice(const Model& model) {
+    const FileMap& map = model.object_from_file;
+    if (model.fit == 0 && map.scale < 1)
+        return fmt::format(
+            "its model's \"unit\" takes the file's coordinate 1 for {} m; if it is "
+            "1 m, leave \"unit\" out",
+            map.scale);
+    return "coordinates are metres; if the scene is in millimetres, give the object a \"scale\" "
+           "1000 times as large";
 }
 
 /// Files have no unit, so this is the most frequent mistake.
@@ -64,13 +77,12 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
         times <= too_small && side < 2 * largest(scene.world.voxel_size) && side > 0;
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
-        is_tiny ? "if the scene is in millimetres, give the object a \"scale\" 1000 times as large"
-                : unit_advice(placed.model, times);
+        is_tiny ? small_unit_advice(placed.model) : unit_advice(placed.model, times);
     return add_once(
         {WarningKind::unlikely_unit, object.where,
-         fmt::format("{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: "
-                     "coordinates are metres; {}",
-                     title_of(object), side, world, advice)},
+         fmt::format(
+             "{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: {}",
+             title_of(object), side, world, advice)},
         warnings);
 }
 
