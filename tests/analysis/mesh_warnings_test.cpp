@@ -27,19 +27,14 @@ TEST_F(MeshWarnings, NameAMeshInMillimetresAndNothingElseOfIt) {
                 HasSubstr("300 m large in a world of 2 m, so its unit is probably wrong: "
                           "coordinates are metres; if the file is in millimetres, give its model "
                           "\"unit\": \"mm\""));
+    json["objects"].erase(1);
+    json["lights"][0]["position"] = {0, 500, 0};
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit)) << "though it holds the observer";
     json["models"]["ball"]["unit"] = "mm";
     EXPECT_THAT(kinds(), IsEmpty());
     json["models"]["ball"]["unit"] = "km";
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
     EXPECT_THAT(warnings()[0].text, HasSubstr("change its model's \"unit\""));
-}
-
-TEST_F(MeshWarnings, OfTheWrongUnitDontSayThatItHoldsTheObserver) {
-    show_mesh("part.obj", ball({0, 0, 0}, 150, 32, 16));
-    json["models"]["ball"]["surface"] = "exact";
-    json["lights"] = Json::parse(R"([{"type": "directional", "direction": [0, -1, 0]}])");
-    json["objects"].erase(1);
-    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
 }
 
 TEST_F(MeshWarnings, NameTheUnitThatMakesAMeshTooSmall) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What meshes are like, and the surface that `auto` gives them.
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 
 #include <gmock/gmock.h>
 

@@ -13,7 +13,7 @@
 
 #include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/scene/predicates.hpp"

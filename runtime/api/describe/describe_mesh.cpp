@@ -9,7 +9,7 @@
 
 #include "runtime/analysis/warnings/mesh_warnings.hpp"
 #include "runtime/geometry/mesh_points.hpp"
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_unshown.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/mesh_creases.hpp"
+#include "runtime/geometry/shape/mesh_creases.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/geometry/edge_turns.hpp"
-#include "runtime/geometry/mesh_edges.hpp"
+#include "runtime/geometry/shape/edge_turns.hpp"
+#include "runtime/geometry/shape/mesh_edges.hpp"
 
 namespace voxelume {
 namespace {

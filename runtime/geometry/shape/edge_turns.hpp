@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "runtime/geometry/mesh_edges.hpp"
+#include "runtime/geometry/shape/mesh_edges.hpp"
 
 namespace voxelume {
 

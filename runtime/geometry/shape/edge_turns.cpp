@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/edge_turns.hpp"
+#include "runtime/geometry/shape/edge_turns.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/geometry/edge_turns.hpp"
+#include "runtime/geometry/shape/edge_turns.hpp"
 
 namespace voxelume {
 namespace {

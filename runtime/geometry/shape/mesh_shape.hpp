@@ -4,16 +4,16 @@
 
 #include <string>
 
-#include "runtime/geometry/mesh_creases.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/mesh_thickness.hpp"
+#include "runtime/geometry/shape/mesh_creases.hpp"
 #include "runtime/geometry/thin_part.hpp"
 #include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
 
 /// Creases make a mesh sharp-edged that together are longer than this many times the side of a
-/// square with the mesh's area. A cube has 4.9, a cone 2, and scanned meshes up to 0.4 by their
+/// square with the mesh's area. A cube has 4.9, a cone 2, and scanned meshes up to 0.5 by their
 /// noise.
 inline constexpr double kSharpShare = 0.7;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/mesh_edges.hpp"
+#include "runtime/geometry/shape/mesh_edges.hpp"
 
 #include <algorithm>
 #include <array>
