@@ -29,6 +29,7 @@ constexpr double kMostBack = 20, kEndless = 1e6;
 struct Arm {
     std::array<double, kMostEdges + 1> way, turn, bent;  // filled as far as `count`
     size_t count = 1;
+    double end = std::numeric_limits<double>::infinity();  // where it bends back too far
 
     Arm() { way[0] = turn[0] = bent[0] = 0; }
 
@@ -53,13 +54,13 @@ double turn_about(const glm::dvec3& axis, const glm::dvec3& from, const glm::dve
 struct Walk {
     const MeshEdges& edges;
     glm::dvec3 axis, middle;
-    double reach;
 
     double height(const glm::dvec3& p) const { return glm::dot(axis, p - middle); }
 
     /// Goes away from `side` into its face, whose normal looks out of the surface as it is or, for
     /// a `sign` of -1, turned over. `sense` is 1 if turns around the axis count as they come.
-    Arm go(uint32_t side, double sign, double sense, double own) const {
+    /// Nothing further away than `reach` counts.
+    Arm go(uint32_t side, double sign, double sense, double own, double reach) const {
         Arm arm;
         glm::dvec3 at = middle, normal = sign * edges.normal(side);
         double way = 0, turn = 0, bent = 0, back = 0, end = reach;
@@ -88,7 +89,11 @@ struct Walk {
             }
             arm.way[arm.count] = way;
             arm.turn[arm.count] = turn;
-            arm.bent[arm.count++] = back > kMostBack ? kEndless : bent;
+            arm.bent[arm.count++] = bent;
+            if (back > kMostBack) {
+                arm.bent[arm.count - 1] = kEndless;
+                arm.end = way;
+            }
             if (std::abs(turn + own) >= kSharpAngle) end = std::min(end, kFlanks * way);
             at = on;
             side = beyond;
@@ -125,10 +130,12 @@ double largest_turn(const Arm& a, const Arm& b, double turn, double width) {
 EdgeTurn turn_around(const MeshEdges& edges, const MeshEdge& edge, double reach) {
     if (edge.is_fork) return {0, 1};
     const glm::dvec3 low = edges.start(edge.a), high = edges.start(next_side(edge.a));
-    const Walk walk{edges, glm::normalize(high - low), (low + high) / 2.0, reach};
+    const Walk walk{edges, glm::normalize(high - low), (low + high) / 2.0};
     const double sense = edges.sense(edge.a, edge.b);
     const double turn = turn_about(walk.axis, edges.normal(edge.a), sense * edges.normal(edge.b));
-    const Arm a = walk.go(edge.a, 1, -1, turn), b = walk.go(edge.b, sense, 1, turn);
+    const Arm a = walk.go(edge.a, 1, -1, turn, reach);
+    // Where that bends back too far, all that is as wide is too rough.
+    const Arm b = walk.go(edge.b, sense, 1, turn, std::min(reach, a.end));
     const double width = least_width(a, b, turn);
     if (!(width < std::numeric_limits<double>::infinity())) return {};
     const double largest = largest_turn(a, b, turn, kRightAngle * width);
