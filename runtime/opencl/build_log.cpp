@@ -22,8 +22,8 @@ std::string first_errors(std::string_view log) {
     if (errors.empty()) errors = lines;
     std::string text;
     for (const std::string_view line : std::span(errors).first(std::min(errors.size(), kMost)))
-        text +=
-            fmt::format("\n  {}{}", line.substr(0, kLongest), line.size() > kLongest ? "..." : "");
+        text += fmt::format("{}{}{}", text.empty() ? "" : "\n  ", line.substr(0, kLongest),
+                            line.size() > kLongest ? "..." : "");
     if (errors.size() > kMost) text += fmt::format("\n  and {} more", errors.size() - kMost);
     return text;
 }

@@ -8,7 +8,8 @@
 namespace voxelume {
 
 /// The first few lines of a log that name errors, or of all its lines if none does, and how many
-/// more of these there are. Empty for a log without lines.
+/// more of these there are. The first comes without a line break, as lists of devices have one line
+/// for each. Empty for a log without lines.
 std::string first_errors(std::string_view log);
 
 }  // namespace voxelume

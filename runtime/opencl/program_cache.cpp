@@ -83,7 +83,8 @@ cl::Program compile(const CompilerTarget& target, const std::string& label,
     if (log.empty() && status != CL_BUILD_PROGRAM_FAILURE)
         throw cl::Error(status, "clBuildProgram");
     const std::string errors = first_errors(log);
-    throw Error(ErrorKind::build, "{}{}{}", status_name(status), errors.empty() ? "" : ":", errors);
+    throw Error(ErrorKind::build, "{}{}{}", status_name(status), errors.empty() ? "" : ": ",
+                errors);
 }
 
 /// Compiles with PoCL. It would read 17,000 declarations for each program, which takes 80 ms. So it
