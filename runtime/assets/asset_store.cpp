@@ -10,13 +10,7 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-namespace {
-
-MeshThickness scaled(const MeshThickness& t, double scale) {
-    return {scale * t.body, scale * t.part, scale * t.hint};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
     used_.insert(name.first);
@@ -118,11 +112,11 @@ const MeshShape& AssetStore::shape_of_file(const MeshName& name, bool is_whole) 
     const auto measure = [&] {
         const Mesh& of_file = mesh(name.first, {}, name.second);
         return is_whole ? voxelume::shape_of(of_file)
-                        : MeshShape{-1, voxelume::thickness_of(of_file)};
+                        : MeshShape{{.length = -1}, voxelume::thickness_of(of_file)};
     };
-    if (is_whole && file.shape && file.shape->sharp_length < 0) file.shape.reset();
+    if (is_whole && file.shape && file.shape->creases.length < 0) file.shape.reset();
     const MeshShape& shape = known(file.shape, file.source, &ModelCache::shape, measure);
-    if (!is_whole || shape.sharp_length >= 0) return shape;
+    if (!is_whole || shape.creases.length >= 0) return shape;
     double seconds = 0;
     {
         const LoadTimer timer(seconds);
@@ -133,9 +127,7 @@ const MeshShape& AssetStore::shape_of_file(const MeshName& name, bool is_whole) 
 }
 
 MeshShape AssetStore::shape_of(const Model& model) {
-    const MeshShape& shape = shape_of_file({model.mesh, model.part}, true);
-    const double scale = model.object_from_file.scale;
-    return {scale * shape.sharp_length, scaled(shape.thickness, scale)};
+    return scaled(shape_of_file({model.mesh, model.part}, true), model.object_from_file.scale);
 }
 
 MeshThickness AssetStore::thickness_of(const Model& model) {

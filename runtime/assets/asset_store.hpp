@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "runtime/assets/model_cache.hpp"
-#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/mesh_targets.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/geometry/thin_part.hpp"
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/gltf/gltf_file.hpp"

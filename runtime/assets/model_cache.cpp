@@ -23,7 +23,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kFormat = "voxelume models 6";
+constexpr const char* kFormat = "voxelume models 7";
 constexpr uint64_t kDefaultMegabytes = 4096;
 
 /// The minimum rate at which the bytes of a grid are read, unpacked and sent to a device.

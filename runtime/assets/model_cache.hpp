@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "runtime/base/files/disk_cache.hpp"
-#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/stages/voxelize/voxelize_options.hpp"
 

@@ -122,15 +122,16 @@ std::optional<MeshSummary> summary_of_bytes(const std::string& bytes) {
 }
 
 std::string bytes_of(const MeshShape& shape) {
-    return cbor_of(
-        {shape.sharp_length, shape.thickness.body, shape.thickness.part, shape.thickness.hint});
+    const MeshCreases& creases = shape.creases;
+    const MeshThickness& thickness = shape.thickness;
+    return cbor_of({creases.length, creases.round_width, creases.round_length, thickness.body,
+                    thickness.part, thickness.hint});
 }
 
 std::optional<MeshShape> shape_of_bytes(const std::string& bytes) {
     return value_of<MeshShape>(bytes, [](const nlohmann::json& json) {
-        return MeshShape{
-            json.at(0).get<double>(),
-            {json.at(1).get<double>(), json.at(2).get<double>(), json.at(3).get<double>()}};
+        const auto number = [&](size_t i) { return json.at(i).get<double>(); };
+        return MeshShape{{number(0), number(1), number(2)}, {number(3), number(4), number(5)}};
     });
 }
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 
 namespace voxelume {
 

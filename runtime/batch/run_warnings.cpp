@@ -7,10 +7,15 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <utility>
 
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/parts/display_shape.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
@@ -33,8 +38,49 @@ Bounds box_of_objects(Scene scene, AssetStore meshes, const std::vector<SourcePl
     return all;
 }
 
-/// What an observer who sees nothing should change. The objects' box isn't empty.
-std::string view_advice(const Observer& observer, const Bounds& objects) {
+/// The diagonal of the box around all visible objects as they are, without the voxels that show
+/// them: metres.
+double size_of_objects(const Scene& scene, AssetStore meshes) {
+    Bounds all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (const Object& object : scene.objects) {
+        if (!object.visible) continue;
+        const PlacedModel model = placed(scene, object, meshes);
+        if (model.is_empty) continue;
+        all.min = glm::min(all.min, model.world.min);
+        all.max = glm::max(all.max, model.world.max);
+    }
+    return all.min.x <= all.max.x ? glm::length(all.max - all.min) : INFINITY;
+}
+
+/// True if a point lies in the flat image, and `size` metres there are less than a pixel.
+bool is_below_a_pixel(const Observer& observer, const glm::ivec2& image, const glm::dvec3& point,
+                      double size) {
+    const Display& display = observer.display;
+    const glm::dvec3 way = point - observer.position;
+    const glm::dvec3 seen = glm::transpose(observer.world_from_observer) * way;
+    const double distance = glm::length(way);
+    glm::dvec2 half = display.half_size, at = glm::abs(glm::dvec2(seen));  // of the image, metres
+    switch (shape_row(display).projection) {
+        case SightProjection::perspective:
+            half = seen.z * glm::tan(display.half_angles);
+            break;
+        case SightProjection::parallel:
+            break;
+        case SightProjection::angular: {
+            const bool is_ball = display.shape == DisplayShape::ball;
+            half = is_ball ? distance * glm::dvec2(M_PI, M_PI / 2) : distance * display.half_angles;
+            at = glm::dvec2(is_ball ? 0 : distance * std::acos(seen.z / distance));
+        }
+    }
+    const bool is_ahead = seen.z > 0 || display.shape == DisplayShape::ball;
+    const glm::dvec2 pixel = 2.0 * half / glm::dvec2(image);
+    return is_ahead && glm::all(glm::lessThan(at, half)) && size < std::max(pixel.x, pixel.y);
+}
+
+/// What an observer who sees nothing should change. The objects' box isn't empty, and they are
+/// `own_size` metres large.
+std::string view_advice(const Observer& observer, const glm::ivec2& image, const Bounds& objects,
+                        double own_size) {
     // To a hundredth or thousandth of the objects' size, as a person would write it; -0 is 0.
     const double size = glm::length(objects.max - objects.min);
     const double step = std::pow(10.0, std::floor(std::log10(std::max(size, 1e-9))) - 3);
@@ -55,6 +101,11 @@ std::string view_advice(const Observer& observer, const Bounds& objects) {
             "the display begins at {:.3g} m, and no object is farther than "
             "{:.3g} m: change \"near\"",
             observer.display.near, farthest);
+    if (is_below_a_pixel(observer, image, (objects.min + objects.max) / 2.0, own_size))
+        return fmt::format(
+            "the objects around [{:.4g}, {:.4g}, {:.4g}] are smaller than a pixel: move the "
+            "observer closer, use more pixels, or make them larger",
+            middle.x, middle.y, middle.z);
     return fmt::format(
         "the objects lie around [{:.4g}, {:.4g}, {:.4g}]: make that the observer's "
         "\"look_at\", or move the observer",
@@ -127,10 +178,12 @@ void RunWarnings::add_view_warning(const Scene& scene) {
     const Bounds objects = box_of_objects(scene, AssetStore(cache_), lost_);
     const bool is_in_world = objects.min.x <= objects.max.x;
     if (has_objects && !is_in_world) return;  // known already
+    const std::string advice =
+        has_objects ? ": " + view_advice(scene.observer, frame_size(scene.render), objects,
+                                         size_of_objects(scene, AssetStore(cache_)))
+                    : ", as the scene has none that is visible: add some to \"objects\"";
     add_once({WarningKind::nothing_in_view, scene.observer.where,
-              has_objects ? "no sight ray meets an object: " + view_advice(scene.observer, objects)
-                          : "no sight ray meets an object, as the scene has none that is visible: "
-                            "add some to \"objects\""},
+              "no sight ray meets an object" + advice},
              warnings_);
 }
 

@@ -43,4 +43,8 @@ MeshThickness thickness_of(const Mesh& mesh) {
             quantile(of_walls, kThinHintShare * area)};
 }
 
+MeshThickness scaled(const MeshThickness& t, double scale) {
+    return {scale * t.body, scale * t.part, scale * t.hint};
+}
+
 }  // namespace voxelume

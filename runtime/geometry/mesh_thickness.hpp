@@ -26,4 +26,7 @@ struct MeshThickness {
 /// meshes give equal numbers.
 MeshThickness thickness_of(const Mesh& mesh);
 
+/// The thickness of a mesh that is this many times as large.
+MeshThickness scaled(const MeshThickness& t, double scale);
+
 }  // namespace voxelume

@@ -13,6 +13,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
+#include "runtime/opencl/build_log.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
 #include "runtime/opencl/source/compile_turn.hpp"
@@ -81,7 +82,9 @@ cl::Program compile(const CompilerTarget& target, const std::string& label,
     const std::string log = log_of(program, *target.device);
     if (log.empty() && status != CL_BUILD_PROGRAM_FAILURE)
         throw cl::Error(status, "clBuildProgram");
-    throw Error(ErrorKind::build, "{}:\n{}", status_name(status), log);
+    const std::string errors = first_errors(log);
+    throw Error(ErrorKind::build, "{}{}{}", status_name(status), errors.empty() ? "" : ": ",
+                errors);
 }
 
 /// Compiles with PoCL. It would read 17,000 declarations for each program, which takes 80 ms. So it
@@ -183,8 +186,8 @@ cl::Program build_program(const Device& device, const std::string& label, const 
         else
             program = build_noted(device, label, text);
     } catch (const Error& error) {
-        throw Error(ErrorKind::build, "{} does not compile on \"{}\" with {}: {}", label,
-                    device.info().name, text.options, error.what());
+        throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
+                    device.info().name, error.what());
     } catch (const cl::Error& error) {
         throw_device_error(error, device.info(), "compiling " + label);
     }

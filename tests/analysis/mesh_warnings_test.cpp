@@ -27,11 +27,23 @@ TEST_F(MeshWarnings, NameAMeshInMillimetresAndNothingElseOfIt) {
                 HasSubstr("300 m large in a world of 2 m, so its unit is probably wrong: "
                           "coordinates are metres; if the file is in millimetres, give its model "
                           "\"unit\": \"mm\""));
+    json["objects"].erase(1);
+    json["lights"][0]["position"] = {0, 500, 0};
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit)) << "though it holds the observer";
     json["models"]["ball"]["unit"] = "mm";
     EXPECT_THAT(kinds(), IsEmpty());
     json["models"]["ball"]["unit"] = "km";
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
     EXPECT_THAT(warnings()[0].text, HasSubstr("change its model's \"unit\""));
+}
+
+TEST_F(MeshWarnings, NameTheUnitThatMakesAMeshTooSmall) {
+    show_mesh("part.obj", ball({0, 0, 0}, 0.3, 32, 16));
+    json["models"]["ball"]["unit"] = "mm";
+    ASSERT_THAT(kinds(), testing::Contains(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text,
+                HasSubstr("so its unit is probably wrong: its model's \"unit\" takes the file's "
+                          "coordinate 1 for 0.001 m; if it is 1 m, leave \"unit\" out"));
 }
 
 TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {

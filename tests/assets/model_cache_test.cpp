@@ -134,9 +134,9 @@ TEST_F(ModelCacheFiles, AThicknessIsKeptUntilTheWholeShapeIs) {
     const double part = first.thickness_of(model).part;
     EXPECT_EQ(second.thickness_of(model).part, part);
     EXPECT_EQ(second.meshes_read(), 0u);
-    EXPECT_GE(second.shape_of(model).sharp_length, 0);
+    EXPECT_GE(second.shape_of(model).creases.length, 0);
     EXPECT_EQ(second.meshes_read(), 1u);
-    EXPECT_EQ(third.shape_of(model).sharp_length, second.shape_of(model).sharp_length);
+    EXPECT_EQ(third.shape_of(model).creases.length, second.shape_of(model).creases.length);
     EXPECT_EQ(third.meshes_read(), 0u);
 }
 

@@ -98,6 +98,21 @@ TEST_F(CliWarningsTest, SayThatNothingIsInViewAndWhereToLook) {
     EXPECT_TRUE(std::filesystem::exists(folder / "b.png"));  // it shows what is wrong
 }
 
+TEST_F(CliWarningsTest, SayThatObjectsInViewAreSmallerThanAPixel) {
+    write_scene([](Json& scene) {
+        scene["models"]["thing"] = {{"shape", "sphere"}, {"radius", 0.0005}};
+        scene["observer"]["look_at"] = scene["objects"][0]["position"];
+    });
+    EXPECT_THAT(run("render scene.json -o a.png").err,
+                HasSubstr("no sight ray meets an object: the objects around [1.5, 1, 0.5] are "
+                          "smaller than a pixel: move the observer closer"));
+    write_scene([](Json& scene) {
+        scene["models"]["thing"] = {{"shape", "sphere"}, {"radius", 0.0005}};
+        scene["observer"]["look_at"] = {1.5, 1, 9};
+    });
+    EXPECT_THAT(run("render scene.json -o a.png").err, HasSubstr("make that the observer's"));
+}
+
 TEST_F(CliWarningsTest, SayThatTheDisplayEndsBeforeTheObjects) {
     write_scene([](Json& scene) { scene["observer"]["display"]["far"] = 0.5; });
     EXPECT_THAT(run("render scene.json -o a.png").err,

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/scene/parts/scene_affine.hpp"
 #include "tests/support/finned_ball.hpp"
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/program.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numeric>
 
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/buffer.hpp"
+#include "runtime/opencl/build_log.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/stages/features.hpp"
 #include "tests/support/test_device.hpp"
@@ -57,6 +60,36 @@ TEST(Program, WarningsOfTheCompilerAreNotPrinted) {
     const Program program =
         Program::from_text(device, "#warning told\nkernel void h(global int* x) { *x = 9; }\n");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Program, ThatDoesNotCompileSaysTheFirstErrorsAndNoOptions) {
+    const Device device = test_device();
+    testing::internal::CaptureStderr();  // to which compilers say more
+    std::string told;
+    try {
+        const Program program = Program::from_text(
+            device, "kernel void wrong(global int* x) { *x = unheard_of + VALUE; }\n",
+            {{"VALUE", 7}});
+        program.kernel("wrong").launch(WorkItem::light, 1, Buffer<int32_t>(device, "x", 1));
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::build);
+        told = error.what();
+    }
+    testing::internal::GetCapturedStderr();
+    EXPECT_THAT(told, testing::HasSubstr(" does not compile on \""));
+    EXPECT_THAT(told, testing::HasSubstr("unheard_of"));
+    EXPECT_THAT(told, testing::Not(testing::HasSubstr("-D")));
+    EXPECT_LT(told.size(), 700u);
+}
+
+TEST(BuildLog, IsToldByItsFirstErrors) {
+    EXPECT_EQ(first_errors(""), "");
+    EXPECT_EQ(first_errors("\n  \nno room\n"), "no room");
+    std::string log = "warning: all is strange\nkernels/a.cl:1:2: error: no x\n    y = x;\n  ^\n";
+    EXPECT_EQ(first_errors(log), "kernels/a.cl:1:2: error: no x");
+    for (int i = 0; i < 7; ++i) log += "kernels/b.cl:1:2: error: " + std::string(300, 'z') + "\n";
+    EXPECT_THAT(first_errors(log), testing::EndsWith("zz...\n  and 3 more"));
+    EXPECT_LT(first_errors(log).size(), 1000u);
 }
 
 TEST(Program, ConstantsThatTheSourceDoesNotMentionMakeNoOther) {

@@ -92,8 +92,14 @@ bool holds_an_object(const Scene& scene, const Object& object, AssetStore& meshe
 
 void add_inside_warnings(const Scene& scene, AssetStore& meshes, std::vector<Warning>& warnings) {
     const std::optional<glm::dvec3> eye = start_of_sight(scene.observer);
+    // A mesh in the wrong unit holds all of the scene.
+    const auto has_wrong_size = [&](const Object& object) {
+        return std::ranges::any_of(warnings, [&](const Warning& warning) {
+            return warning.kind == WarningKind::unlikely_unit && warning.where == object.where;
+        });
+    };
     for (const Object& object : scene.objects) {
-        if (!is_body(scene, object)) continue;
+        if (!is_body(scene, object) || has_wrong_size(object)) continue;
         const bool holds_eye = eye && encloses(scene, object, *eye, meshes);
         if (holds_eye && !holds_a_light(scene, object, meshes) &&
             !holds_an_object(scene, object, meshes))

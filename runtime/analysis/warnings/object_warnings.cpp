@@ -13,7 +13,7 @@
 
 #include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/geometry/solid/solid_parts.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -47,9 +47,22 @@ std::string unit_advice(const Model& model, double times_world) {
     for (const Unit& unit : kUnits)
         if (model.object_from_file.is_identity() && times_world * unit.metres > 0.02 &&
             times_world * unit.metres < 2)
-            return fmt::format("if the file is in {}, give its model \"unit\": \"{}\"", unit.name,
-                               unit.key);
-    return "change its model's \"unit\", or the object's \"scale\"";
+            return fmt::format(
+                "coordinates are metres; if the file is in {}, give its model \"unit\": \"{}\"",
+                unit.name, unit.key);
+    return "coordinates are metres; change its model's \"unit\", or the object's \"scale\"";
+}
+
+/// What makes a mesh that is too small fit the world.
+std::string small_unit_advice(const Model& model) {
+    const FileMap& map = model.object_from_file;
+    if (model.fit == 0 && map.scale < 1)
+        return fmt::format(
+            "its model's \"unit\" takes the file's coordinate 1 for {} m; if it is "
+            "1 m, leave \"unit\" out",
+            map.scale);
+    return "coordinates are metres; if the scene is in millimetres, give the object a \"scale\" "
+           "1000 times as large";
 }
 
 /// Files have no unit, so this is the most frequent mistake.
@@ -64,13 +77,12 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
         times <= too_small && side < 2 * largest(scene.world.voxel_size) && side > 0;
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
-        is_tiny ? "if the scene is in millimetres, give the object a \"scale\" 1000 times as large"
-                : unit_advice(placed.model, times);
+        is_tiny ? small_unit_advice(placed.model) : unit_advice(placed.model, times);
     return add_once(
         {WarningKind::unlikely_unit, object.where,
-         fmt::format("{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: "
-                     "coordinates are metres; {}",
-                     title_of(object), side, world, advice)},
+         fmt::format(
+             "{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: {}",
+             title_of(object), side, world, advice)},
         warnings);
 }
 
@@ -170,11 +182,11 @@ void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetS
     };
     const MeshSummary& mesh = *meshes.summary_of(model);
     if (is_open(mesh) || std::ranges::any_of(warnings, is_known)) return;
-    const double part = meshes.thickness_of(model).part * smallest(placed.scale),
-                 voxel = field_voxel(scene, placed);
+    const double scale = smallest(placed.scale), voxel = field_voxel(scene, placed),
+                 part = meshes.thickness_of(model).part * scale;
     const bool has_inside = part > 0;
     if (!has_inside || part >= kThinPartVoxels * voxel) return;
-    if (has_sharp_edges(mesh, meshes.shape_of(model))) return;
+    if (has_sharp_edges(mesh, meshes.shape_of(model), voxel / scale)) return;
     add_once({WarningKind::thinner_than_voxel, model.where,
               fmt::format("parts of {} are less than {:.2g} voxels thick and get lost on "
                           "\"smooth\": leave \"surface\" out or give \"exact\", or use voxels "

@@ -9,7 +9,7 @@
 
 #include "runtime/analysis/warnings/mesh_warnings.hpp"
 #include "runtime/geometry/mesh_points.hpp"
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 #include "runtime/io/gltf/gltf_animation.hpp"
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/gltf/gltf_unshown.hpp"
@@ -120,7 +120,7 @@ Report describe_mesh(const std::filesystem::path& path) {
                      {"groups", mesh.group_names},
                      {"closed", open == 0},
                      {"open edges", open},
-                     {"sharp edges, m", shape.sharp_length},
+                     {"sharp edges, m", shape.creases.length},
                      {"thickness, m", shape.thickness.body},
                      {"thickness of thin parts, m", shape.thickness.part}};
     report["min"] = {box.min.x, box.min.y, box.min.z};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "runtime/base/error.hpp"
@@ -273,22 +274,26 @@ void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& l
         light_points(light_rays, medium, batch, missed, shown.voxels);
         return true;
     };
-    const auto look_elsewhere = [&](bool hidden) {
+    const auto look_elsewhere = [&](std::optional<float> max_covered) {
         for (uint32_t view = 1; view < views_.size(); ++view)
             if (!light_shifted(glm::vec3(0), [&](ProbePoints& points) {
-                    points.views.fill(hidden ? view : kNoView);
-                    if (!hidden) search(look, batch, points, view, kMaxCovered);
+                    points.views.fill(max_covered ? kNoView : view);
+                    if (max_covered) search(look, batch, points, view, *max_covered);
                 }))
                 return;
     };
-    if (visibility_ != Visibility::observer) look_elsewhere(false);
+    if (visibility_ != Visibility::observer) {
+        // As in find_views: through a surface that lets light through, its other side is seen.
+        look_elsewhere(0.0f);
+        if (transmission_) look_elsewhere(kMaxCovered);
+    }
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
             shift[side / 2] = side % 2 == 0 ? by : -by;
             if (!light_shifted(shift, [](const ProbePoints&) {})) return;
         }
-    if (visibility_ != Visibility::observer) look_elsewhere(true);
+    if (visibility_ != Visibility::observer) look_elsewhere(std::nullopt);
 }
 
 }  // namespace voxelume

@@ -251,11 +251,12 @@ GridFrame frame_around(const glm::dvec3& low, const glm::dvec3& high, const glm:
         if (!(size[a] + 2 * margin <= kLatticeReach))
             throw Error(
                 ErrorKind::limit,
-                "the mesh is {:.4g} m long, {:.5g} voxels of {:.4g} m: at most {} are "
-                "possible; say its \"unit\" if its lengths aren't metres, or use voxels of at "
-                "least {:.2g} m",
-                high[a] - low[a], size[a], voxel_edge[a], kLatticeReach - 2 * margin,
-                1.05 * (high[a] - low[a]) / (kLatticeReach - 2 * margin));
+                "the mesh is {:.4g} m long: if its lengths aren't metres, say its \"unit\"; if "
+                "they "
+                "are, use voxels of at least {:.2g} m, as it would have {:.5g} of {:.4g} m, and at "
+                "most {} are possible",
+                high[a] - low[a], 1.05 * (high[a] - low[a]) / (kLatticeReach - 2 * margin), size[a],
+                voxel_edge[a], kLatticeReach - 2 * margin);
     GridFrame frame;
     frame.voxel_edge = voxel_edge;
     frame.size = glm::max(glm::ivec3(size), glm::ivec3(1)) + 2 * margin;

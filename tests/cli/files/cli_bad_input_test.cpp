@@ -105,7 +105,19 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
 
 TEST_F(CliBadInputTest, ModelsWithMoreVoxelsThanCanBeNumberedAreRefused) {
     write_mesh_scene("long.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_THAT(expect_render_failure(8), HasSubstr("models.thing: the mesh is 1e+30 m long"));
+    EXPECT_THAT(expect_render_failure(8),
+                HasSubstr("models.thing: the mesh is 1e+30 m long: if its lengths aren't metres, "
+                          "say its \"unit\"; if they are, use voxels of at least "));
+}
+
+TEST_F(CliBadInputTest, ExactMeshesThatAreFarTooLargeAreRefusedWithTheirUnit) {
+    write_mesh_scene("long.obj", "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nf 1 2 3\n");
+    Json scene = Json::parse(bytes_of(folder / "scene.json"));
+    scene["models"]["thing"]["surface"] = "exact";
+    put_bytes(folder / "scene.json", scene.dump(1));
+    EXPECT_THAT(expect_render_failure(8),
+                HasSubstr("more than 16384: if its lengths aren't metres, say its model's "
+                          "\"unit\", or use larger voxels"));
 }
 
 TEST_F(CliBadInputTest, OutputsThatCantBeWrittenAreSaidBeforeTheWork) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/geometry/shape/mesh_shape.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/geometry/shape/edge_turns.hpp"
 
 namespace voxelume {
 namespace {
@@ -12,14 +15,37 @@ const char* closed_words(const MeshSummary& mesh) {
     return mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed";
 }
 
+double enough_creases(double area) {
+    return kSharpShare * std::sqrt(area);
+}
+
+double area_of(const Mesh& mesh) {
+    double sum = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        sum += glm::length(glm::cross(b - a, c - a)) / 2;
+    }
+    return sum;
+}
+
+bool is_sharp(const MeshSummary& mesh, const MeshShape& shape) {
+    return shape.creases.length > enough_creases(mesh.area.total);
+}
+
 }  // namespace
 
 MeshShape shape_of(const Mesh& mesh) {
-    return {sharp_length_of(mesh), thickness_of(mesh)};
+    return {creases_of(mesh, enough_creases(area_of(mesh))), thickness_of(mesh)};
 }
 
-bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape) {
-    return shape.sharp_length > kSharpShare * std::sqrt(mesh.area.total);
+MeshShape scaled(const MeshShape& shape, double scale) {
+    return {{scale * shape.creases.length, scale * shape.creases.round_width,
+             scale * shape.creases.round_length},
+            scaled(shape.thickness, scale)};
+}
+
+bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge) {
+    return is_sharp(mesh, shape) || shape.creases.round_width <= voxel_edge;
 }
 
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge) {
@@ -28,10 +54,14 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
         return {Surface::exact, fmt::format("it is open at {} edges", mesh.topology.open_edges)};
     if (!(mesh.topology.volume > 0))
         return {Surface::exact, "it has no volume, or its faces look inwards"};
-    if (has_sharp_edges(mesh, shape))
+    if (is_sharp(mesh, shape))
         return {Surface::exact, fmt::format("it has {:.3g} m of edges that turn by {} degrees or "
                                             "more",
-                                            shape.sharp_length, kSharpAngle)};
+                                            shape.creases.length, kSharpAngle)};
+    if (has_sharp_edges(mesh, shape, voxel_edge))
+        return {Surface::exact, fmt::format("it has {:.3g} m of edges that turn by {} degrees or "
+                                            "more within a voxel",
+                                            shape.creases.round_length, kSharpAngle)};
     // A distance field has the facets of the triangles, which such normals are made to hide.
     if (mesh.has_normals) return {Surface::exact, "its file has normals"};
     const double thickness = shape.thickness.body / voxel_edge,

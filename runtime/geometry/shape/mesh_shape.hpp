@@ -4,16 +4,16 @@
 
 #include <string>
 
-#include "runtime/geometry/mesh_creases.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/mesh_thickness.hpp"
+#include "runtime/geometry/shape/mesh_creases.hpp"
 #include "runtime/geometry/thin_part.hpp"
 #include "runtime/scene/parts/surface.hpp"
 
 namespace voxelume {
 
 /// Creases make a mesh sharp-edged that together are longer than this many times the side of a
-/// square with the mesh's area. A cube has 4.9, a cone 2, and scanned meshes up to 0.4 by their
+/// square with the mesh's area. A cube has 4.9, a cone 2, and scanned meshes up to 0.5 by their
 /// noise.
 inline constexpr double kSharpShare = 0.7;
 
@@ -26,14 +26,18 @@ inline constexpr double kMaxThinShare = 0.35;
 
 /// What is asked of a mesh besides its summary.
 struct MeshShape {
-    double sharp_length = 0;  ///< metres, of sharp_length_of(); below 0 if it isn't measured
+    MeshCreases creases;  ///< their length is below 0 if they aren't measured
     MeshThickness thickness;
 };
 
 MeshShape shape_of(const Mesh& mesh);
 
-/// True if so many of its edges are sharp that chords next to them say nothing of thin parts.
-bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape);
+/// The shape of a mesh that is this many times as large.
+MeshShape scaled(const MeshShape& shape, double scale);
+
+/// True if so many of its edges are sharp, or rounded so narrowly that they are in such voxels,
+/// that distances would bead them. Chords next to them say nothing of thin parts.
+bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
 /// A surface with the reason for it, as the second half of a sentence.
 struct SurfaceChoice {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// mesh -> where its faces turn sharply.
+#pragma once
+
+#include <limits>
+
+#include "runtime/geometry/mesh.hpp"
+
+namespace voxelume {
+
+/// Sharp edges that follow each other are a crease where they are together at least this long,
+/// as a part of the mesh's longest side. The noise of scanned meshes has shorter ones.
+inline constexpr double kCreaseShare = 0.1;
+
+/// Rounded edges are looked for that turn sharply within this part of the longest side: in coarser
+/// voxels a mesh has no more shape than its box.
+inline constexpr double kRoundShare = 1.0 / 32;
+
+/// The creases of a mesh, in metres.
+struct MeshCreases {
+    /// Of edges at which two faces turn by kSharpAngle or more, or at which more than two meet.
+    double length = 0;
+    /// The least width within which enough of its edges turn by kSharpAngle, as rounded ones do;
+    /// infinity if there is none, and if `length` is enough.
+    double round_width = std::numeric_limits<double>::infinity();
+    /// The length of these; the edges along a rounded one count as one.
+    double round_length = 0;
+};
+
+/// The length of all creases, and the width from which on they are longer than `enough` metres. A
+/// crease goes on where it turns least, by 60 degrees at most, and ends elsewhere. MeshEdges says
+/// which edges there are, turn_around() where they are rounded.
+MeshCreases creases_of(const Mesh& mesh, double enough);
+
+}  // namespace voxelume
