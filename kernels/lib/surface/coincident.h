@@ -24,8 +24,8 @@ static inline bool may_coincide(const SurfaceView* s) {
 /// The most by which rounding sets coinciding surfaces apart, in t. Points of a ray are right
 /// within plane_bound; on surfaces that a ray grazes, 8 of it lie between two such points at 7
 /// degrees.
-static inline lane_float coincidence(const PyramidView* p, const RayShear* shear) {
-    return fabs(shear->scale) * (8.0f * p->plane_bound);
+static inline lane_float coincidence(const PyramidView* p, const Walk* w) {
+    return fmin(fabs(w->ix), fmin(fabs(w->iy), fabs(w->iz))) * (8.0f * p->plane_bound);
 }
 
 /// Mask: a source, or what was hit, is a triangle or solid.
@@ -82,11 +82,11 @@ typedef struct {
 } RayBeginning;
 
 /// What a packet's rays begin on in the world's exact surfaces.
-static inline RayBeginning beginning_of(const PyramidView* p, const SurfaceView* s,
-                                        const RayShear* shear, const RayState* ray_state) {
+static inline RayBeginning beginning_of(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                                        const RayState* ray_state) {
     RayBeginning from = {(lane_int)0, (lane_int)0, (lane_float)0.0f};
     if (!may_coincide(s)) return from;
-    from.slack = coincidence(p, shear);
+    from.slack = coincidence(p, w);
     from.begins = (ray_state->on_surface | ray_state->goes_on) & is_primitive(ray_state->source);
     if (VXL_TRANSMISSION) from.goes_on = from.begins & (ray_state->goes_on | ray_state->refracted);
     return from;

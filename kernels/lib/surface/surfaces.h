@@ -108,7 +108,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
     const lane_float t_min = LANES_SELECT(entering, (lane_float)-INFINITY, ray_state->t_first);
     const RayShear shear = ray_shear(w);
-    const RayBeginning from = beginning_of(p, s, &shear, ray_state);
+    const RayBeginning from = beginning_of(p, s, w, ray_state);
     voxel &= LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
     const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
