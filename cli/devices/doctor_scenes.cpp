@@ -228,7 +228,7 @@ std::vector<KnownPicture> known_pictures() {
         {"rays in fog", lattice("default", "rays", "observer", kFog), true, "64f4fababf3ffcce"},
         {"display of voxels", lattice("default", "lattice", "outside", ""), true,
          "0c28be7a202cf243"},
-        {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "4d1f1d5c5036adb0"},
+        {"voxels in fog", lattice("veil", "lattice", "outside", kFog), true, "f70ed0e9e9077b6a"},
         {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2de843ba4414102e"},
         {"voxels in global light",
          with(lattice("veil", "lattice", "observer", ""),
