@@ -10,7 +10,6 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-namespace {}  // namespace
 
 AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
     used_.insert(name.first);

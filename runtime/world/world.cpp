@@ -165,8 +165,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     BuiltWorld built{kept_or_new_world({scene, retained, keeps_, room, report}, indexer),
                      ++world_.version};
-    load_seconds_ = meshes_.load_seconds();
-    meshes_read_ = meshes_.meshes_read();
+    load_seconds_ = meshes_.load_seconds(), meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
     models.forget_unused(listed, keeps_ ? room - grids_->retained_bytes() : 0);
     for_world(scene.world, [&] {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ class Coincident : public FileTest {
             write_obj(folder / fmt::format("{}.obj", name), box(-half, half));
             return fmt::format(R"("{0}": {{"mesh": "{0}.obj", "surface": "exact"}})", name);
         };
+        if (!std::filesystem::exists(folder / "sheet.obj"))
+            write_obj(folder / "sheet.obj", box(glm::vec3(0), glm::vec3(1)));
         const std::string text = fmt::format(
             R"({{"voxelume": 1,
 "world": {{"voxel_size": {}, "bounds": {{"min": [-1, -0.25, -1], "max": [1, 1, 1]}},
@@ -49,14 +52,17 @@ class Coincident : public FileTest {
     "water": {{"color": [0.9, 0.95, 1], "refraction": 0.95, "ior": 1.33}}}},
 "models": {{{}, {}, {}, {}, "ball": {{"shape": "sphere", "radius": 0.4}},
            "can": {{"shape": "cylinder", "radius": 0.3, "height": 0.5}},
-           "drum": {{"shape": "cylinder", "radius": 0.3, "height": 0.3}}}},
+           "drum": {{"shape": "cylinder", "radius": 0.3, "height": 0.3}},
+           "common": {{"shape": "intersection", "parts": [{{"shape": "box", "size": [0.4, 0.5, 0.6]}},
+               {{"shape": "box", "size": [0.9, 0.9, 0.9]}}]}},
+           "sheet": {{"mesh": "sheet.obj", "surface": "exact"}}}},
 "objects": [{}],
-"lights": [{{"type": "directional", "direction": [0.4, -1, 0.3]}}],
+"lights": [{}],
 "observer": {{"position": [{}, 1.9, {}], "look_at": [0, 0.1, 0],
               "display": {{"shape": "pyramid", "angle": 36}}}},
 "render": {{"size": [{}, {}], "depth": 6}}}})",
             kBoxVoxel, shape("a", 0.8, 0.4, 0.8), shape("b", 0.4, 0.4, 1.2),
-            shape("floor", 1.8, 0.2, 1.8), shape("block", 0.4, 0.5, 0.6), objects,
+            shape("floor", 1.8, 0.2, 1.8), shape("block", 0.4, 0.5, 0.6), objects, lights_,
             3 * std::sin(turn), -3 * std::cos(turn), kPixelsWide, kPixelsHigh);
         RenderReport report;
         Image image = render(test_device(), parse_scene(text, folder / "scene.json", {}), report);
@@ -64,6 +70,8 @@ class Coincident : public FileTest {
         EXPECT_EQ(report.medium_overflows, 0u);
         return image;
     }
+
+    std::string lights_ = R"({"type": "directional", "direction": [0.4, -1, 0.3]})";
 };
 
 /// The pixels whose light differs by more than a hundredth.
@@ -148,6 +156,40 @@ TEST_F(Coincident, BlocksOfGlassSideBySideTouch) {
             EXPECT_LT(pixels_that_differ(touching, overlapping), 3 * kBesideEdges)
                 << "meshes: " << meshes << ", from " << turn;
         }
+}
+
+TEST_F(Coincident, ASolidOfTwoIsMetAsOneIs) {
+    // The second block is what a block and a larger one have in common.
+    const auto objects = [](const char* second) {
+        return fmt::format(
+            R"({{"model": "floor", "material": "red", "position": [0, -0.1, 0]}},
+               {{"model": "block", "material": "glass", "position": [-0.2, 0.25, 0]}},
+               {{"model": "{}", "material": "water", "position": [0.2, 0.25, 0]}},
+               {{"model": "{}", "material": "veil", "position": [0.2, 0.75, 0]}})",
+            second, second);
+    };
+    EXPECT_EQ(pixels_that_differ(picture_of(objects("block")), picture_of(objects("common"))), 0);
+}
+
+TEST_F(Coincident, SheetsInOnePlaceCoverTogether) {
+    lights_ = "";  // in whose light one sheet would lie in the other's shadow
+    Mesh sheet;
+    sheet.positions = {{-0.4f, 0, -0.4f}, {-0.4f, 0, 0.4f}, {0.4f, 0, 0.4f}, {0.4f, 0, -0.4f}};
+    for (const bool up : {true, false}) {
+        sheet.triangles = up ? std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}
+                             : std::vector<glm::uvec3>{{0, 2, 1}, {0, 3, 2}};
+        write_obj(folder / "sheet.obj", sheet);
+        const auto objects = [](double down) {
+            return fmt::format(
+                R"({{"model": "floor", "material": "red", "position": [0, -0.11, 0]}},
+                   {{"model": "sheet", "material": "veil", "position": [0, 0.3, 0], "turn": [12, 5, 8]}},
+                   {{"model": "sheet", "material": "veil", "position": [0, {}, 0], "turn": [12, 5, 8]}})",
+                0.3 - down);
+        };
+        EXPECT_LT(pixels_that_differ(picture_of(objects(0)), picture_of(objects(kMovedBy))),
+                  2 * kBesideEdges)
+            << "face up: " << up;
+    }
 }
 
 TEST_F(Coincident, WaterStandsOnGlass) {

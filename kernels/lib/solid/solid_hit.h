@@ -151,13 +151,16 @@ static INLINED lane_float solid_crossing(global const SolidShape* solids, uint n
     if (solids[number].shape_count == 1u)
         return LANES_SELECT(
             tested, first_end_of_shape(solids + number, ray, t_first, t_clear, known, inside), far);
-    SolidEvent event = event_at(solids, number, ray, LANES_SELECT(known, t_first, t_clear));
+    SolidEvent event = event_at(solids, number, ray, t_first);
     inside = LANES_SELECT(known, inside, event.after);
     lane_float t = LANES_SELECT(tested, event.next, far);
     lane_int searched = tested & LANE_MASK(t < far);
     while (lanes_any(searched)) {
         event = event_at(solids, number, ray, t);
-        const lane_int found = ~(event.before ^ inside) & (event.after ^ inside);
+        lane_int found = ~(event.before ^ inside) & (event.after ^ inside);
+        const lane_int passed = found & inside & ~known & LANE_MASK(t <= t_clear);
+        inside &= ~passed;
+        found &= ~passed;
         t = LANES_SELECT(searched & ~found, event.next, t);
         searched &= ~found & LANE_MASK(t < far);
     }

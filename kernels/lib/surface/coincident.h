@@ -61,16 +61,21 @@ static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_sta
 
 /// Mask: of the lanes that met a triangle close to where they begin, those for which it is ahead.
 /// Of the source's own object it is ahead by its t; of others a ray meets the `front`, or the back
-/// where it is `within`.
+/// where it is `within`, or where it `goes_on` and the object comes after the source's: the back of
+/// a sheet, which nothing is within.
 static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
                                 lane_uint primitive, lane_float at, lane_int at_least,
-                                lane_int front, lane_int within, lane_int near) {
-    const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, near);
-    const lane_uint of_source = attributes_of_hit(s, (lane_uint)0, ray_state->source, near);
-    const lane_int same = LANE_MASK(((packed ^ of_source) & VXL_OBJECT_MASK) == 0u);
+                                lane_int front, lane_int within, lane_int goes_on, lane_int near) {
+    const lane_uint some = LANES_AS_UINT(near) & VXL_OBJECT_MASK;
+    const lane_uint own = attributes_of_hit(s, (lane_uint)0, primitive, near) & some;
+    const lane_uint source = attributes_of_hit(s, (lane_uint)0, ray_state->source, near) & some;
     const lane_int later =
         LANE_MASK(at > ray_state->t_first) | (at_least & LANE_MASK(at == ray_state->t_first));
-    return near & LANES_SELECT(same, later, front | within);
+    lane_int ahead = front | within;
+    if (VXL_TRANSMISSION)
+        ahead |= goes_on &
+                 LANE_MASK(LANES_GATHER_UINT(s->order, own) > LANES_GATHER_UINT(s->order, source));
+    return near & LANES_SELECT(LANE_MASK(own == source), later, ahead);
 }
 
 /// Where rays that begin on surfaces meet others: those that coincide with theirs may seem to lie
@@ -107,7 +112,8 @@ static inline lane_int hit_triangle_ahead(const PyramidView* p, const SurfaceVie
         const lane_int near =
             met & from->begins & LANE_MASK(at <= ray_state->t_first + from->slack);
         if (lanes_any(near))
-            met &= ~near | is_ahead(s, ray_state, number, at, at_least, front, within, near);
+            met &= ~near |
+                   is_ahead(s, ray_state, number, at, at_least, front, within, from->goes_on, near);
     }
     *t = LANES_SELECT(met, at, *t);
     return met;
