@@ -99,7 +99,7 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
     EXPECT_EQ(Json::parse(run("check scene.json --json").out)["verdict"], "doesn't fit");
     unsetenv("VOXELUME_BUFFER_MB");
     world_of(100);
-    EXPECT_THAT(expect_failure(8, "render scene.json --size 65536x65536 -o out.exr"),
+    EXPECT_THAT(expect_failure(8, "render scene.json --size 65536x65536 --time 5 -o out.exr"),
                 HasSubstr("render a smaller one"));
 }
 
