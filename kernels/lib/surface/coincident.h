@@ -21,9 +21,9 @@ static inline bool may_coincide(const SurfaceView* s) {
     return VXL_ATTRIBUTES && s->order != 0;
 }
 
-/// The most by which rounding sets coinciding surfaces apart, in t. Points of a ray are right
-/// within plane_bound; on surfaces that a ray grazes, 8 of it lie between two such points at 7
-/// degrees.
+/// The distance in t up to which surfaces are taken to coincide. Points of a ray are right within
+/// plane_bound, and 1 / sin(7 degrees) is 8: where rays graze surfaces at less than that, rounding
+/// may set coinciding ones further apart.
 static inline lane_float coincidence(const PyramidView* p, const Walk* w) {
     return fmin(fabs(w->ix), fmin(fabs(w->iy), fabs(w->iz))) * (8.0f * p->plane_bound);
 }
@@ -60,9 +60,9 @@ static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_sta
 }
 
 /// Mask: of the lanes that met a triangle close to where they begin, those for which it is ahead.
-/// Of the source's own object it is ahead by its t; of others a ray meets the `front`, or the back
-/// where it is `within`, or where it `goes_on` and the object comes after the source's: the back of
-/// a sheet, which nothing is within.
+/// One of the source's own object is ahead by its t. A ray meets the `front` of others, and their
+/// back where it is `within` them, or where it `goes_on` and their object comes after the source's:
+/// that is the back of a sheet, which nothing is within.
 static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
                                 lane_uint primitive, lane_float at, lane_int at_least,
                                 lane_int front, lane_int within, lane_int goes_on, lane_int near) {

@@ -20,7 +20,8 @@ constexpr double kRightAngle = 90 / kSharpAngle;
 /// but for a tenth. Scans have bumps and dents there.
 constexpr double kFlanks = 4, kRough = 1.1;
 
-/// Of a turn of 180 degrees not so much may go to the other side; such ways end there.
+/// A way that turns by kMostBack degrees to the other side ends there. kEndless is a turn that no
+/// way has.
 constexpr double kMostBack = 20, kEndless = 1e6;
 
 /// The edges that are crossed on one side of an edge: `way` is how far away each lies, metres,

@@ -18,7 +18,8 @@ inline constexpr double kRoundShare = 1.0 / 32;
 
 /// The creases of a mesh, in metres.
 struct MeshCreases {
-    /// Of edges at which two faces turn by kSharpAngle or more, or at which more than two meet.
+    /// The length of edges at which two faces turn by kSharpAngle or more, or at which more than
+    /// two meet.
     double length = 0;
     /// The least width within which enough of its edges turn by kSharpAngle, as rounded ones do;
     /// infinity if there is none, and if `length` is enough.

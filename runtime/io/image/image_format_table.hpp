@@ -34,7 +34,7 @@ struct ImageFormatEntry {
 
     // Images:
     void (*write)(const std::filesystem::path& path, const Image& image, const ImageStorage& how);
-    /// The same file in bands.
+    /// Begins the same file, which takes the image in bands.
     std::unique_ptr<ImageRows> (*begin)(const std::filesystem::path& path,
                                         const ImageWindow& window, const ImageStorage& how);
     std::string (*encode)(const Image& image, const ImageStorage& how);

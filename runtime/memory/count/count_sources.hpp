@@ -18,7 +18,7 @@ SourceMeshes count_sources(const Device& device, const Scene& scene, AssetStore&
 Buffer<float> count_cube_steps(const Device& device, const Scene& scene, AssetStore& meshes,
                                std::span<const VoxelBox> boxes);
 
-/// The same for Pyramid::order.
+/// Follows WorldBuilder::build for Pyramid::order.
 Buffer<uint32_t> count_order(const Device& device, const Scene& scene);
 
 }  // namespace voxelume
