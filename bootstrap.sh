@@ -16,6 +16,7 @@ Usage: ./bootstrap.sh COMMAND
           with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
+  coverage  run the tests with clang's counters and tell which share of the lines ran; half an hour
   trust   kill the program, break its disk, damage its files and tire it, for hours or for a share of
           them: trust 0.01
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
@@ -128,6 +129,15 @@ run_fuzzers() {
     done
 }
 
+# Compiled by clang, whose counters outlive processes that are killed.
+coverage() {
+    [ -f build/coverage/build.ninja ] || CC=clang-14 CXX=clang++-14 cmake --preset release \
+        -B build/coverage -DVXL_COVERAGE=ON -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DCMAKE_UNITY_BUILD=ON \
+        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+    ninja -C build/coverage
+    .ci/coverage build/coverage
+}
+
 # The version that CMakeLists.txt gives the project.
 project_version() {
     sed -n 's/^project(voxelume VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt
@@ -233,6 +243,7 @@ debian_package() {
 case "$*" in
     demo | build | test | 'test --slow' | 'test --all' | lint) install_packages packages.txt ;;
     fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
+    coverage) install_packages packages.txt .ci/packages.txt ;;
     trust | 'trust '[0-9]*) install_packages packages.txt ;;
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;
     watch | 'watch --accept') install_packages packages.txt .ci/watch_packages.txt ;;
@@ -262,6 +273,7 @@ case "$1" in
         ;;
     test) run_tests "${2:-}" ;;
     fuzz) run_fuzzers "${2:-60}" ;;
+    coverage) coverage ;;
     trust)
         build_targets voxelume write_faults
         tests/trust/all.py "$build/voxelume" "$build/tests/libwrite_faults.so" "${2:-1}"

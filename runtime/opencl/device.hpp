@@ -52,12 +52,6 @@ struct DeviceInfo {
     std::string note;      ///< a note for its user; mostly empty
 };
 
-/// The name of PoCL's platform for CPUs.
-inline constexpr std::string_view kPoclPlatform = "Portable Computing Language";
-
-/// The name of Oclgrind's platform, which interprets kernels.
-inline constexpr std::string_view kOclgrindPlatform = "Oclgrind";
-
 /// Every device of every platform; a platform that fails is skipped. Their memory is what
 /// Device::open lets programs use.
 std::vector<DeviceInfo> list_devices();

@@ -6,9 +6,10 @@
 #include <algorithm>
 
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/quirks/driver_quirks.hpp"
+#include "runtime/opencl/quirks/pocl_folder.hpp"
 #include "runtime/opencl/ranking.hpp"
 #include "runtime/opencl/selector.hpp"
-#include "runtime/opencl/source/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
@@ -56,12 +57,11 @@ std::string card_of(const cl::Device& device) {
                        place.function);
 }
 
-/// PoCL names a CPU "pthread-<processor as LLVM knows it>-<processor>".
 std::string note_on(const DeviceInfo& info) {
-    if (info.platform == kPoclPlatform && info.name.find("-generic-") != std::string::npos)
-        return "PoCL doesn't know this processor and compiles for a generic one, which is slow: "
-               "use a newer PoCL";
-    return {};
+    const DriverQuirks& quirks = driver_quirks(info.platform);
+    const bool is_generic =
+        !quirks.generic_name.empty() && info.name.find(quirks.generic_name) != std::string::npos;
+    return std::string(is_generic ? quirks.note_on_generic : "");
 }
 
 DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {

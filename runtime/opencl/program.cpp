@@ -13,6 +13,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
+#include "runtime/opencl/quirks/driver_quirks.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
@@ -32,8 +33,7 @@ std::string build_options(const Device& device, const KernelSource& source, Defi
     std::ranges::sort(defines);  // in any order, they make the same program
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
-    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM adds as it inlines.
-    if (device.info().platform == kOclgrindPlatform) options += " -cl-opt-disable -DOCLGRIND";
+    options += driver_quirks(device.info().platform).build_options;
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
 }

@@ -16,16 +16,17 @@
 #include "runtime/opencl/build_log.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
+#include "runtime/opencl/quirks/driver_quirks.hpp"
+#include "runtime/opencl/quirks/pocl_folder.hpp"
 #include "runtime/opencl/source/compile_turn.hpp"
 #include "runtime/opencl/source/kernel_slice.hpp"
 #include "runtime/opencl/source/kernel_source.hpp"
-#include "runtime/opencl/source/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kMaxCacheBytes = 256u << 20;
+constexpr uint64_t kMaxCacheBytes = 1u << 30;
 constexpr const char* kCacheVersion = "voxelume programs 3";
 
 DiskCache program_store() {
@@ -87,11 +88,13 @@ cl::Program compile(const CompilerTarget& target, const std::string& label,
                 errors);
 }
 
-/// Compiles with PoCL. It would read 17,000 declarations for each program, which takes 80 ms. So it
-/// is told that it has read them (_OPENCL_H_), and given those that kernels use. Where that doesn't
-/// compile, because of the source or the version of PoCL, it reads its own after all.
-cl::Program compile_with_pocl(const CompilerTarget& target, const std::string& label,
-                              const ProgramText& text) {
+/// Compiles with a driver that is slow to declare the functions of OpenCL C. It is told that it has
+/// read their declarations (_OPENCL_H_), and given those that kernels use. Where that doesn't
+/// compile, because of the source or the driver's version, it reads its own after all.
+cl::Program compile_declared(const CompilerTarget& target, const std::string& label,
+                             const ProgramText& text) {
+    if (!driver_quirks(target.info.platform).is_slow_to_declare)
+        return compile(target, label, text);
     try {
         return compile(target, label,
                        {declarations() + text.source, text.options + " -D_OPENCL_H_"});
@@ -115,15 +118,14 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
     }
 }
 
-/// Builds with PoCL, which compiles twice if asked for a binary, and keeps its own files: see
-/// PoclFolder.
-cl::Program build_with_pocl(const Device& device, const std::string& label,
-                            const ProgramText& text) {
+/// Builds with PoCL, which keeps files of its own.
+cl::Program build_in_pocl_folder(const Device& device, const std::string& label,
+                                 const ProgramText& text) {
     cl::Program program;
     const bool ready = PoclFolder::instance().build_with_files(
         program_store(), key_of(device.info(), "program", text),
         [&] { return parts_of(device.info(), text); },
-        [&] { program = compile_with_pocl(compiler_target(device), label, text); });
+        [&] { program = compile_declared(compiler_target(device), label, text); });
     if (ready) ++device.counters().programs_from_cache;
     return program;
 }
@@ -137,8 +139,12 @@ cl::Program build_noted(const Device& device, const std::string& label, const Pr
 
 }  // namespace
 
+bool keeps_pocl_folder(const DeviceInfo& info) {
+    return driver_quirks(info.platform).keeping == ProgramKeeping::pocl_folder;
+}
+
 bool compiles_kernels_alone(const DeviceInfo& info) {
-    return info.kind == DeviceKind::gpu && info.platform != kPoclPlatform;
+    return info.kind == DeviceKind::gpu && driver_quirks(info.platform).compiles_with_programs;
 }
 
 std::string without_constants(std::string_view options) {
@@ -178,13 +184,17 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     const uint64_t from_cache = device.counters().programs_from_cache;
     cl::Program program;
     try {
-        if (device.info().platform == kPoclPlatform)
-            program = build_with_pocl(device, label, text);
-        else if (device.info().platform == kOclgrindPlatform)
-            // It interprets code; a binary would lose the line numbers.
-            program = compile(compiler_target(device), label, text);
-        else
-            program = build_noted(device, label, text);
+        switch (driver_quirks(device.info().platform).keeping) {
+            case ProgramKeeping::binaries:
+                program = build_noted(device, label, text);
+                break;
+            case ProgramKeeping::pocl_folder:
+                program = build_in_pocl_folder(device, label, text);
+                break;
+            case ProgramKeeping::none:
+                program = compile_declared(compiler_target(device), label, text);
+                break;
+        }
     } catch (const Error& error) {
         throw Error(ErrorKind::build, "{} does not compile on \"{}\": {}", label,
                     device.info().name, error.what());
@@ -207,11 +217,11 @@ std::vector<std::string> program_sources(const Device& device) {
 }
 
 void keep_compiled_kernels(const DeviceInfo& info) {
-    if (info.platform == kPoclPlatform) PoclFolder::instance().publish(program_store());
+    if (keeps_pocl_folder(info)) PoclFolder::instance().publish(program_store());
 }
 
 void share_compiled_kernels(const Device& device) {
-    if (device.info().platform != kPoclPlatform || !PoclFolder::instance().has_turn()) return;
+    if (!keeps_pocl_folder(device.info()) || !PoclFolder::instance().has_turn()) return;
     device.finish();
     PoclFolder::instance().share(program_store());
 }

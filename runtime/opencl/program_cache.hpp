@@ -25,6 +25,9 @@ struct ProgramText {
 /// names the program.
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text);
 
+/// True for a device whose compiled kernels are kept in PoCL's own files.
+bool keeps_pocl_folder(const DeviceInfo& info);
+
 /// True for GPUs, whose drivers compile kernels when their program is built: then each is compiled
 /// alone, see kernel_builds.hpp. Intel's driver for CPUs compiles one program at a time, and takes
 /// 23 instead of 14 s for the kernels of scenes/whitted.json one by one.

@@ -8,34 +8,17 @@
 #include <tuple>
 
 #include "runtime/base/error.hpp"
+#include "runtime/opencl/quirks/driver_quirks.hpp"
 #include "runtime/opencl/selector.hpp"
 
 namespace voxelume {
 namespace {
 
-bool contains(std::string_view text, std::string_view part) {
-    return text.find(part) != std::string_view::npos;
-}
-
-/// The floats that one compute unit handles at once: what the makers count as a unit differs. A
-/// CPU's unit is a core with its vector registers.
-int floats_per_unit(const DeviceInfo& info) {
-    if (info.kind == DeviceKind::cpu) return info.lanes;
-    struct Maker {
-        std::string_view name;
-        int floats;
-    };
-    constexpr Maker kMakers[] = {
-        {"NVIDIA", 128}, {"AMD", 64}, {"Advanced Micro Devices", 64}, {"Intel", 8}, {"Apple", 128}};
-    for (const Maker& maker : kMakers)
-        if (contains(info.vendor, maker.name)) return maker.floats;
-    return 32;
-}
-
-/// Drivers that don't say their clock are taken for one of 1 GHz.
+/// A CPU's unit is a core with its vector registers. Drivers that don't say their clock are taken
+/// for one of 1 GHz.
 double arithmetic(const DeviceInfo& info) {
-    return double(info.compute_units) * floats_per_unit(info) *
-           (info.clock > 0 ? info.clock : 1000);
+    const int floats = info.kind == DeviceKind::cpu ? info.lanes : floats_per_unit(info.vendor);
+    return double(info.compute_units) * floats * (info.clock > 0 ? info.clock : 1000);
 }
 
 [[noreturn]] void throw_no_match(const std::vector<DeviceInfo>& devices,
@@ -59,8 +42,7 @@ double arithmetic(const DeviceInfo& info) {
 }  // namespace
 
 bool is_software(const DeviceInfo& info) {
-    return contains(info.name, "llvmpipe") || contains(info.name, "softpipe") ||
-           contains(info.name, "swrast");
+    return is_software_rasterizer(info.name);
 }
 
 bool are_one_card(const DeviceInfo& a, const DeviceInfo& b) {

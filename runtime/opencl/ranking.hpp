@@ -6,8 +6,7 @@
 
 namespace voxelume {
 
-/// True for a driver that computes on the CPU what is meant for a graphics card: Mesa's llvmpipe
-/// and softpipe. Such a device is used only where a user names it.
+/// True for a software rasterizer's device, which is used only where a user names it.
 bool is_software(const DeviceInfo& info);
 
 /// True for two drivers' views of one card.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Checks the documents: no line of more than 100 columns, no relative link to a file or heading that
-# isn't there, a README of at most 60 lines in each folder of code, and tests for what SECURITY.md
+# isn't there, a README of at most 60 lines in each folder, and tests for what SECURITY.md
 # promises.
 # Usage: documents_test.sh SOURCE_FOLDER
 set -euo pipefail
@@ -49,5 +49,6 @@ while read -r folder; do
     elif [ "$(wc -l <"$readme")" -gt 60 ]; then
         complain "$readme is longer than a screen"
     fi
-done < <(find cli kernels runtime scenes tests -type f -not -name README.md -printf '%h\n' | sort -u)
+done < <(find .ci cli cmake kernels python runtime scenes tests -type f -not -name README.md -not -path '*/__pycache__/*' \
+    -printf '%h\n' | sort -u)
 exit "$failed"

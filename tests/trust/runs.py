@@ -35,7 +35,8 @@ def wait_for_group(group):
         time.sleep(0.005)
 
 
-def run(program, arguments, folder, kill_after=None, environment=None):
+def run(program, arguments, folder, kill_after=None, environment=None,
+        hang_seconds=HANG_SECONDS):
     """Runs `program arguments` in `folder`; kills it after some seconds if those are given."""
     def leave_no_core():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -47,7 +48,7 @@ def run(program, arguments, folder, kill_after=None, environment=None):
                                    stderr=err, preexec_fn=leave_no_core,
                                    env={**os.environ, **(environment or {})})
         hung = False
-        deadline = kill_after if kill_after is not None else HANG_SECONDS
+        deadline = kill_after if kill_after is not None else hang_seconds
         while True:
             ended, status, usage = os.wait4(process.pid, os.WNOHANG)
             if ended:

@@ -14,7 +14,7 @@
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/opencl/device_call.hpp"
-#include "runtime/opencl/source/pocl_folder.hpp"
+#include "runtime/opencl/quirks/pocl_folder.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/opencl/source/pocl_folder.hpp"
+#include "runtime/opencl/quirks/pocl_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
