@@ -25,11 +25,12 @@ namespace {
 
 /// What an image shows that the solids' formulas don't.
 struct PairErrors {
-    size_t shown = 0;    ///< pixels that show a surface
-    size_t wrong = 0;    ///< of another object than any that the formulas have within the slack
-    size_t rounded = 0;  ///< the same, of a smooth solid's edges, as far as it rounds them
-    double rms = 0;      ///< distance from the true surface, in voxels, where the object is right
-    double beside = 0;   ///< the same, of pixels whose neighbours show the same object
+    size_t shown = 0;      ///< pixels that show a surface
+    size_t wrong = 0;      ///< of another object than any that the formulas have within the slack
+    size_t rounded = 0;    ///< the same, of a smooth solid's edges, as far as it rounds them
+    double rms = 0;        ///< distance from the true surface, in voxels, where the object is right
+    double at_border = 0;  ///< the same, of pixels within two of such that show another object
+    double beside = 0;     ///< the same, of all others
     double worst_beside = 0;
 };
 
@@ -99,6 +100,9 @@ PairErrors errors_of(const Scene& scene, double slack) {
     PairErrors errors;
     double sum = 0, sum_beside = 0;
     size_t count = 0, count_beside = 0;
+    const auto rms = [](double squares, size_t pixels) {
+        return std::sqrt(squares / double(std::max<size_t>(pixels, 1)));
+    };
     const auto value = [&](const char* name, size_t i) { return double(image.planes.at(name)[i]); };
     for (int y = 0; y < kPairSize.y; ++y)
         for (int x = 0; x < kPairSize.x; ++x) {
@@ -123,8 +127,9 @@ PairErrors errors_of(const Scene& scene, double slack) {
             sum_beside += off * off, ++count_beside;
             errors.worst_beside = std::max(errors.worst_beside, off);
         }
-    errors.rms = std::sqrt(sum / double(std::max<size_t>(count, 1)));
-    errors.beside = std::sqrt(sum_beside / double(std::max<size_t>(count_beside, 1)));
+    errors.rms = rms(sum, count);
+    errors.beside = rms(sum_beside, count_beside);
+    errors.at_border = rms(sum - sum_beside, count - count_beside);
     return errors;
 }
 
@@ -133,60 +138,26 @@ PairErrors errors_of(double voxel, const std::string& models, const std::string&
     return errors_of(parse_scene(pair_scene(voxel, models, objects), "pair.json", {}), slack);
 }
 
-/// Two solids of a name each, of one surface each.
-struct Pair {
-    const char* name;
-    const char *first, *second;        ///< keys of the models
-    const char *first_at, *second_at;  ///< keys of the objects
-    bool is_smooth;                    ///< no edges but where they meet
-};
-
-const std::array kPairs = {
-    Pair{"ball in floor", R"("shape": "sphere", "radius": 0.6)",
-         R"("shape": "box", "size": [2.2, 0.4, 2.2])", R"("position": [0.03, 0.21, 0.05])",
-         R"("position": [0, -0.4, 0])", false},
-    Pair{"ring and ball", R"("shape": "torus", "radius": 0.7, "tube": 0.2)",
-         R"("shape": "sphere", "radius": 0.6)", R"("turn": [20, 35, 10])",
-         R"("position": [0.12, 0.05, 0.2])", true},
-    Pair{"cone on plate", R"("shape": "cone", "radius": 0.5, "height": 1.1, "top_radius": 0.15)",
-         R"("shape": "cylinder", "radius": 1, "height": 0.3)", R"("position": [0.03, 0.31, 0.05])",
-         R"("position": [0, -0.4, 0])", false},
-    Pair{"box in box", R"("shape": "box", "size": [1.1, 0.9, 1])",
-         R"("shape": "box", "size": [1, 1.2, 0.7])", R"("turn": [10, 20, 30])",
-         R"("position": [0.4, 0.1, 0.3])", false},
-    Pair{"nested shells", R"("shape": "sphere", "radius": 0.8)",
-         R"("shape": "ellipsoid", "radii": [0.83, 0.75, 0.83])", R"("position": [0, 0, 0])",
-         R"("position": [0, 0, 0])", true},
-    Pair{"capsule in ellipsoid", R"("shape": "capsule", "radius": 0.3, "height": 1.2)",
-         R"("shape": "ellipsoid", "radii": [0.9, 0.4, 0.6])", R"("turn": [0, 40, 25])",
-         R"("turn": [15, 5, 0])", false}};
-
-std::array<std::string, 2> text_of(const Pair& pair, const char* first, const char* second) {
-    return {fmt::format(R"("a": {{{}, "surface": "{}"}}, "b": {{{}, "surface": "{}"}})", pair.first,
-                        first, pair.second, second),
-            fmt::format(R"({{"model": "a", "placement": "world", {}}},
-                           {{"model": "b", "placement": "world", {}}})",
-                        pair.first_at, pair.second_at)};
-}
-
 TEST(Pairs, ShowTheObjectThatIsThere) {
-    for (const Pair& pair : kPairs)
+    for (const SolidPair& pair : kSolidPairs)
         for (const auto& [first, second] : {std::pair{"smooth", "smooth"},
                                             {"smooth", "exact"},
                                             {"exact", "smooth"},
                                             {"exact", "exact"}}) {
-            const auto [models, objects] = text_of(pair, first, second);
+            const auto [models, objects] = pair_text(pair, first, second);
             const PairErrors e = errors_of(1 / 32.0, models, objects, 0.5);
             const std::string what = fmt::format(
-                "{}, {} and {}: {} pixels, {} wrong, rms {:.2e} voxel, beside borders {:.2e} (at "
-                "most {:.2e})",
-                pair.name, first, second, e.shown, e.wrong, e.rms, e.beside, e.worst_beside);
+                "{}, {} and {}: {} pixels, {} wrong, rms {:.2e} voxel, {:.2e} at borders, {:.2e} "
+                "beside them (at most {:.2e})",
+                pair.name, first, second, e.shown, e.wrong, e.rms, e.at_border, e.beside,
+                e.worst_beside);
             fmt::print("{}\n", what);
             EXPECT_GT(e.shown, 900u) << what;
             EXPECT_EQ(e.wrong, 0u) << what;
             EXPECT_EQ(e.rounded, 0u) << what;
             const bool exact = first == second && std::string(first) == "exact";
             EXPECT_LT(e.rms, exact ? 1e-4 : 0.1) << what;
+            EXPECT_LT(e.at_border, exact ? 1e-4 : 0.1) << what;
         }
 }
 
@@ -194,11 +165,11 @@ TEST(Pairs, ShowTheObjectThatIsThere) {
 constexpr double kRounded = kStoredStep / 2;
 
 TEST(Pairs, SmoothOnesConvergeBesideTheirBorders) {
-    for (const Pair& pair : kPairs) {
+    for (const SolidPair& pair : kSolidPairs) {
         if (!pair.is_smooth) continue;
         std::optional<double> before;
         for (const double voxel : {1 / 8.0, 1 / 16.0, 1 / 32.0}) {
-            const auto [models, objects] = text_of(pair, "smooth", "smooth");
+            const auto [models, objects] = pair_text(pair, "smooth", "smooth");
             const double voxels = errors_of(voxel, models, objects, 0.5).beside;
             const double metres = voxels * voxel;
             const double order = before ? std::log2(*before / metres) : INFINITY;
@@ -210,29 +181,38 @@ TEST(Pairs, SmoothOnesConvergeBesideTheirBorders) {
     }
 }
 
+/// The largest errors of random pairs.
+struct WorstPair {
+    size_t rounded = 0, shown = 0;  ///< pixels of all
+    double rms = 0, at_border = 0;  ///< voxels
+
+    /// Expects of a pair what all pairs have to be like.
+    void take(const PairErrors& e, double slack, const std::string& what) {
+        EXPECT_EQ(e.wrong, 0u) << what;
+        EXPECT_LT(e.rms, slack) << what;
+        EXPECT_LT(e.at_border, slack) << what;
+        rounded += e.rounded, shown += e.shown;
+        rms = std::max(rms, e.rms), at_border = std::max(at_border, e.at_border);
+    }
+    std::string words() const {
+        return fmt::format(
+            "rms at most {:.2e} voxel, at borders {:.2e}; {} of {} pixels lack an edge", rms,
+            at_border, rounded, shown);
+    }
+};
+
 TEST(Pairs, RandomOnesShowTheObjectThatIsThere) {
     constexpr uint32_t kSeed = 20;
     std::mt19937 random(kSeed);
     const int pairs = is_exhaustive() ? 100 : 16;
-    double worst = 0;
-    size_t rounded = 0, shown = 0;
+    WorstPair worst;
     for (int i = 0; i < pairs; ++i) {
         const char* second_surface = random() % 3 == 0 ? "exact" : "smooth";
-        const auto first = random_solid(random, "smooth");
-        const auto second = random_solid(random, second_surface);
-        const PairErrors e =
-            errors_of(1 / 32.0, fmt::format(R"("a": {}, "b": {})", first[0], second[0]),
-                      fmt::format(R"({{"model": "a", "placement": "world", {}}},
-                           {{"model": "b", "placement": "world", {}}})",
-                                  first[1], second[1]),
-                      0.5);
-        EXPECT_EQ(e.wrong, 0u) << "seed " << kSeed << ", pair " << i << ", " << second_surface;
-        rounded += e.rounded, shown += e.shown;
-        EXPECT_LT(e.rms, 0.1) << "seed " << kSeed << ", pair " << i << ", " << second_surface;
-        worst = std::max(worst, e.rms);
+        const auto [models, objects] = random_pair(random, "smooth", second_surface);
+        worst.take(errors_of(1 / 32.0, models, objects, 0.5), 0.1,
+                   fmt::format("seed {}, pair {}, {}", kSeed, i, second_surface));
     }
-    fmt::print("{} pairs, rms at most {:.2e} voxel; {} of {} pixels lack an edge\n", pairs, worst,
-               rounded, shown);
+    fmt::print("{} pairs: {}\n", pairs, worst.words());
 }
 
 /// How far a surface may be from where its solid is.
@@ -248,25 +228,17 @@ TEST(Pairs, RandomOnesOfBothSurfacesShowTheObjectThatIsThere) {
     constexpr uint32_t kSeed = 21;
     std::mt19937 random(kSeed);
     const int pairs = is_exhaustive() ? 100 : 1;
-    size_t rounded = 0, shown = 0;
     for (const SurfaceSlack& a : kSurfaceSlacks)
-        for (const SurfaceSlack& b : kSurfaceSlacks)
+        for (const SurfaceSlack& b : kSurfaceSlacks) {
+            WorstPair worst;
             for (int i = 0; i < pairs; ++i) {
-                const auto first = random_solid(random, a.name);
-                const auto second = random_solid(random, b.name);
-                const PairErrors e =
-                    errors_of(1 / 32.0, fmt::format(R"("a": {}, "b": {})", first[0], second[0]),
-                              fmt::format(R"({{"model": "a", "placement": "world", {}}},
-                                             {{"model": "b", "placement": "world", {}}})",
-                                          first[1], second[1]),
-                              std::max(a.border, b.border));
-                const std::string what = fmt::format("seed {}, {} and {}, pair {}: rms {:.2e}",
-                                                     kSeed, a.name, b.name, i, e.rms);
-                EXPECT_EQ(e.wrong, 0u) << what;
-                EXPECT_LT(e.rms, std::max(a.rms, b.rms)) << what;
-                rounded += e.rounded, shown += e.shown;
+                const auto [models, objects] = random_pair(random, a.name, b.name);
+                worst.take(errors_of(1 / 32.0, models, objects, std::max(a.border, b.border)),
+                           std::max(a.rms, b.rms),
+                           fmt::format("seed {}, {} and {}, pair {}", kSeed, a.name, b.name, i));
             }
-    fmt::print("{} pairs of each: {} of {} pixels lack an edge\n", pairs, rounded, shown);
+            fmt::print("{} pairs, {} and {}: {}\n", pairs, a.name, b.name, worst.words());
+        }
 }
 
 }  // namespace

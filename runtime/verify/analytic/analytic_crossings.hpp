@@ -29,10 +29,10 @@ struct Crossings {
     int count = 0;
 };
 
-/// A sphere, ellipsoid, box, cylinder, torus, capsule or slab under any affine map.
+/// A sphere, ellipsoid, box, cylinder, cone, torus, capsule or slab under any affine map.
 class PlacedSolid {
   public:
-    /// Places a solid. Throws std::invalid_argument for cones and combinations.
+    /// Places a solid. Throws std::invalid_argument for combinations.
     PlacedSolid(const Solid& solid, const glm::dmat4& world_from_solid);
 
     /// The crossings of a line. A line that only touches the solid has none.

@@ -7,76 +7,34 @@
 #include <queue>
 #include <string>
 
-#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/world/world.hpp"
+#include "tests/pictures/refinement/refined_scene.hpp"
 #include "tests/place/pyramid_reader.hpp"
-#include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/shared_device.hpp"
-#include "tests/support/solid_errors.hpp"
 #include "tests/support/test_meshes.hpp"
 
 namespace voxelume {
 namespace {
 
-/// A scene with one model and `objects`, in a world of such voxels.
-Scene refined_scene(const std::string& model, const std::string& objects, double voxel,
-                    glm::ivec2 size = {240, 180}, const std::filesystem::path& folder = {}) {
-    const std::string text = fmt::format(R"({{"voxelume": 1,
-"world": {{"voxel_size": {}, "bounds": {{"min": [-0.41, -0.4, -0.42], "max": [0.4, 0.41, 0.4]}}}},
-"models": {{"m": {{{}, "surface": "smooth"}}}},
-"objects": [{}],
-"observer": {{"position": [0.4, 0.5, -1.1], "look_at": [0, 0, 0],
-             "display": {{"shape": "pyramid", "angle": 28}}}},
-"render": {{"size": [{}, {}], "shadows": false}}}})",
-                                         voxel, model, objects, size.x, size.y);
-    return parse_scene(text, folder / "test.json", {});
-}
-
-Image image_of(const Scene& scene) {
-    RenderReport report;
-    Image image = render(shared_device(), scene, report);
-    EXPECT_EQ(report.not_finite, 0u);
-    return image;
+/// refined_scene() of a `smooth` model.
+Scene smooth_scene(const std::string& model, const std::string& objects, double voxel,
+                   glm::ivec2 size = kRefinedSize, const std::filesystem::path& folder = {}) {
+    return refined_scene(model + R"(, "surface": "smooth")", objects, voxel, size, folder);
 }
 
 SolidErrors errors_of(const Scene& scene) {
-    return measure_solid(scene, image_of(scene));
+    return measure_solid(scene, refined_image(scene));
 }
-
-/// Expects errors of a finer model or world that are at most 5 % larger, or what rounding makes.
-void expect_no_worse(const SolidErrors& finer, const SolidErrors& coarser, const std::string& at) {
-    constexpr double kMore = 1.05, kDepth = 2e-6, kNormal = 0.02;
-    constexpr size_t kPixels = 2;
-    EXPECT_LE(finer.depth_rms, std::max(kMore * coarser.depth_rms, kDepth)) << at;
-    EXPECT_LE(finer.normal_rms, std::max(kMore * coarser.normal_rms, kNormal)) << at;
-    EXPECT_LE(double(finer.silhouette), kMore * double(coarser.silhouette) + double(kPixels)) << at;
-    std::string key = at;
-    std::erase(key, '"');  // GoogleTest writes it to JSON as it is
-    testing::Test::RecordProperty(
-        key, fmt::format("depth {:.3g} m, normal {:.3g} degrees, silhouette {}", finer.depth_rms,
-                         finer.normal_rms, finer.silhouette));
-}
-
-constexpr const char* kPlaced =
-    R"({"model": "m", "position": [0.013, -0.021, 0.007], "turn": [17, 31, 8]})";
 
 const std::array<const char*, 2> kSolids = {R"("shape": "sphere", "radius": 0.16)",
                                             R"("shape": "torus", "radius": 0.18, "tube": 0.07)"};
-
-std::vector<int> doubled_up_to(int first, int usual, int all) {
-    std::vector<int> values;
-    for (int value = first; value <= (is_exhaustive() ? all : usual); value *= 2)
-        values.push_back(value);
-    return values;
-}
 
 TEST(Refinement, OfAModelInAFixedWorldMakesNoPictureWorse) {
     for (const char* solid : kSolids) {
         std::optional<SolidErrors> before;
         for (const int resolution : doubled_up_to(8, 128, 1024)) {
-            const SolidErrors now = errors_of(refined_scene(
-                fmt::format(R"({}, "resolution": {})", solid, resolution), kPlaced, 0.02));
+            const SolidErrors now = errors_of(smooth_scene(
+                fmt::format(R"({}, "resolution": {})", solid, resolution), kRefinedPlace, 0.02));
             if (before) expect_no_worse(now, *before, fmt::format("{} at {}", solid, resolution));
             before = now;
         }
@@ -88,8 +46,8 @@ TEST(Refinement, OfAWorldMakesNoPictureOfAModelWorse) {
         for (const char* size : {"", R"(, "resolution": 1024)"}) {
             std::optional<SolidErrors> before;
             for (const int voxels : doubled_up_to(16, 128, 512)) {
-                const SolidErrors now =
-                    errors_of(refined_scene(std::string(solid) + size, kPlaced, 0.32 / voxels));
+                const SolidErrors now = errors_of(
+                    smooth_scene(std::string(solid) + size, kRefinedPlace, 0.32 / voxels));
                 if (before)
                     expect_no_worse(now, *before, fmt::format("{}{} at {}", solid, size, voxels));
                 before = now;
@@ -103,8 +61,8 @@ TEST(Refinement, OfAWorldLeavesACoarserModelAsAccurateAsItsVoxels) {
     for (size_t i = 0; i < kSolids.size(); ++i)
         for (const int world : doubled_up_to(64, 128, 512)) {
             const SolidErrors errors = errors_of(
-                refined_scene(fmt::format(R"({}, "resolution": {})", kSolids[i], kResolution),
-                              kPlaced, 0.32 / world));
+                smooth_scene(fmt::format(R"({}, "resolution": {})", kSolids[i], kResolution),
+                             kRefinedPlace, 0.32 / world));
             EXPECT_LT(errors.depth_rms, 0.001 * voxels[i]) << kSolids[i] << " at " << world;
             EXPECT_LT(errors.normal_rms, 0.06) << kSolids[i] << " at " << world;
             EXPECT_LE(errors.silhouette, 3u) << kSolids[i] << " at " << world;
@@ -116,7 +74,7 @@ TEST(Refinement, LeavesASphereOfAnyResolutionASphere) {
     for (const char* placement : {"auto", "world"}) {
         std::optional<SolidErrors> before;
         for (const int resolution : {16, 32, 64, 128, 256, 512, 1024}) {
-            const SolidErrors errors = errors_of(refined_scene(
+            const SolidErrors errors = errors_of(smooth_scene(
                 fmt::format(R"("shape": "sphere", "radius": 0.16, "resolution": {})", resolution),
                 fmt::format(R"({{"model": "m", "placement": "{}"}})", placement), kVoxel));
             EXPECT_GT(errors.both, 7000u) << resolution;
@@ -146,7 +104,7 @@ TEST(Refinement, IsNotNeededByAnyMapOfASolid) {
     for (const auto& [name, map] : kMaps)
         for (const char* solid : kSolids) {
             const SolidErrors errors =
-                errors_of(refined_scene(solid, R"({"model": "m", )" + map + "}", kVoxel));
+                errors_of(smooth_scene(solid, R"({"model": "m", )" + map + "}", kVoxel));
             const std::string what = fmt::format("{}, {}", name, solid);
             EXPECT_GT(errors.both, 1000u) << what;
             EXPECT_LT(errors.depth_rms, 0.05 * kVoxel) << what;
@@ -174,8 +132,9 @@ class MappedMeshes : public FileTest {
 
     SurfaceErrors errors_of(const std::string& keys, const std::string& objects, double voxel) {
         const Scene scene =
-            refined_scene(R"("mesh": "ring.obj")" + keys, objects, voxel, {160, 120}, folder);
-        return measure_surface(scene, image_of(scene), mapped(scene.objects[0].world_from_object));
+            smooth_scene(R"("mesh": "ring.obj")" + keys, objects, voxel, {160, 120}, folder);
+        return measure_surface(scene, refined_image(scene),
+                               mapped(scene.objects[0].world_from_object));
     }
 
     Mesh mesh;
@@ -242,7 +201,7 @@ std::vector<size_t> component_sizes(const HostPyramid& host) {
 
 TEST_F(MappedMeshes, OfAFineResolutionMadeSmallHaveNoCrumbs) {
     for (const char* scale : {"0.5", "[0.5, -0.4, 0.45]"}) {
-        const Scene scene = refined_scene(
+        const Scene scene = smooth_scene(
             R"("mesh": "ring.obj", "resolution": 256)",
             fmt::format(R"({{"model": "m", "turn": [17, 31, 8], "scale": {}}})", scale), 0.005,
             {8, 8}, folder);
