@@ -84,7 +84,7 @@ std::optional<std::string> excess_of(const ImageDifference& difference, const Di
                            pixels(difference.pixels), difference.above == 1 ? "is" : "are",
                            limits.above);
     if (limits.flip && !difference.flip)
-        return "FLIP can't be told, for some pixels' colours aren't numbers";
+        return "FLIP can't be told: some pixels' colours aren't numbers, or memory has no room";
     if (limits.flip && *difference.flip > *limits.flip)
         return fmt::format("FLIP is {:.6g}, above {:.6g}", *difference.flip, *limits.flip);
     if (!limits.rmse && limits.above.empty() && limits.ids.empty()) return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/analysis/dense_meshes.hpp"
 #include "runtime/analysis/object_lattice.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/text.hpp"
@@ -152,6 +153,15 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
     return own > kCoarser * longest(scene.world.voxel_size);
 }
 
+/// True for a plain object that shows an exact mesh with many triangles in each of the world's
+/// voxels, if all of it lies in the world.
+bool is_dense(const Scene& scene, const Object& object, AssetStore& meshes) {
+    const Model& model = scene.models[size_t(object.model)];
+    return is_plain(scene, object) && !model.is_sized &&
+           triangles_per_voxel(scene, object, meshes) > kDenseTriangles &&
+           is_within_world(scene, object, *meshes.summary_of(model));
+}
+
 /// Copies of a mesh from which on they are instances: in the world, each is voxelized again. The
 /// pictures differ in rounding alone, and a first frame takes less time and memory, but for meshes
 /// of a few triangles, which take as long.
@@ -187,7 +197,8 @@ void choose_placements(Scene& scene, AssetStore& meshes) {
         if (!is_open || !can_be_instance(scene, object) ||
             (!is_finer_field(scene, object, meshes) &&
              !is_coarser_soft_cubes(scene, object, meshes) &&
-             (copies[size_t(object.model)] < kInstancedCopies || !is_plain(scene, object))))
+             (copies[size_t(object.model)] < kInstancedCopies || !is_plain(scene, object)) &&
+             (copies[size_t(object.model)] == 0 || !is_dense(scene, object, meshes))))
             continue;
         object.placement = Placement::instance;
         has_changed = true;
@@ -249,7 +260,8 @@ class LargestScales {
 
 /// Gives `smooth` and `exact` instances that are larger than their models voxels that are as large
 /// as the world's where they stand, if the scene says no size. What is larger than the world has as
-/// many voxels as that. Cubes keep their size: large ones are a style.
+/// many voxels as that, and exact meshes of many triangles have more. Cubes keep their size: large
+/// ones are a style.
 void size_instances(Scene& scene, AssetStore& meshes) {
     const double most = longest(glm::dvec3(scene.world.voxels));
     const LargestScales scales(scene);
@@ -258,13 +270,15 @@ void size_instances(Scene& scene, AssetStore& meshes) {
         if (model.is_sized || model.resolution > 0 || !model.voxels.empty()) continue;
         model.voxel_size = scene.world.voxel_size;
         const glm::dvec3 scale = shows_voxels(model.surface) ? glm::dvec3(1) : scales.of(number);
-        if (scale == glm::dvec3(1)) continue;
-        const glm::dvec3 sides = sides_of(model, meshes);
-        for (int axis = 0; axis < 3; ++axis) {
-            const double world = model.voxel_size[axis];
-            const double edge = std::max(world / scale[axis], sides[axis] / most);
-            model.voxel_size[axis] = std::min(edge, world);
+        if (scale != glm::dvec3(1)) {
+            const glm::dvec3 sides = sides_of(model, meshes);
+            for (int axis = 0; axis < 3; ++axis) {
+                const double world = model.voxel_size[axis];
+                const double edge = std::max(world / scale[axis], sides[axis] / most);
+                model.voxel_size[axis] = std::min(edge, world);
+            }
         }
+        model.voxel_size = sparse_voxel_size(scene, number, meshes);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/voxelume/image.hpp"
@@ -39,11 +40,27 @@ bool has_numbers(const Image& image) {
     });
 }
 
-/// What FLIP is of each pixel; nothing without colours, and for colours that aren't numbers.
-std::optional<std::vector<float>> flip_of(Image a, Image b, bool are_codes) {
+/// What is stored for each pixel while FLIP is computed, bytes.
+constexpr double kFlipBytes = 200;
+
+bool has_room_for_flip(const Image& image) {
+    return has_room_for(kFlipBytes * image.width * image.height);
+}
+
+/// The colours of an image alone.
+Image colors_of(const Image& image, bool are_codes) {
+    Image colors{image.width, image.height, {}, {}, {}};
+    for (const char* const name : kColors) colors.planes[name] = image.planes.at(name);
+    if (are_codes) make_linear(colors);
+    return colors;
+}
+
+/// What FLIP is of each pixel; nothing without colours, for colours that aren't numbers, and where
+/// memory has no room for it.
+std::optional<std::vector<float>> flip_of(const Image& a, const Image& b, bool are_codes) {
     if (!has_colors(a) || !has_colors(b) || !has_numbers(a) || !has_numbers(b)) return {};
-    if (are_codes) make_linear(a), make_linear(b);
-    return flip_map(a, b);
+    if (!has_room_for_flip(a)) return {};
+    return flip_map(colors_of(a, are_codes), colors_of(b, are_codes));
 }
 
 /// Whether the options ask for all colours, so that FLIP is among what is compared.
@@ -134,8 +151,9 @@ Image flip_image(const Image& a, const Image& b) {
         const voxelume::Image &first = api::inside(a), &second = api::inside(b);
         const auto map = flip_of(first, second, a.holds_codes());
         if (!map && has_colors(first) && has_colors(second))
-            throw voxelume::Error(voxelume::ErrorKind::render,
-                                  "FLIP can't be told, for some pixels' colours aren't numbers");
+            throw voxelume::Error(voxelume::ErrorKind::render, "FLIP can't be told: {}",
+                                  has_room_for_flip(first) ? "some pixels' colours aren't numbers"
+                                                           : "memory has no room for it");
         if (!map)
             throw voxelume::Error(voxelume::ErrorKind::usage,
                                   "FLIP compares colours, and an image has no R, G and B");

@@ -11,6 +11,8 @@
 #include <limits>
 #include <string>
 
+#include "runtime/base/error.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -50,6 +52,13 @@ uint64_t allowed_memory() {
                      process_limit(RLIMIT_DATA), process_limit(RLIMIT_AS)});
 }
 
+/// Bytes of the process that are in main memory; 0 where the system doesn't tell.
+uint64_t resident_memory() {
+    std::ifstream stream("/proc/self/statm");
+    uint64_t pages = 0, resident = 0;
+    return stream >> pages >> resident ? resident * uint64_t(sysconf(_SC_PAGE_SIZE)) : 0;
+}
+
 }  // namespace
 
 uint64_t main_memory() {
@@ -59,6 +68,19 @@ uint64_t main_memory() {
 
 void limit_main_memory(uint64_t bytes) {
     chosen_limit = bytes == 0 ? kNoLimit : bytes;
+}
+
+bool has_room_for(double bytes) {
+    return bytes + double(resident_memory()) <= double(main_memory());
+}
+
+void require_room(const fs::path& file, std::string_view what, double bytes) {
+    if (has_room_for(bytes)) return;
+    throw Error(ErrorKind::limit,
+                "{}: {} takes {:.1f} GB beside the {:.1f} GB that this process holds, and it may "
+                "hold {:.1f} GB: allow it more",
+                SourcePlace(file.string()), what, bytes / 1e9, double(resident_memory()) / 1e9,
+                double(main_memory()) / 1e9);
 }
 
 uint64_t chosen_memory_limit() {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 namespace voxelume {
 
@@ -13,6 +14,12 @@ uint64_t main_memory();
 
 /// Has main_memory() tell at most this; 0: as much as there is. Any thread may call it.
 void limit_main_memory(uint64_t bytes);
+
+/// Whether the process may take this many bytes in addition to what it holds (its resident memory).
+bool has_room_for(double bytes);
+
+/// Throws Error::limit, which names the file and `what` takes the bytes, if there is no room.
+void require_room(const std::filesystem::path& file, std::string_view what, double bytes);
 
 /// The limit of limit_main_memory(); the largest number without one.
 uint64_t chosen_memory_limit();

@@ -21,7 +21,8 @@ enum class WarningKind : uint8_t {
     observer_in_object,   ///< likewise
     nothing_in_view,      ///< no sight ray meets an object
     no_light,             ///< everything in view is black
-    finer_than_world,     ///< voxels of a model by more than 4, where an object shows it
+    finer_than_world,     ///< cubes by more than 4, where an object shows them, or the triangles of
+                          ///< an exact mesh
     coarser_than_world,   ///< likewise
     open_mesh,            ///< where a closed one is needed
     inside_out_mesh,      ///< likewise

@@ -166,7 +166,8 @@ struct ImageDifference {
     std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
     std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
     std::optional<double>
-        flip;             ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
+        flip;             ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours, all
+                          ///< are numbers, and memory has room for 200 bytes a pixel
     uint64_t pixels = 0;  ///< of each image
     uint64_t above = 0;   ///< pixels above the threshold in some channel that both have
 };

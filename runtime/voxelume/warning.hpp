@@ -15,7 +15,8 @@ enum class WarningKind {
     observer_in_object,   ///< an opaque object encloses the observer
     nothing_in_view,      ///< no sight ray meets an object, in no frame
     no_light,             ///< what is in view is black, in all frames
-    finer_than_world,     ///< a model's voxels are finer than the world's, by more than 4
+    finer_than_world,     ///< cubes are finer than the world's, by more than 4, or a voxel has more
+                          ///< than 128 triangles
     coarser_than_world,   ///< a model's voxels are coarser than the world's, by more than 4
     open_mesh,            ///< a mesh has holes, and its surface or material needs an inside
     inside_out_mesh,      ///< a mesh's faces turn inwards, likewise

@@ -75,5 +75,27 @@ TEST_F(PlacementChoices, ManyCopiesOfAnExactMeshAreInstances) {
     EXPECT_FALSE(first_is_instanced(scene_of(box, R"(, "placement": "world")"), 8, {}, false));
 }
 
+/// In the world, each ray tests all triangles of the voxels that it comes through.
+TEST_F(PlacementChoices, AnExactMeshOfManyTrianglesInAVoxelIsAnInstanceOfFinerVoxels) {
+    write_obj(folder / "ball.obj", ball({0, 0, 0}, 0.05, 160, 80));
+    const auto exact = [](const char* keys = "") {
+        return fmt::format(R"("mesh": "ball.obj", "surface": "exact"{})", keys);
+    };
+    EXPECT_TRUE(first_is_instanced(scene_of(exact()), 1, {}, false));
+    EXPECT_LT(chosen(exact()).voxel_size.x, 0.002);
+    EXPECT_FALSE(first_is_instanced(scene_of(exact(), R"(, "scale": 10)"), 1, {}, false));
+    EXPECT_EQ(chosen(exact(), R"(, "scale": 10)").voxel_size.x, 0.02);
+    Material glass;
+    glass.opacity = 0.5f;
+    EXPECT_FALSE(first_is_instanced(scene_of(exact()), 1, glass, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(exact()), 1, {}, true)) << "beside cubes";
+    const char* const outside = R"(, "position": [0.58, 0, 0])";
+    EXPECT_FALSE(first_is_instanced(scene_of(exact(), outside), 1, {}, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(exact(R"(, "voxel_size": 0.02)")), 1, {}, false));
+    EXPECT_LT(
+        chosen(exact(), R"(, "placement": "instance", "position": [0.58, 0, 0])").voxel_size.x,
+        0.002);
+}
+
 }  // namespace
 }  // namespace voxelume

@@ -44,6 +44,18 @@ TEST_F(ObjectWarnings, NameModelsFinerAndCoarserThanTheWorldByMoreThanFour) {
     EXPECT_THAT(kinds(), IsEmpty());
 }
 
+TEST_F(ObjectWarnings, NameExactMeshesOfManyTrianglesInAVoxelThatStayInTheWorld) {
+    show_mesh("ball.obj", ball({0, 0, 0}, 0.1, 320, 160));
+    json["models"]["ball"]["surface"] = "exact";
+    json["objects"][0]["placement"] = "instance";
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["objects"][0]["placement"] = "world";
+    ASSERT_THAT(kinds(), ElementsAre(Kind::finer_than_world));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("a ray there tests all of them"));
+    json["objects"][0]["scale"] = 8;
+    EXPECT_THAT(kinds(), IsEmpty());
+}
+
 /// In the world, voxels of a size that the scene doesn't say are the world's, whatever the scale.
 TEST_F(ObjectWarnings, SayNothingOfObjectsThatAreLargerThanTheirModels) {
     json["models"]["ball"] = {{"shape", "sphere"}, {"radius", 0.03}, {"surface", "smooth"}};

@@ -40,7 +40,11 @@ class WarnedScene : public FileTest {
 
     std::vector<Warning> warnings(std::vector<int> frames = {1}) {
         AssetStore meshes;
-        return scene_warnings(parse_scene(json.dump(1), folder / "room.json", {}), frames, meshes);
+        const auto box = [&](const Model& model, bool is_first) {
+            return meshes.box_of_file(model, is_first);
+        };
+        return scene_warnings(parse_scene(json.dump(1), folder / "room.json", {}, box), frames,
+                              meshes);
     }
     std::vector<WarningKind> kinds(std::vector<int> frames = {1}) {
         std::vector<WarningKind> found;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "runtime/base/main_memory.hpp"
 #include "tests/api/api_fixture.hpp"
 #include "tests/support/setting.hpp"
 
@@ -238,6 +239,10 @@ TEST_F(ApiRender, ComparesAndDescribesWhatItWrote) {
     EXPECT_EQ(same.flip, 0.0);
     for (const ChannelDifference& channel : same.channels) EXPECT_EQ(channel.differing, 0u);
     EXPECT_GT(compare(one, two).flip.value_or(0), 0.0);
+    limit_main_memory(1);
+    EXPECT_FALSE(compare(one, two).flip) << "memory has no room for it";
+    EXPECT_THROW(flip_image(one, two), Error);
+    limit_main_memory(0);
     one.write(folder / "a.exr");
     const Facts facts = describe_file(folder / "a.exr");
     ASSERT_EQ(facts.kind, Facts::Kind::object);

@@ -47,6 +47,18 @@ TEST_F(MainMemory, IsAtMostTheLimitThatIsChosen) {
     EXPECT_EQ(main_memory(), whole);
 }
 
+TEST_F(MainMemory, HasNoRoomForMoreThanTheProcessLeavesOfIt) {
+    EXPECT_TRUE(has_room_for(1));
+    EXPECT_FALSE(has_room_for(double(main_memory())));
+    limit_main_memory(uint64_t{1} << 33);
+    EXPECT_TRUE(has_room_for(double(uint64_t{1} << 32)));
+    const std::vector<char> held(size_t{1} << 29, 'x');
+    EXPECT_FALSE(has_room_for(double((uint64_t{1} << 33) - (uint64_t{1} << 29))));
+    EXPECT_NO_THROW(require_room("a.png", "a picture", 1));
+    EXPECT_THROW(require_room("a.png", "a picture", 1e10), Error);
+    limit_main_memory(0);
+}
+
 TEST_F(MainMemory, OfAGroupIsTheLeastOfThoseThatItIsIn) {
     limit("slurm/job_1/memory.max", "3000000");
     limit("slurm/job_1/step/memory.max", "max");

@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "runtime/analysis/dense_meshes.hpp"
 #include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/geometry/shape/mesh_shape.hpp"
@@ -56,7 +57,7 @@ std::string unit_advice(const Model& model, double times_world) {
 /// What makes a mesh that is too small fit the world.
 std::string small_unit_advice(const Model& model) {
     const FileMap& map = model.object_from_file;
-    if (model.fit == 0 && map.scale < 1)
+    if (map.scale < 1)
         return fmt::format(
             "its model's \"unit\" takes the file's coordinate 1 for {} m; if it is "
             "1 m, leave \"unit\" out",
@@ -77,12 +78,15 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
         times <= too_small && side < 2 * largest(scene.world.voxel_size) && side > 0;
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
-        is_tiny ? small_unit_advice(placed.model) : unit_advice(placed.model, times);
+        placed.model.fit > 0
+            ? fmt::format("its model's \"fit\" makes it {:.3g} m", placed.model.fit)
+        : is_tiny ? small_unit_advice(placed.model)
+                  : unit_advice(placed.model, times);
     return add_once(
         {WarningKind::unlikely_unit, object.where,
-         fmt::format(
-             "{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: {}",
-             title_of(object), side, world, advice)},
+         fmt::format("{} is {:.3g} m large in a world of {:.3g} m, so its {} is probably wrong: {}",
+                     title_of(object), side, world, placed.model.fit > 0 ? "size" : "unit",
+                     advice)},
         warnings);
 }
 
@@ -164,11 +168,14 @@ void add_thin_warning(const Scene& scene, const Object& object, const PlacedMode
         return;
     const Thinness thin = thinness_of(scene, object, placed);
     if (thin.width >= thin.voxel * (1 - kSizeRounding)) return;
+    const std::string size =
+        thin.width > 0 ? fmt::format("{:.3g} m thin where it is thinnest", thin.width) : "flat";
+    const std::string voxels =
+        thin.width > 0 ? fmt::format(", or use voxels below {:.2g} m", thin.width / 2) : "";
     add_once({WarningKind::thinner_than_voxel, object.where,
-              fmt::format("{} is {:.3g} m thin where it is thinnest, and its voxels are {:.3g} m, "
-                          "so parts of it get lost or too thick: give its model \"surface\": "
-                          "\"exact\", or use voxels below {:.2g} m",
-                          title_of(object), thin.width, thin.voxel, thin.width / 2)},
+              fmt::format("{} is {}, and its voxels are {:.3g} m, so parts of it get lost or too "
+                          "thick: give its model \"surface\": \"exact\"{}",
+                          title_of(object), size, thin.voxel, voxels)},
              warnings);
 }
 
@@ -243,6 +250,21 @@ void add_ratio_warning(const Scene& scene, const Object& object, const PlacedMod
                  warnings);
 }
 
+/// Exact meshes that `auto` makes no instances of: of glass, with cubes beside them, or told so.
+void add_density_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
+                         AssetStore& meshes, std::vector<Warning>& warnings) {
+    if (placed.is_instance) return;
+    const double triangles = triangles_per_voxel(scene, object, meshes);
+    if (triangles < kTooDenseTriangles) return;
+    add_once({WarningKind::finer_than_world, object.where,
+              fmt::format("{} has {:.0f} triangles in each of the world's voxels that it passes, "
+                          "and a ray there tests all of them: give the object \"placement\": "
+                          "\"instance\", or the world a \"voxel_size\" of {:.3g}",
+                          title_of(object), triangles,
+                          smallest(scene.world.voxel_size) / std::sqrt(triangles / 2))},
+             warnings);
+}
+
 }  // namespace
 
 std::string title_of(const Object& object) {
@@ -261,6 +283,7 @@ void add_object_warnings(const Scene& scene, const Object& object, AssetStore& m
     add_thin_part_warning(scene, model, meshes, warnings);
     add_rounding_warning(model.model, warnings);
     add_ratio_warning(scene, object, model, warnings);
+    add_density_warning(scene, object, model, meshes, warnings);
 }
 
 }  // namespace voxelume

@@ -74,7 +74,7 @@ struct ExrHeader {
     std::vector<ExrPartHeader> parts;               ///< empty for a file with one
 };
 
-/// Whether main memory has room for the channels of a flat file.
+/// Whether main memory has room for the channels of a flat file beside what the process holds.
 bool fits_memory(const ExrHeader& header);
 
 /// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,

@@ -88,7 +88,7 @@ double channel_bytes(const ExrHeader& header) {
 }  // namespace
 
 bool fits_memory(const ExrHeader& header) {
-    return channel_bytes(header) <= double(main_memory());
+    return has_room_for(channel_bytes(header));
 }
 
 ExrHeader read_exr_header(const std::filesystem::path& path) {
@@ -104,13 +104,8 @@ Image read_exr(const std::filesystem::path& path) {
     const ExrHeader header = reader.read();
     check_size(file, header);
     reader.check_chunks();
-    if (!fits_memory(header))
-        throw Error(
-            ErrorKind::limit,
-            "{}: an image of {}x{} pixels takes {:.1f} GB, and this process may take {:.1f} "
-            "GB: allow it more, or render a part of the image",
-            SourcePlace(path.string()), header.width, header.height, channel_bytes(header) / 1e9,
-            double(main_memory()) / 1e9);
+    require_room(path, fmt::format("an image of {}x{} pixels", header.width, header.height),
+                 channel_bytes(header));
     const std::vector<ExrChannel> channels = reader.channels();
     try {
         Imf::MultiPartInputFile input(path.c_str());

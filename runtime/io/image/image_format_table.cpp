@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/image/image_format_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
+#include "runtime/base/main_memory.hpp"
 #include "runtime/io/image/color_pictures.hpp"
 #include "runtime/io/image/picture.hpp"
 
@@ -40,6 +43,8 @@ std::string encode_codes(const Image& image, const ImageStorage& how) {
 /// A picture's codes as parts of 255: what is compared is what is seen.
 Image read_codes(const std::filesystem::path& path) {
     const Picture picture = read_png(path);
+    require_room(path, fmt::format("an image of {}x{} pixels", picture.width, picture.height),
+                 16 * double(picture.pixels.size()));
     Image image{picture.width, picture.height, {}, {}, {}};
     constexpr const char* kNames[] = {"R", "G", "B", "A"};
     for (size_t channel = 0; channel < 4; ++channel) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/image/png.hpp"
 
+#include <fmt/format.h>
 #include <spng.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "runtime/base/files/atomic_file.hpp"
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/files/stamp.hpp"
+#include "runtime/base/main_memory.hpp"
 #include "runtime/image/srgb.hpp"
 
 namespace voxelume {
@@ -56,6 +58,8 @@ Picture parse_png(std::span<const uint8_t> bytes, const std::filesystem::path& n
     if (pixels > max_pixels || pixels / 8 / 1032 > bytes.size())
         refuse(fmt::format("declares {} x {} pixels, which it can't hold or which are above {}",
                            header.width, header.height, max_pixels));
+    require_room(name, fmt::format("a picture of {}x{} pixels", header.width, header.height),
+                 4 * double(pixels));
     Picture picture{static_cast<int>(header.width), static_cast<int>(header.height), {}};
     picture.pixels.resize(pixels);
     check(spng_decode_image(context.get(), picture.pixels.data(), pixels * 4, SPNG_FMT_RGBA8,
@@ -69,6 +73,7 @@ Picture read_png(const std::filesystem::path& path) {
     // An 8-bit RGBA pixel takes at most 8 bytes as 16-bit samples, so a larger file can't be within
     // the limit.
     if (file.size() > 9 * kMaxPixels) file.refuse("is too large for a PNG that voxelume reads");
+    require_room(path, "the file", double(file.size()));
     std::vector<uint8_t> bytes(file.size());
     file.read(0, bytes.data(), bytes.size());
     return parse_png(bytes, path, kMaxPixels);

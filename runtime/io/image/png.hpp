@@ -54,7 +54,7 @@ std::unique_ptr<ImageRows> png_rows(const std::filesystem::path& path, const Ima
 std::string png_bytes(const Image& image, const PngOptions& options = {});
 
 /// Reads any PNG as 8-bit RGBA. Throws Error::input for a file that is missing, damaged or above
-/// 2^28 pixels.
+/// 2^28 pixels, and Error::limit for one that memory doesn't hold.
 Picture read_png(const std::filesystem::path& path);
 
 /// Decodes the bytes of a PNG likewise, with at most `max_pixels`; `name` opens the messages.

@@ -162,7 +162,7 @@ TEST_F(ImageRowsTest, TellATextOfAnotherLengthAsAFault) {
 
 TEST_F(ImageRowsTest, OfAnImageLargerThanMemoryAreRefusedByItsReader) {
     write_exr(whole(), varied_image(30, 20));  // 9 channels of 4 bytes
-    limit_main_memory(30 * 20 * 36 - 1);
+    limit_main_memory(30 * 20 * 36);
     const Error error = error_of([&] { read_exr(whole()); });
     EXPECT_FALSE(fits_memory(read_exr_header(whole())));
     limit_main_memory(0);
