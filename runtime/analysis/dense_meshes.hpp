@@ -13,11 +13,15 @@ namespace voxelume {
 /// voxels; 0 for an object that shows anything else.
 double triangles_per_voxel(const Scene& scene, const Object& object, AssetStore& meshes);
 
-/// From how many on `auto` makes an instance of a mesh. Up to here both take about as long.
-inline constexpr double kDenseTriangles = 16;
+/// True for an object that is faster, and looks the same, as an instance of finer voxels: it shows
+/// an exact mesh of many triangles a voxel, whose size the scene doesn't say. The mesh doesn't
+/// change, its triangles aren't slivers, on whose neighbours the light of instances stumbles, and
+/// no side of its box is flush with one of another exact object that overlaps it, since instances
+/// have no priority.
+bool is_better_divided(const Scene& scene, const Object& object, AssetStore& meshes);
 
-/// From how many on a mesh that stays in the world is warned of: a ray then takes ten times as
-/// long.
+/// A mesh that stays in the world with more triangles a voxel than this is warned of: a ray takes
+/// ten times as long.
 inline constexpr double kTooDenseTriangles = 128;
 
 /// The edges, in metres, of a model's voxels, which are made smaller where instances would have

@@ -153,13 +153,10 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
     return own > kCoarser * longest(scene.world.voxel_size);
 }
 
-/// True for a plain object that shows an exact mesh with many triangles in each of the world's
-/// voxels, if all of it lies in the world.
+/// True for a plain object in the world that is an instance for its mesh's many triangles.
 bool is_dense(const Scene& scene, const Object& object, AssetStore& meshes) {
-    const Model& model = scene.models[size_t(object.model)];
-    return is_plain(scene, object) && !model.is_sized &&
-           triangles_per_voxel(scene, object, meshes) > kDenseTriangles &&
-           is_within_world(scene, object, *meshes.summary_of(model));
+    return is_plain(scene, object) && is_better_divided(scene, object, meshes) &&
+           is_within_world(scene, object, *meshes.summary_of(scene.models[size_t(object.model)]));
 }
 
 /// Copies of a mesh from which on they are instances: in the world, each is voxelized again. The

@@ -149,11 +149,12 @@ Image flip_image(const Image& a, const Image& b) {
     return api::guarded([&] {
         check_pair(a, b);
         const voxelume::Image &first = api::inside(a), &second = api::inside(b);
+        const bool has_room = has_room_for_flip(first);
         const auto map = flip_of(first, second, a.holds_codes());
         if (!map && has_colors(first) && has_colors(second))
-            throw voxelume::Error(voxelume::ErrorKind::render, "FLIP can't be told: {}",
-                                  has_room_for_flip(first) ? "some pixels' colours aren't numbers"
-                                                           : "memory has no room for it");
+            throw voxelume::Error(
+                voxelume::ErrorKind::render, "FLIP can't be told: {}",
+                has_room ? "some pixels' colours aren't numbers" : "memory has no room for it");
         if (!map)
             throw voxelume::Error(voxelume::ErrorKind::usage,
                                   "FLIP compares colours, and an image has no R, G and B");

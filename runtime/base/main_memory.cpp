@@ -77,8 +77,8 @@ bool has_room_for(double bytes) {
 void require_room(const fs::path& file, std::string_view what, double bytes) {
     if (has_room_for(bytes)) return;
     throw Error(ErrorKind::limit,
-                "{}: {} takes {:.1f} GB beside the {:.1f} GB that this process holds, and it may "
-                "hold {:.1f} GB: allow it more",
+                "{}: {} takes {:.3g} GB in addition to the {:.3g} GB that this process holds, and "
+                "it may hold {:.3g} GB: allow it more memory",
                 SourcePlace(file.string()), what, bytes / 1e9, double(resident_memory()) / 1e9,
                 double(main_memory()) / 1e9);
 }

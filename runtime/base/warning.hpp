@@ -23,7 +23,7 @@ enum class WarningKind : uint8_t {
     no_light,             ///< everything in view is black
     finer_than_world,     ///< cubes by more than 4, where an object shows them, or the triangles of
                           ///< an exact mesh
-    coarser_than_world,   ///< likewise
+    coarser_than_world,   ///< voxels of a `smooth` model by more than 4
     open_mesh,            ///< where a closed one is needed
     inside_out_mesh,      ///< likewise
     unlikely_unit,        ///< a mesh far larger or smaller than the world

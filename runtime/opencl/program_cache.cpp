@@ -26,7 +26,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kMaxCacheBytes = 1u << 30;
+constexpr uint64_t kMaxCacheBytes = 256u << 20;
 constexpr const char* kCacheVersion = "voxelume programs 3";
 
 DiskCache program_store() {

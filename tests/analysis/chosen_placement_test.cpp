@@ -10,6 +10,12 @@ namespace {
 using PlacementChoices = ChosenScene;
 
 /// The placement that `auto` gives the first of `count` objects of the model.
+bool placed_as_instance(Scene scene) {
+    AssetStore meshes;
+    make_choices(scene, meshes);
+    return is_instanced(scene, scene.objects[0]);
+}
+
 bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
     scene.materials.push_back(material);
     scene.objects[0].material = int(scene.materials.size()) - 1;
@@ -20,9 +26,7 @@ bool first_is_instanced(Scene scene, int count, const Material& material, bool h
         scene.objects.push_back(scene.objects[0]);
         scene.objects.back().model = int(scene.models.size()) - 1;
     }
-    AssetStore meshes;
-    make_choices(scene, meshes);
-    return is_instanced(scene, scene.objects[0]);
+    return placed_as_instance(std::move(scene));
 }
 
 TEST_F(PlacementChoices, GiveLargeInstancesVoxelsAsLargeAsTheWorldsWhereTheyStand) {
@@ -95,6 +99,25 @@ TEST_F(PlacementChoices, AnExactMeshOfManyTrianglesInAVoxelIsAnInstanceOfFinerVo
     EXPECT_LT(
         chosen(exact(), R"(, "placement": "instance", "position": [0.58, 0, 0])").voxel_size.x,
         0.002);
+    Scene flush = scene_of(exact());
+    flush.objects.push_back(flush.objects[0]);
+    flush.objects[1].world_from_object[3] = glm::dvec4(0.02, 0, 0, 1);
+    EXPECT_FALSE(placed_as_instance(flush));
+    flush.objects[1].world_from_object[3] = glm::dvec4(0.02, 0.02, 0.02, 1);
+    EXPECT_TRUE(placed_as_instance(flush));
+}
+
+TEST_F(PlacementChoices, MeshesOfSliversAndThoseThatChangeStayInTheWorld) {
+    write_obj(folder / "slivers.obj", ball({0, 0, 0}, 0.05, 8000, 3));
+    const std::string slivers = R"("mesh": "slivers.obj", "surface": "exact")";
+    EXPECT_FALSE(placed_as_instance(scene_of(slivers)));
+    for (int frame = 1; frame <= 4; ++frame)
+        write_obj(folder / fmt::format("s.{}.obj", frame),
+                  ball({0, 0, 0}, 0.01f * float(frame), 160, 80));
+    const std::string grows =
+        R"("mesh": "s.#.obj", "surface": "exact", "sequence": {"first": 1, "last": 4})";
+    EXPECT_FALSE(placed_as_instance(scene_of(grows)));
+    EXPECT_EQ(chosen(grows, R"(, "placement": "instance")").voxel_size, glm::dvec3(0.02));
 }
 
 }  // namespace

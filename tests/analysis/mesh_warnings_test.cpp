@@ -66,7 +66,7 @@ TEST_F(MeshWarnings, NameTheSizeThatAModelIsFittedTo) {
     json["models"]["ball"]["fit"] = 0.001;
     ASSERT_THAT(kinds(), testing::Contains(Kind::unlikely_unit));
     EXPECT_THAT(warnings()[0].text,
-                HasSubstr("so its size is probably wrong: its model's \"fit\" makes it 0.001 m"));
+                HasSubstr("so its size is probably wrong: its model's \"fit\" is 0.001 m"));
 }
 
 TEST_F(MeshWarnings, NameAnOpenMeshWhereAnInsideIsNeeded) {

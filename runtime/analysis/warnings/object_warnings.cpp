@@ -79,7 +79,8 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
         placed.model.fit > 0
-            ? fmt::format("its model's \"fit\" makes it {:.3g} m", placed.model.fit)
+            ? fmt::format("its model's \"fit\" is {:.3g} m, times the object's scale",
+                          placed.model.fit)
         : is_tiny ? small_unit_advice(placed.model)
                   : unit_advice(placed.model, times);
     return add_once(
@@ -250,18 +251,29 @@ void add_ratio_warning(const Scene& scene, const Object& object, const PlacedMod
                  warnings);
 }
 
-/// Exact meshes that `auto` makes no instances of: of glass, with cubes beside them, or told so.
+/// What makes a ray test fewer triangles. Instances of glass are slow in lattices.
+std::string density_advice(const Scene& scene, const Object& object, const Model& model,
+                           double triangles) {
+    const std::string finer =
+        fmt::format("the world a \"voxel_size\" of {:.3g}",
+                    largest(scene.world.voxel_size) / std::sqrt(triangles / 2));
+    if (scene.observer.display.layout == VolumeLayout::lattice && transmits(scene, object))
+        return finer;
+    return fmt::format("the object \"placement\": \"instance\"{}, or {}",
+                       model.is_sized ? ", without a size of its model's voxels" : "", finer);
+}
+
+/// Exact meshes of which `auto` makes no instances.
 void add_density_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                          AssetStore& meshes, std::vector<Warning>& warnings) {
     if (placed.is_instance) return;
     const double triangles = triangles_per_voxel(scene, object, meshes);
-    if (triangles < kTooDenseTriangles) return;
-    add_once({WarningKind::finer_than_world, object.where,
+    if (triangles <= kTooDenseTriangles) return;
+    add_once({WarningKind::finer_than_world, placed.model.where,
               fmt::format("{} has {:.0f} triangles in each of the world's voxels that it passes, "
-                          "and a ray there tests all of them: give the object \"placement\": "
-                          "\"instance\", or the world a \"voxel_size\" of {:.3g}",
+                          "and a ray there tests all of them: give {}",
                           title_of(object), triangles,
-                          smallest(scene.world.voxel_size) / std::sqrt(triangles / 2))},
+                          density_advice(scene, object, placed.model, triangles))},
              warnings);
 }
 
