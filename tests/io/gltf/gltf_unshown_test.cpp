@@ -25,7 +25,7 @@ std::string file_of(const UnshownJson& first, const UnshownJson& second) {
     primitives[0]["material"] = 0;
     primitives[1]["material"] = 1;
     writer.json["materials"] = {first, second};
-    writer.json["textures"] = {UnshownJson::object()};
+    writer.json["textures"] = UnshownJson::array({UnshownJson::object()});
     return writer.gltf();
 }
 
