@@ -254,9 +254,8 @@ void add_ratio_warning(const Scene& scene, const Object& object, const PlacedMod
 /// What makes a ray test fewer triangles. Instances of glass are slow in lattices.
 std::string density_advice(const Scene& scene, const Object& object, const Model& model,
                            double triangles) {
-    const std::string finer =
-        fmt::format("the world a \"voxel_size\" of {:.3g}",
-                    largest(scene.world.voxel_size) / std::sqrt(triangles / 2));
+    std::string finer = fmt::format("the world a \"voxel_size\" of {:.3g}",
+                                    largest(scene.world.voxel_size) / std::sqrt(triangles / 2));
     if (scene.observer.display.layout == VolumeLayout::lattice && transmits(scene, object))
         return finer;
     return fmt::format("the object \"placement\": \"instance\"{}, or {}",
