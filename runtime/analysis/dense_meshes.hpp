@@ -20,8 +20,8 @@ double triangles_per_voxel(const Scene& scene, const Object& object, AssetStore&
 /// have no priority.
 bool is_better_divided(const Scene& scene, const Object& object, AssetStore& meshes);
 
-/// A mesh that stays in the world with more triangles a voxel than this is warned of: a ray takes
-/// ten times as long.
+/// A mesh that stays in the world with more triangles a voxel than this is warned of: a picture
+/// takes about three times as long as of an instance.
 inline constexpr double kTooDenseTriangles = 128;
 
 /// The edges, in metres, of a model's voxels, which are made smaller where instances would have

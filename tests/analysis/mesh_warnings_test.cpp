@@ -61,14 +61,6 @@ TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
 }
 
-TEST_F(MeshWarnings, NameTheSizeThatAModelIsFittedTo) {
-    show_mesh("part.obj", ball({0, 0, 0}, 0.3, 32, 16));
-    json["models"]["ball"]["fit"] = 0.001;
-    ASSERT_THAT(kinds(), testing::Contains(Kind::unlikely_unit));
-    EXPECT_THAT(warnings()[0].text,
-                HasSubstr("so its size is probably wrong: its model's \"fit\" is 0.001 m"));
-}
-
 TEST_F(MeshWarnings, NameAnOpenMeshWhereAnInsideIsNeeded) {
     show_mesh("bowl.obj", open_ball(0.3));
     EXPECT_THAT(kinds(), ElementsAre(Kind::open_mesh));

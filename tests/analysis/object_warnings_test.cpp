@@ -4,12 +4,15 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/analysis/warned_scene.hpp"
 #include "tests/support/writers/array_writer.hpp"
 
 namespace voxelume {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -42,6 +45,27 @@ TEST_F(ObjectWarnings, NameModelsFinerAndCoarserThanTheWorldByMoreThanFour) {
     EXPECT_THAT(kinds(), ElementsAre(Kind::coarser_than_world));
     json["models"]["ball"]["surface"] = "cubes";  // voxel art
     EXPECT_THAT(kinds(), IsEmpty());
+}
+
+TEST_F(ObjectWarnings, NameTheSizeThatAModelIsFittedTo) {
+    show_mesh("part.obj", ball({0, 0, 0}, 0.3, 32, 16));
+    json["models"]["ball"]["fit"] = 0.001;
+    ASSERT_THAT(kinds(), Contains(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text,
+                HasSubstr("so its size is probably wrong: its model's \"fit\" is 0.001 m"));
+}
+
+TEST_F(ObjectWarnings, NameNoVoxelsThatWouldBeFineEnoughForASheet) {
+    Mesh sheet;
+    sheet.positions = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    show_mesh("sheet.obj", sheet);
+    json["models"]["ball"]["surface"] = "smooth";
+    const std::vector<Warning> found = warnings();
+    const auto thin = std::ranges::find(found, Kind::thinner_than_voxel, &Warning::kind);
+    ASSERT_NE(thin, found.end());
+    EXPECT_THAT(thin->text, HasSubstr("is flat, and its voxels are 0.05 m"));
+    EXPECT_THAT(thin->text, Not(HasSubstr("voxels below")));
 }
 
 TEST_F(ObjectWarnings, NameExactMeshesOfManyTrianglesInAVoxelThatStayInTheWorld) {

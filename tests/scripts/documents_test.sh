@@ -49,6 +49,6 @@ while read -r folder; do
     elif [ "$(wc -l <"$readme")" -gt 60 ]; then
         complain "$readme is longer than a screen"
     fi
-done < <(find .ci cli cmake kernels python runtime scenes tests -type f -not -name README.md -not -path '*/__pycache__/*' \
-    -printf '%h\n' | sort -u)
+done < <(find .ci cli cmake kernels python runtime scenes tests -type f -not -name README.md \
+    -not -path '*/__pycache__/*' -printf '%h\n' | sort -u)
 exit "$failed"

@@ -8,7 +8,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 MIN_FRAMES = 100  # fewer tell nothing of growth
-MIN_SEQUENCE = 80  # a bare fork hung after 46 to 72; tests of the program have so many
+MIN_SEQUENCE = 80  # a bare fork hung after 46 to 72, so fewer tell nothing
 
 
 def main():
