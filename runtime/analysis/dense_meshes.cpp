@@ -24,10 +24,6 @@ constexpr double kSparseTriangles = 2;
 /// The most of these along the mesh's longest side: triangles may differ in size.
 constexpr double kMaxSparseVoxels = 1024;
 
-/// The square of half a triangle's outline over its area: 5.2 for equal sides, 23 for sides of 10,
-/// 10 and 1.
-constexpr double kMaxSlenderness = 16;
-
 /// How near sides of boxes are that count as flush, in voxels of the world.
 constexpr double kFlush = 0.01;
 
@@ -37,12 +33,6 @@ double triangles_per_face(const MeshSummary& mesh, double edge) {
 
 double largest_edge(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
-}
-
-/// Whether triangles are slivers, by their means.
-bool has_slivers(const MeshSummary& mesh) {
-    const SurfaceArea& area = mesh.area;
-    return area.half_edges * area.half_edges > kMaxSlenderness * area.triangles * area.total;
 }
 
 /// Whether a model's shape may change from frame to frame.
@@ -103,8 +93,7 @@ bool is_better_divided(const Scene& scene, const Object& object, AssetStore& mes
     const auto number = size_t(object.model);
     const Model& model = scene.models[number];
     return triangles_per_voxel(scene, object, meshes) > kDenseTriangles && !model.is_sized &&
-           !changes(scene, number) && !has_slivers(*meshes.summary_of(model)) &&
-           !is_flush_with_another(scene, object, meshes);
+           !changes(scene, number) && !is_flush_with_another(scene, object, meshes);
 }
 
 glm::dvec3 sparse_voxel_size(const Scene& scene, size_t number, AssetStore& meshes) {

@@ -15,9 +15,8 @@ double triangles_per_voxel(const Scene& scene, const Object& object, AssetStore&
 
 /// True for an object that is faster, and looks the same, as an instance of finer voxels: it shows
 /// an exact mesh of many triangles a voxel, whose size the scene doesn't say. The mesh doesn't
-/// change, its triangles aren't slivers, on whose neighbours the light of instances stumbles, and
-/// no side of its box is flush with one of another exact object that overlaps it, since instances
-/// have no priority.
+/// change, and no side of its box is flush with one of another exact object that overlaps it, since
+/// instances have no priority.
 bool is_better_divided(const Scene& scene, const Object& object, AssetStore& meshes);
 
 /// A mesh that stays in the world with more triangles a voxel than this is warned of: a picture

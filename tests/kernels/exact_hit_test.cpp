@@ -182,10 +182,9 @@ constexpr double kMaxOffPlane = 2e-5;
 // 50.
 constexpr double kAside = 1e-3, kOtherPlace = 0.05;
 
-TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
-    const Mesh mesh = ring_on_quarters();
-    const RationalMesh exact(mesh);
-    const FixedGrid grid = fixed_grid(kHitGrid);
+/// What rays meet first on the exact surface of a mesh.
+std::vector<std::optional<EnteredCell>> hits_on(const Mesh& mesh, const FixedGrid& grid,
+                                                const std::vector<FixedRay>& rays) {
     GridFrame frame;
     frame.size = kHitGrid;
     VoxelizeOptions options;
@@ -193,11 +192,23 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
     const Pyramid pyramid = build_index(
         shared_device(), voxelize_mesh(shared_device(), mesh, glm::dmat4(1), frame, options));
     DeviceHits device(shared_device(), pyramid);
-    const std::vector<AimedRay> aimed = rays_at_edges(mesh, grid);
-    std::vector<FixedRay> rays;
-    for (const AimedRay& a : aimed) rays.push_back(a.ray);
     device.start(grid, rays);
-    const auto hits = device.hits();
+    return device.hits();
+}
+
+/// How far a hit lies from the plane of the triangle that a ray truly meets, in voxels.
+double off_plane(const RationalHit& truth, double t, const oracle::RationalPoint& d) {
+    const dvec3 way(d[0].get_d(), d[1].get_d(), d[2].get_d());
+    return std::abs(mpq_class(truth.t - mpq_class(t)).get_d() * glm::dot(way, truth.normal));
+}
+
+TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
+    const Mesh mesh = ring_on_quarters();
+    const RationalMesh exact(mesh);
+    const FixedGrid grid = fixed_grid(kHitGrid);
+    std::vector<FixedRay> rays;
+    for (const AimedRay& aimed : rays_at_edges(mesh, grid)) rays.push_back(aimed.ray);
+    const auto hits = hits_on(mesh, grid, rays);
     int compared = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         const auto [o, d] = exact_ray(grid, rays[i]);
@@ -214,12 +225,42 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
         if (outline) continue;
         ++compared;
         ASSERT_TRUE(hits[i]) << "seed " << kHitSeed << ", ray " << i;
-        const dvec3 way(d[0].get_d(), d[1].get_d(), d[2].get_d());
-        const double off = mpq_class(truth->t - mpq_class(double(hits[i]->t))).get_d() *
-                           glm::dot(way, truth->normal);
-        EXPECT_LT(std::abs(off), kMaxOffPlane) << "seed " << kHitSeed << ", ray " << i;
+        EXPECT_LT(off_plane(*truth, double(hits[i]->t), d), kMaxOffPlane)
+            << "seed " << kHitSeed << ", ray " << i;
     }
     EXPECT_GT(compared, 2400);
+}
+
+// Of triangles 12 voxels long and 1/100 wide, whose areas are small beside the products that they
+// are the differences of. The largest error of 94 rays was 2.1e-6 voxel; where these products were
+// rounded it was 1.1e-4.
+TEST(ExactHit, OfSliversIsTheRationalOne) {
+    const Mesh mesh = ball({21.3, 18.1, 14.2}, 12, 8000, 3);
+    const FixedGrid grid = fixed_grid(kHitGrid);
+    std::mt19937_64 random(kHitSeed);
+    std::vector<FixedRay> rays;
+    while (rays.size() < 30) {
+        const glm::uvec3 t = mesh.triangles[random() % mesh.triangles.size()];
+        const dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        const double along = double(random() % 1025) / 1024,
+                     across = double(random() % 1025) / 1024;
+        rays.push_back(ray_towards(grid, glm::mix(glm::mix(a, b, along), c, across), random).ray);
+    }
+    const auto hits = hits_on(mesh, grid, rays);
+    const RationalMesh exact(mesh);
+    int compared = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const auto [o, d] = exact_ray(grid, rays[i]);
+        const auto truth = exact.first_hit(o, d);
+        if (!truth) continue;  // it passes the ball's outline
+        const dvec3 way(d[0].get_d(), d[1].get_d(), d[2].get_d());
+        if (std::abs(glm::dot(glm::normalize(way), truth->normal)) < 0.1) continue;
+        ++compared;
+        ASSERT_TRUE(hits[i]) << "seed " << kHitSeed << ", ray " << i;
+        EXPECT_LT(off_plane(*truth, double(hits[i]->t), d), 5e-6)
+            << "seed " << kHitSeed << ", ray " << i;
+    }
+    EXPECT_GT(compared, 20);
 }
 
 }  // namespace

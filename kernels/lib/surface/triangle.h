@@ -66,11 +66,12 @@ static inline ShearedCorner shear_corner(global const float* restrict triangles,
     return corner;
 }
 
-/// The edge function of a and b; exactly the negative of that of b and a.
+/// The edge function of a and b, within 1.5 of its own units in the last place, so that its sign is
+/// right (Kahan's difference of products: Jeannerod, Louvet and Muller 2013).
 static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
-    const lane_float left = a.x * b.y;
     const lane_float right = a.y * b.x;
-    return left - right;
+    const lane_float rounded = fma(-a.y, b.x, right);
+    return fma(a.x, b.y, -right) + rounded;
 }
 
 /// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_min, or at it

@@ -7,15 +7,32 @@
 #include "shared/instance.h"
 #include "shared/scene.h"
 
-/// Surface points of instances, moved along `normal` (a unit vector in metric space, on the side
-/// that rays leave to) so that they lie on that side in the instance's own voxels, too. Points of
-/// the world's surfaces stay where they are.
+/// How far, in voxels along a unit vector of metric space, points of the world's triangles lie off
+/// them at most: they are right within plane_bound along each axis.
+static inline float rounding_of_points(PyramidShape shape) {
+    const float4 e = shape.edge;
+    const float uneven = fmax(e.x, fmax(e.y, e.z)) / fmin(e.x, fmin(e.y, e.z));
+    return 1.7320508f * uneven * shape.plane_bound;
+}
+
+/// Surface points moved along `normal` (a unit vector in metric space, on the side that rays leave
+/// to) by what rounding may have put them behind the surface. Those of instances lie on that side in
+/// the instance's own voxels then, too, and those of the world's triangles on that of neighbours in
+/// the same plane. Points of cubes, fields and solids of the world stay where they are.
 static inline Vector offset_origin(PyramidShape shape, Vector position, Vector normal,
                                    global const uint* restrict hits, uint stride, uint first) {
-    if (!VXL_INSTANCES) return position;
-    const lane_uint instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
-    const lane_float by = LANES_SELECT(LANE_MASK(instance != VXL_NO_INSTANCE),
-                                       (lane_float)shape.origin_offset, (lane_float)0.0f);
+    if (!(VXL_INSTANCES | VXL_TRIANGLES)) return position;
+    lane_float by = (lane_float)0.0f;
+    if (VXL_TRIANGLES) {
+        const lane_uint primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+        by = LANES_SELECT(LANE_MASK((primitive >> 30) == 0u), (lane_float)rounding_of_points(shape),
+                          by);
+    }
+    if (VXL_INSTANCES) {
+        const lane_uint instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
+        by = LANES_SELECT(LANE_MASK(instance != VXL_NO_INSTANCE), (lane_float)shape.origin_offset,
+                          by);
+    }
     const Vector result = {fma(normal.x, by, position.x), fma(normal.y, by, position.y),
                            fma(normal.z, by, position.z)};
     return result;
