@@ -29,9 +29,18 @@ uint64_t count(double estimate) {
     return uint64_t(std::llround(estimate));
 }
 
+/// The edges of voxels in metres: one number where they are equal.
+std::string edges_text(const std::array<double, 3>& size) {
+    const bool is_cube = size[0] == size[1] && size[1] == size[2];
+    return is_cube ? fmt::format("{:.4g}", size[0])
+                   : fmt::format("{:.4g}x{:.4g}x{:.4g}", size[0], size[1], size[2]);
+}
+
 Report grid_row(const GridPlan& grid) {
     Report row = {{"grid", grid.name},
                   {"voxels", fmt::format("{}", fmt::join(grid.size, "x"))},
+                  {"edge", edges_text(grid.voxel_size)},
+                  {"instances", grid.instances},
                   {"triangles", nullptr},
                   {"surface voxels", count(grid.surface_voxels)},
                   {"bricks", count(grid.bricks)},

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "runtime/analysis/culling.hpp"
@@ -17,6 +18,7 @@
 #include "runtime/api/warning.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/memory/image_bands.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
@@ -29,6 +31,12 @@ std::vector<int> frames_of(const Scene& scene, const std::vector<int>& frames) {
     return all;
 }
 
+size_t instances_of(const Scene& scene, int model) {
+    return size_t(std::ranges::count_if(scene.objects, [&](const Object& object) {
+        return object.model == model && is_instanced(scene, object);
+    }));
+}
+
 v1::GridPlan grid_for_callers(const Scene& scene, const GridPlan& grid) {
     const std::string& name = grid.object < 0 ? scene.models[size_t(grid.model)].name
                                               : scene.objects[size_t(grid.object)].name;
@@ -38,7 +46,9 @@ v1::GridPlan grid_for_callers(const Scene& scene, const GridPlan& grid) {
             grid.voxels,
             grid.bricks,
             grid.made_bytes,
-            grid.kept_bytes};
+            grid.kept_bytes,
+            api::array_of(grid.frame.voxel_edge),
+            grid.object < 0 ? instances_of(scene, grid.model) : 0};
 }
 
 /// Why the frame doesn't fit, where it doesn't.
@@ -76,7 +86,8 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
                             plan.voxels,
                             plan.bricks,
                             plan.index_bytes,
-                            plan.world_bytes});
+                            plan.world_bytes,
+                            api::array_of(planned.scene.world.voxel_size)});
     result.largest_buffer_bytes = largest.bytes;
     result.host_bytes = plan.host_bytes;
     for (const Model& model : planned.scene.models)

@@ -26,6 +26,28 @@ void check_lattice(const Object& object, const Model& model, const glm::ivec3& s
                 kLatticeReach);
 }
 
+/// Refuses a mesh some of whose vertices are surely too far from the lattice: each side of its box
+/// holds one.
+void check_reach(const Object& object, const Bounds& box, const GridFrame& frame) {
+    for (int side = 0; side < 6; ++side) {
+        glm::dvec3 low(INFINITY), high(-INFINITY);
+        for (int i = 0; i < 8; ++i) {
+            if ((i >> side / 2 & 1) != side % 2) continue;
+            const glm::dvec3 p(object.world_from_object * glm::dvec4(corner(box, i), 1));
+            const glm::dvec3 voxels = (p - frame.origin) / frame.voxel_edge;
+            low = glm::min(low, voxels), high = glm::max(high, voxels);
+        }
+        const glm::dvec3 nearest = glm::max(low, -high);
+        const double farthest = std::max({nearest.x, nearest.y, nearest.z});
+        if (farthest > kLatticeReach)
+            throw Error(ErrorKind::limit,
+                        "{}: the mesh reaches {:.0f} voxels from the world, more than {}: if its "
+                        "lengths aren't metres, say its model's \"unit\", or give the world a "
+                        "larger \"voxel_size\"",
+                        object.where, farthest, kLatticeReach);
+    }
+}
+
 /// The voxels that rays must see of a grid, and the primitives that these list.
 WorldCounts indexed_counts(const GridCounts& grid) {
     return {grid.bricks, grid.voxels, grid.listed};
@@ -80,7 +102,10 @@ SharedGrid CountedGrids::world_grid(const Object& object, const Model& model,
                                     const ObjectLattice& lattice) {
     if (has_own_voxels(model)) return own_grid(object, model);
     if (lattice.lattice != Lattice::world) return model_grid(object, model, lattice.frame);
-    if (!model.solid) check_lattice(object, model, lattice.frame.size);
+    if (!model.solid) {
+        check_lattice(object, model, lattice.frame.size);
+        check_reach(object, meshes_.summary_of(model)->surface, lattice.frame);
+    }
     return make({.model = object.model,
                  .object = int(&object - scene_.objects.data()),
                  .is_thin_part = model.is_thin_part,

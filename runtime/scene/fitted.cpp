@@ -89,6 +89,19 @@ std::string world_text(const Scene& scene) {
     return fmt::format("\"world\": {{{}}}\n", fmt::join(members, ", "));
 }
 
+/// Where a fitted pyramid begins: at the world's nearest corner, along the observer's view, or at
+/// the observer if that corner isn't ahead. Volumetric images then hold little empty space.
+double fitted_near(const World& world, const Observer& observer) {
+    const Bounds bounds = lattice_bounds(world);
+    double nearest = INFINITY;
+    for (int i = 0; i < 8; ++i)
+        nearest = std::min(nearest, glm::dot(observer.world_from_observer[2],
+                                             corner(bounds, i) - observer.position));
+    if (!(nearest > 0)) return 0;
+    const double step = last_digit(nearest, 3);
+    return decimal(std::floor(nearest / step) * step);
+}
+
 }  // namespace
 
 void count_voxels(World& world) {
@@ -152,6 +165,7 @@ void frame_observer(Scene& scene) {
     place_observer(parameters, refused, observer);
 
     setting.world_end = distance_to_farthest_corner(scene.world, observer.position);
+    parameters.display.near = fitted_near(scene.world, observer);
     display.voxels = observer.display.voxels;
     shape.measure(parameters.display, setting, refused, display);
     observer.display = display;
@@ -176,8 +190,9 @@ std::string fitted_text(const Scene& scene) {
     if (scene.fitted.observer)
         text += fmt::format(
             "\"observer\": {{\"position\": {}, \"look_at\": {}, "
-            "\"display\": {{\"shape\": \"pyramid\", \"angle\": 40}}}}\n",
-            list_text(scene.observer.position), list_text(scene.fitted.look_at));
+            "\"display\": {{\"shape\": \"pyramid\", \"angle\": 40, \"near\": {}}}}}\n",
+            list_text(scene.observer.position), list_text(scene.fitted.look_at),
+            scene.observer.display.near);
     if (scene.has_default_light)
         text += fmt::format("\"lights\": [{{\"type\": \"directional\", \"direction\": {}}}]\n",
                             list_text(scene.fitted.light));

@@ -40,8 +40,8 @@ void fit_lattice(const Bounds& objects, World& world);
 void count_voxels(World& world);
 
 /// Lets a scene's observer show the whole of `fitted.shown` in an image of the scene's size:
-/// through a pyramid of 40 degrees, from the right of the front and from above. The display's
-/// voxels are kept. Values are rounded to a few digits, as `fitted_text` has them.
+/// through a pyramid of 40 degrees, from the right of the front and from above, that begins where the
+/// world does. The display's voxels are kept. Values are rounded to a few digits, as `fitted_text` has them.
 void frame_observer(Scene& scene);
 
 /// Lets the scene's only light come from over the observer's left shoulder.

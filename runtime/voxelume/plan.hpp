@@ -38,6 +38,8 @@ struct GridPlan {
     double bricks = 0;                    ///< of 16 x 16 x 16 voxels, with a surface in them
     double made_bytes = 0;                ///< of the device, while it is made
     double kept_bytes = 0;                ///< of the device, afterwards
+    std::array<double, 3> voxel_size{};   ///< metres, in the space of the model or the world
+    size_t instances = 0;                 ///< objects that show it as instances
 };
 
 /// The maximum memory of the device during a stage, with what earlier stages leave there.

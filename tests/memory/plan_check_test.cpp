@@ -115,6 +115,20 @@ TEST_F(PlanCheck, AnExactMeshInAWorldBeyondItsLatticeIsToBeAnInstance) {
                        HasSubstr("\"placement\": \"instance\"")));
 }
 
+TEST_F(PlanCheck, AMeshThatReachesTooFarIsRefusedAsVoxelizingDoes) {
+    write_obj(folder / "ring.obj", wavy_ring(30, 20));
+    for (const bool is_far : {false, true}) {
+        Scene scene = scene_of(R"({"mesh": "ring.obj", "surface": "exact"})", 0.05);
+        scene.objects[0].world_from_object *= glm::dmat4(glm::dmat3(is_far ? 5000.0 : 500.0));
+        if (!is_far) {
+            EXPECT_NO_THROW(plan_of(scene));
+            continue;
+        }
+        EXPECT_THAT(error_of([&] { plan_of(scene); }).what(),
+                    testing::AllOf(HasSubstr("objects[0]: the mesh reaches"), HasSubstr("unit")));
+    }
+}
+
 TEST(BytesText, HasAboutThreeDigits) {
     EXPECT_EQ(bytes_text(1234), "1.2 kB");
     EXPECT_EQ(bytes_text(31.25e6), "31.2 MB");
