@@ -37,10 +37,9 @@ double largest_edge(const glm::dvec3& v) {
 
 /// Whether a model's shape may change from frame to frame.
 bool changes(const Scene& scene, size_t number) {
-    return scene.models[number].morph ||
-           (moves(scene) && std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
-                return part.part == ScenePart::model && part.place == number;
-            }));
+    return scene.models[number].morph || any_part_changes(scene, [&](const MovingPart& part) {
+               return part.part == ScenePart::model && part.place == number;
+           });
 }
 
 /// The box around an object's surface in the world.

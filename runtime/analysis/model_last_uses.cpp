@@ -11,9 +11,9 @@ namespace {
 
 /// True if any object may change by more than its position.
 bool objects_change(const Scene& scene) {
-    return moves(scene) && std::ranges::any_of(scene.motion->parts, [](const MovingPart& part) {
-               return part.part == ScenePart::object && !part.only_placed;
-           });
+    return any_part_changes(scene, [](const MovingPart& part) {
+        return part.part == ScenePart::object && !part.only_placed;
+    });
 }
 
 }  // namespace

@@ -45,12 +45,12 @@ bool is_plain(const Scene& scene, const Object& object) {
 
 /// True if the model, one of its objects or a material may change from frame to frame.
 bool may_change(const Scene& scene, size_t number) {
-    return moves(scene) && std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
-               return part.part == ScenePart::material ||
-                      (part.part == ScenePart::model && part.place == number) ||
-                      (part.part == ScenePart::object &&
-                       size_t(scene.objects[part.place].model) == number);
-           });
+    return any_part_changes(scene, [&](const MovingPart& part) {
+        return part.part == ScenePart::material ||
+               (part.part == ScenePart::model && part.place == number) ||
+               (part.part == ScenePart::object &&
+                size_t(scene.objects[part.place].model) == number);
+    });
 }
 
 /// True if all of an object's mesh lies in the world.

@@ -125,13 +125,14 @@ std::string bytes_of(const MeshShape& shape) {
     const MeshCreases& creases = shape.creases;
     const MeshThickness& thickness = shape.thickness;
     return cbor_of({creases.length, creases.round_width, creases.round_length, thickness.body,
-                    thickness.part, thickness.hint});
+                    thickness.part, thickness.hint, thickness.sheet});
 }
 
 std::optional<MeshShape> shape_of_bytes(const std::string& bytes) {
     return value_of<MeshShape>(bytes, [](const nlohmann::json& json) {
         const auto number = [&](size_t i) { return json.at(i).get<double>(); };
-        return MeshShape{{number(0), number(1), number(2)}, {number(3), number(4), number(5)}};
+        return MeshShape{{number(0), number(1), number(2)},
+                         {number(3), number(4), number(5), number(6)}};
     });
 }
 

@@ -70,6 +70,9 @@ struct Crossing {
 /// Two faces look away from each other if the cosine between their normals is below this.
 constexpr float kAway = -0.5f;
 
+/// They are the two sides of a sheet below this.
+constexpr float kSheet = -0.94f;
+
 /// Some rows of the lines along one axis.
 class AxisLines {
   public:
@@ -121,9 +124,11 @@ class AxisLines {
             for (; i < crossings_.size() && crossings_[i].line == line; ++i) {
                 const Crossing& crossing = crossings_[i];
                 if (crossing.normal < 0 && depth++ == 0) entry = &crossing;
-                if (crossing.normal > 0 && --depth == 0 && entry && entry->turns_here)
+                if (crossing.normal > 0 && --depth == 0 && entry && entry->turns_here) {
+                    const float cosine = glm::dot(entry->face, crossing.face);
                     add({at(*entry), at(crossing), (crossing.at - entry->at) * -entry->normal,
-                         square / -entry->normal, glm::dot(entry->face, crossing.face) < kAway});
+                         square / -entry->normal, cosine < kAway, cosine < kSheet});
+                }
             }
         }
     }

@@ -16,7 +16,8 @@ struct Chord {
     double thickness;        ///< metres: its length times the cosine at its entry
     double area;             ///< square metres of the entry's face that it stands for
     bool is_between_walls =
-        false;  ///< the faces at both ends look away from each other, to 60 degrees
+        false;                 ///< the faces at both ends look away from each other, to 60 degrees
+    bool is_in_sheet = false;  ///< the same to 20 degrees: beside a sharp edge they don't
 };
 
 /// Gives `add` the chords of lines along x, then y, then z: regular lattices that divide each side

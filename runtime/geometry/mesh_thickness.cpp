@@ -31,20 +31,21 @@ double quantile(std::vector<Thickness>& chords, double area) {
 }  // namespace
 
 MeshThickness thickness_of(const Mesh& mesh) {
-    std::vector<Thickness> chords, of_walls;
+    std::vector<Thickness> chords, of_walls, of_sheets;
     double area = 0;
     const bool has_inside = for_each_chord(mesh, glm::ivec3(kLines), [&](const Chord& chord) {
         chords.push_back({chord.thickness, chord.area});
         if (chord.is_between_walls) of_walls.push_back(chords.back());
+        if (chord.is_in_sheet) of_sheets.push_back(chords.back());
         area += chord.area;
     });
     if (!has_inside || chords.empty()) return {};
     return {quantile(chords, kThinShare * area), quantile(chords, kThinPartShare * area),
-            quantile(of_walls, kThinHintShare * area)};
+            quantile(of_walls, kThinHintShare * area), quantile(of_sheets, kThinPartShare * area)};
 }
 
 MeshThickness scaled(const MeshThickness& t, double scale) {
-    return {scale * t.body, scale * t.part, scale * t.hint};
+    return {scale * t.body, scale * t.part, scale * t.hint, scale * t.sheet};
 }
 
 }  // namespace voxelume

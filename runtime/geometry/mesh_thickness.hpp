@@ -12,9 +12,10 @@ inline constexpr double kThinShare = 0.02, kThinPartShare = 0.002, kThinHintShar
 
 /// Metres.
 struct MeshThickness {
-    double body = 0;  ///< what all but kThinShare of the area has behind it
-    double part = 0;  ///< what all but kThinPartShare has
-    double hint = 0;  ///< what all but kThinHintShare has, if only walls count; see Chord
+    double body = 0;   ///< what all but kThinShare of the area has behind it
+    double part = 0;   ///< what all but kThinPartShare has
+    double hint = 0;   ///< what all but kThinHintShare has, if only walls count; see Chord
+    double sheet = 0;  ///< what all but kThinPartShare has, if only sheets count
 };
 
 /// The thickness that a closed mesh's area has behind it. A

@@ -40,11 +40,12 @@ void check_reach(const Object& object, const Bounds& box, const GridFrame& frame
         const glm::dvec3 nearest = glm::max(low, -high);
         const double farthest = std::max({nearest.x, nearest.y, nearest.z});
         if (farthest > kLatticeReach)
-            throw Error(ErrorKind::limit,
-                        "{}: the mesh reaches {:.0f} voxels from the world, more than {}: if its "
-                        "lengths aren't metres, say its model's \"unit\", or give the world a "
-                        "larger \"voxel_size\"",
-                        object.where, farthest, kLatticeReach);
+            throw Error(
+                ErrorKind::limit,
+                "{}: the mesh reaches {:.0f} voxels from the world, more than {}: if that "
+                "is wrong, give its model another \"unit\" or the object another \"scale\"; "
+                "if not, give the world a larger \"voxel_size\"",
+                object.where, farthest, kLatticeReach);
     }
 }
 

@@ -2,6 +2,7 @@
 // What changes in a scene from frame to frame: its tracks and numbered files, part by part.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,6 +16,7 @@
 #include "runtime/scene/parts/scene_affine.hpp"
 #include "runtime/scene/parts/value_row.hpp"
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 
@@ -97,5 +99,10 @@ struct SceneMotion {
     std::string file;               ///< opens messages
     std::vector<MovingPart> parts;  ///< world, materials, models, objects, lights, observer
 };
+
+/// Whether some part that may change from frame to frame is one of `which`.
+bool any_part_changes(const Scene& scene, const auto& which) {
+    return moves(scene) && std::ranges::any_of(scene.motion->parts, which);
+}
 
 }  // namespace voxelume

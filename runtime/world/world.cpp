@@ -2,7 +2,6 @@
 #include "runtime/world/world.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "runtime/analysis/culling.hpp"
@@ -10,6 +9,7 @@
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/placed_objects.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/stopwatch.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
@@ -20,21 +20,6 @@
 
 namespace voxelume {
 namespace {
-
-/// Adds the time until `stop` to a sum of seconds.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-    void stop() {
-        seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
-        start_ = Clock::now();
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    double& seconds_;
-    Clock::time_point start_ = Clock::now();
-};
 
 /// Calls a part of building the world; its limit errors name the world's size.
 template <class Part>

@@ -41,8 +41,7 @@ bool is_placed(const Scene& scene, const Object& object) {
 /// environment and instances don't change the world's voxels, and materials only change which are
 /// seen inside.
 bool world_moves(const Scene& scene) {
-    if (!moves(scene)) return false;
-    return std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
+    return any_part_changes(scene, [&](const MovingPart& part) {
         if (part.part == ScenePart::object) return is_placed(scene, scene.objects[part.place]);
         return part.part == ScenePart::model &&
                std::ranges::any_of(scene.objects, [&](const Object& object) {

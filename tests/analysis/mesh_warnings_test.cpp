@@ -91,6 +91,24 @@ TEST_F(MeshWarnings, NameAThinPartOfAMesh) {
     EXPECT_THAT(kinds(), IsEmpty());
 }
 
+TEST_F(MeshWarnings, NameThinWallsOfAMeshWithSharpEdges) {
+    const auto show_cup = [&](double wall) {
+        show_mesh("cup.obj", turned_outline({{0, -0.3},
+                                             {0.3, -0.3},
+                                             {0.3, 0.3},
+                                             {0.3 - wall, 0.3},
+                                             {0.3 - wall, wall - 0.3},
+                                             {0, wall - 0.3}},
+                                            48));
+        json["models"]["ball"]["surface"] = "smooth";
+    };
+    show_cup(0.01);
+    EXPECT_THAT(kinds(), ElementsAre(Kind::thinner_than_voxel));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("voxels thick and get lost on \"smooth\""));
+    show_cup(0.15);
+    EXPECT_THAT(kinds(), IsEmpty());
+}
+
 TEST_F(MeshWarnings, NameAMeshThatIsInsideOut) {
     show_mesh("ball.obj", turned(ball({0, 0, 0}, 0.3, 32, 16)));
     EXPECT_THAT(kinds(), ElementsAre(Kind::inside_out_mesh));

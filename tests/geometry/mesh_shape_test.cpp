@@ -125,7 +125,7 @@ TEST(SurfaceFor, AMeshWithASmallHoleIsSmooth) {
 TEST(SurfaceFor, ThinDependsOnTheVoxels) {
     const Mesh ring = wavy_ring(80, 40);  // its tube is 0.28 to 0.4 thick
     expect_choice(ring, 0.02, Surface::smooth, "thick");
-    expect_choice(ring, 0.25, Surface::exact, "voxels thick");
+    expect_choice(ring, 0.25, Surface::exact, "within a voxel");
     const MeshSummary plate = summary_of(kPlate);
     MeshShape round_plate = shape_of(kPlate);
     round_plate.creases.length = 0;
@@ -228,6 +228,13 @@ TEST(RoundedEdges, AreSharpWhereVoxelsAreLargerThanTheyAre) {
             expect_choice(mesh, 0.01, Surface::exact, "turn by 40 degrees or more within");
             expect_choice(mesh, 0.005, Surface::smooth, "closed");
         }
+}
+
+// Of a tenth of the side, in voxels of a twelfth, as in a world that holds much else.
+TEST(RoundedEdges, AreSharpInCoarseVoxels) {
+    const Mesh mesh = rounded_box({1, 1, 1}, 0.1, 12);
+    expect_choice(mesh, 1 / 12.0, Surface::exact, "turn by 40 degrees or more within");
+    expect_choice(mesh, 1 / 24.0, Surface::smooth, "closed");
 }
 
 TEST(RoundedEdges, ScaleWithTheMesh) {

@@ -190,11 +190,14 @@ void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetS
     };
     const MeshSummary& mesh = *meshes.summary_of(model);
     if (is_open(mesh) || std::ranges::any_of(warnings, is_known)) return;
-    const double scale = smallest(placed.scale), voxel = field_voxel(scene, placed),
-                 part = meshes.thickness_of(model).part * scale;
+    const double scale = smallest(placed.scale), voxel = field_voxel(scene, placed);
+    const MeshThickness thickness = meshes.thickness_of(model);
+    if (thickness.part * scale >= kThinPartVoxels * voxel) return;
+    // Beside sharp edges little is behind the area, however thick the body is: sheets alone count.
+    const bool is_sharp = has_sharp_edges(mesh, meshes.shape_of(model), voxel / scale);
+    const double part = (is_sharp ? thickness.sheet : thickness.part) * scale;
     const bool has_inside = part > 0;
     if (!has_inside || part >= kThinPartVoxels * voxel) return;
-    if (has_sharp_edges(mesh, meshes.shape_of(model), voxel / scale)) return;
     add_once({WarningKind::thinner_than_voxel, model.where,
               fmt::format("parts of {} are less than {:.2g} voxels thick and get lost on "
                           "\"smooth\": leave \"surface\" out or give \"exact\", or use voxels "

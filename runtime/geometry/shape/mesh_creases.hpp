@@ -14,7 +14,7 @@ inline constexpr double kCreaseShare = 0.1;
 
 /// Rounded edges are looked for that turn sharply within this part of the longest side: in coarser
 /// voxels a mesh has no more shape than its box.
-inline constexpr double kRoundShare = 1.0 / 32;
+inline constexpr double kRoundShare = 1.0 / 8;
 
 /// The creases of a mesh, in metres.
 struct MeshCreases {

@@ -28,6 +28,12 @@ double area_of(const Mesh& mesh) {
     return sum;
 }
 
+/// "1 voxel", "0.25 voxels".
+std::string voxels_text(double count) {
+    const std::string number = fmt::format("{:.2g}", count);
+    return number + (number == "1" ? " voxel" : " voxels");
+}
+
 bool is_sharp(const MeshSummary& mesh, const MeshShape& shape) {
     return shape.creases.length > enough_creases(mesh.area.total);
 }
@@ -68,8 +74,8 @@ SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, doubl
                  part = shape.thickness.part / voxel_edge;
     if (thickness < kThinVoxels || part < kThinPartVoxels)
         return {Surface::exact,
-                fmt::format("parts of it are only {:.2g} voxels thick",
-                            thickness < kThinVoxels ? thickness : part),
+                fmt::format("parts of it are only {} thick",
+                            voxels_text(thickness < kThinVoxels ? thickness : part)),
                 true};
     return {Surface::smooth,
             fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",

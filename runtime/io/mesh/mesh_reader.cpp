@@ -3,6 +3,7 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 #include "runtime/base/huge_pages.hpp"
+#include "runtime/geometry/mesh_normals.hpp"
 #include "runtime/io/mesh/mesh_source.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 
@@ -68,6 +69,16 @@ std::string lower_extension(const fs::path& name) {
     return extension;
 }
 
+/// Normals that all have no direction are none: `auto` and shading then follow the faces.
+void leave_out_normals_of_no_use(Mesh& mesh) {
+    const auto has_direction = [](const glm::vec3& n) {
+        return unit_or_zero(glm::dvec3(n)) != glm::dvec3(0);
+    };
+    if (std::ranges::any_of(mesh.normals, has_direction)) return;
+    mesh.normals = {};
+    mesh.triangle_normals = {};
+}
+
 /// One format. A new format is a row of kFormats and the functions that it names, which lie in a
 /// file of their own.
 struct MeshFormat {
@@ -103,6 +114,7 @@ Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
     try {
         if (const MeshFormat* format = format_of(bytes, extension)) {
             Mesh mesh = format->parse(source);
+            leave_out_normals_of_no_use(mesh);
             read_textures(name, mesh);
             return mesh;
         }

@@ -30,7 +30,7 @@ glm::ivec3 snap(const glm::dvec3& voxels, size_t vertex) {
         if (std::abs(voxels[a]) > kLatticeReach)
             throw Error(ErrorKind::limit,
                         "vertex {} of the mesh is {:.0f} voxels from the grid's origin, more than "
-                        "{}: if its lengths aren't metres, say its model's \"unit\", or use larger "
+                        "{}: if that is wrong, give its model another \"unit\"; if not, use larger "
                         "voxels",
                         vertex, std::abs(voxels[a]), kLatticeReach);
         snapped[a] = static_cast<int>(std::nearbyint(voxels[a] * kLatticePerVoxel));

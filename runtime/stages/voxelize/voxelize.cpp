@@ -247,16 +247,15 @@ GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margi
 GridFrame frame_around(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& voxel_edge,
                        int margin) {
     const glm::dvec3 size = glm::ceil((high - low) / voxel_edge);
-    for (int a = 0; a < 3; ++a)
-        if (!(size[a] + 2 * margin <= kLatticeReach))
-            throw Error(
-                ErrorKind::limit,
-                "the mesh is {:.4g} m long: if its lengths aren't metres, say its \"unit\"; if "
-                "they "
-                "are, use voxels of at least {:.2g} m, as it would have {:.5g} of {:.4g} m, and at "
-                "most {} are possible",
-                high[a] - low[a], 1.05 * (high[a] - low[a]) / (kLatticeReach - 2 * margin), size[a],
-                voxel_edge[a], kLatticeReach - 2 * margin);
+    const int a = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    if (!(size[a] + 2 * margin <= kLatticeReach))
+        throw Error(
+            ErrorKind::limit,
+            "the mesh is {:.4g} m long: if that is wrong, give its model another \"unit\"; if not, "
+            "use voxels of at least {:.2g} m, as it would have {:.5g} of {:.4g} m, and at most {} "
+            "are possible",
+            high[a] - low[a], 1.05 * (high[a] - low[a]) / (kLatticeReach - 2 * margin), size[a],
+            voxel_edge[a], kLatticeReach - 2 * margin);
     GridFrame frame;
     frame.voxel_edge = voxel_edge;
     frame.size = glm::max(glm::ivec3(size), glm::ivec3(1)) + 2 * margin;

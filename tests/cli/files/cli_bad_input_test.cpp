@@ -105,9 +105,10 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
 
 TEST_F(CliBadInputTest, ModelsWithMoreVoxelsThanCanBeNumberedAreRefused) {
     write_mesh_scene("long.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_THAT(expect_render_failure(8),
-                HasSubstr("models.thing: the mesh is 1e+30 m long: if its lengths aren't metres, "
-                          "say its \"unit\"; if they are, use voxels of at least "));
+    EXPECT_THAT(
+        expect_render_failure(8),
+        HasSubstr("models.thing: the mesh is 1e+30 m long: if that is wrong, give its model "
+                  "another \"unit\"; if not, use voxels of at least "));
 }
 
 TEST_F(CliBadInputTest, ExactMeshesThatAreFarTooLargeAreRefusedWithTheirUnit) {
@@ -116,8 +117,7 @@ TEST_F(CliBadInputTest, ExactMeshesThatAreFarTooLargeAreRefusedWithTheirUnit) {
     scene["models"]["thing"]["surface"] = "exact";
     put_bytes(folder / "scene.json", scene.dump(1));
     EXPECT_THAT(expect_render_failure(8),
-                HasSubstr("more than 16384: if its lengths aren't metres, say its model's "
-                          "\"unit\", or use larger voxels"));
+                HasSubstr("more than 16384: if that is wrong, give its model another \"unit\""));
 }
 
 TEST_F(CliBadInputTest, OutputsThatCantBeWrittenAreSaidBeforeTheWork) {

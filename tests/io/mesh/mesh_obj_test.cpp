@@ -114,8 +114,11 @@ TEST(MeshObj, NormalsFollowTheCornersOfAConcaveFace) {
 
 TEST(MeshObj, NormalsThatAreNoneAreNoMistake) {
     const std::string v = kObjVertices;
-    const Mesh mesh = parse_mesh(v + "vn nan 0 0\nvn 1\nvn 1e99 0 0\nf 1//1 2//2 3//3\n", "a.obj");
-    EXPECT_THAT(mesh.normals, ElementsAre(vec3(0), vec3(0), vec3(0)));
+    const std::string none = v + "vn nan 0 0\nvn 1\nvn 1e99 0 0\n", face = "f 1//1 2//2 3//3\n";
+    EXPECT_THAT(parse_mesh(none + "vn 0 0 2\n" + face, "a.obj").normals,
+                ElementsAre(vec3(0), vec3(0), vec3(0), vec3(0, 0, 2)));
+    EXPECT_THAT(parse_mesh(none + face, "a.obj").normals, IsEmpty());
+    EXPECT_THAT(parse_mesh(none + face, "a.obj").triangle_normals, IsEmpty());
     EXPECT_THAT(parse_mesh(v + "vn 0 0 1\nf 1 2 3\n", "a.obj").normals, IsEmpty());
     EXPECT_THAT(parse_mesh(v + "f 1//1 2//1 3//1\n", "a.obj").triangle_normals, IsEmpty());
 }
