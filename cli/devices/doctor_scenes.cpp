@@ -215,12 +215,12 @@ std::vector<KnownFile> known_files() {
 
 std::vector<KnownPicture> known_pictures() {
     return {
-        {"matt", kMatt, false, "567757ad1547fd83"},
+        {"matt", kMatt, false, "a8c66176c2b60964"},
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
          false, "3e964a51b23e2189"},
-        {"meshes", kMeshes, false, "8e9da91ecd66f2aa"},
+        {"meshes", kMeshes, false, "9bc19e96b72b2350"},
         {"mixed meshes", kMixed, false, "791a11d119da55c7"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
         {"display of rays", lattice("veil", "rays", "observer", ""), true, "d1e45f18131b8882"},

@@ -16,6 +16,7 @@
 #include "runtime/api/border/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
+#include "runtime/assets/model_frame.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/memory/image_bands.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -33,7 +34,8 @@ std::vector<int> frames_of(const Scene& scene, const std::vector<int>& frames) {
 
 size_t instances_of(const Scene& scene, int model) {
     return size_t(std::ranges::count_if(scene.objects, [&](const Object& object) {
-        return object.model == model && is_instanced(scene, object);
+        return object.model == model && is_potentially_visible(scene, object) &&
+               is_instanced(scene, object);
     }));
 }
 

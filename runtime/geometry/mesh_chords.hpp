@@ -17,7 +17,7 @@ struct Chord {
     double area;             ///< square metres of the entry's face that it stands for
     bool is_between_walls =
         false;                 ///< the faces at both ends look away from each other, to 60 degrees
-    bool is_in_sheet = false;  ///< the same to 20 degrees: beside a sharp edge they don't
+    bool is_in_sheet = false;  ///< the same to 6 degrees: beside most sharp edges they don't
 };
 
 /// Gives `add` the chords of lines along x, then y, then z: regular lattices that divide each side

@@ -89,19 +89,6 @@ std::string world_text(const Scene& scene) {
     return fmt::format("\"world\": {{{}}}\n", fmt::join(members, ", "));
 }
 
-/// Where a fitted pyramid begins: at the world's nearest corner, along the observer's view, or at
-/// the observer if that corner isn't ahead. Volumetric images then hold little empty space.
-double fitted_near(const World& world, const Observer& observer) {
-    const Bounds bounds = lattice_bounds(world);
-    double nearest = INFINITY;
-    for (int i = 0; i < 8; ++i)
-        nearest = std::min(nearest, glm::dot(observer.world_from_observer[2],
-                                             corner(bounds, i) - observer.position));
-    if (!(nearest > 0)) return 0;
-    const double step = last_digit(nearest, 3);
-    return decimal(std::floor(nearest / step) * step);
-}
-
 }  // namespace
 
 void count_voxels(World& world) {
@@ -143,6 +130,16 @@ void fit_lattice(const Bounds& objects, World& world) {
     count_voxels(world);
 }
 
+double fitted_near(const World& world, const glm::dvec3& position, const glm::dvec3& view) {
+    const Bounds bounds = lattice_bounds(world);
+    double nearest = INFINITY;
+    for (int i = 0; i < 8; ++i)
+        nearest = std::min(nearest, glm::dot(view, corner(bounds, i) - position));
+    if (!(nearest > 0)) return 0;
+    const double step = last_digit(nearest, 3);
+    return decimal(std::floor(nearest / step) * step);
+}
+
 void frame_observer(Scene& scene) {
     const Refuse refused = [&](std::string_view, const std::string& sentence) {
         refuse(scene.world, "no observer can be fitted: " + sentence);
@@ -165,7 +162,8 @@ void frame_observer(Scene& scene) {
     place_observer(parameters, refused, observer);
 
     setting.world_end = distance_to_farthest_corner(scene.world, observer.position);
-    parameters.display.near = fitted_near(scene.world, observer);
+    parameters.display.near =
+        fitted_near(scene.world, observer.position, observer.world_from_observer[2]);
     display.voxels = observer.display.voxels;
     shape.measure(parameters.display, setting, refused, display);
     observer.display = display;

@@ -39,9 +39,15 @@ void fit_lattice(const Bounds& objects, World& world);
 /// Sets `voxels` to as many as cover the bounds. Throws Error::limit where those are too many.
 void count_voxels(World& world);
 
+/// Where a fitted pyramid begins, in metres along the observer's view: at the world's nearest
+/// corner, rounded down to three digits, or 0 if that isn't ahead. Nothing that is seen lies before
+/// it, and volumetric images hold little empty space.
+double fitted_near(const World& world, const glm::dvec3& position, const glm::dvec3& view);
+
 /// Lets a scene's observer show the whole of `fitted.shown` in an image of the scene's size:
-/// through a pyramid of 40 degrees, from the right of the front and from above, that begins where the
-/// world does. The display's voxels are kept. Values are rounded to a few digits, as `fitted_text` has them.
+/// through a pyramid of 40 degrees, from the right of the front and from above, that begins at
+/// fitted_near(). The display's voxels are kept. Values are rounded to a few digits, as
+/// `fitted_text` has them.
 void frame_observer(Scene& scene);
 
 /// Lets the scene's only light come from over the observer's left shoulder.

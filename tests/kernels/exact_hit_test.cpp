@@ -232,8 +232,8 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
 }
 
 // Of triangles 12 voxels long and 1/100 wide, whose areas are small beside the products that they
-// are the differences of. The largest error of 94 rays was 2.1e-6 voxel; where these products were
-// rounded it was 1.1e-4.
+// are the differences of. The largest error of the first 94 such rays was 2.1e-6 voxel; where these
+// products were rounded it was 1.1e-4.
 TEST(ExactHit, OfSliversIsTheRationalOne) {
     const Mesh mesh = ball({21.3, 18.1, 14.2}, 12, 8000, 3);
     const FixedGrid grid = fixed_grid(kHitGrid);

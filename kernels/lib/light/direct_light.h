@@ -215,7 +215,11 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
         if (light.kind != VXL_LIGHT_DIRECTIONAL)
             incidence->to_light = difference(incidence->to_light, up);
     }
-    p->start = offset_origin(world->shape, p->start, p->normal, batch->hits, stride, first);
+    const Vector start =
+        offset_origin(world->shape, p->start, p->normal, batch->hits, stride, first);
+    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+        incidence->to_light = difference(incidence->to_light, difference(start, p->start));
+    p->start = start;
     return behind;
 }
 

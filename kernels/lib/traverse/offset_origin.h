@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The origins of rays that leave the surfaces of instances.
+// The origins of rays that leave the surfaces of instances, or triangles.
 #ifndef VXL_OFFSET_ORIGIN_H
 #define VXL_OFFSET_ORIGIN_H
 
@@ -16,14 +16,17 @@ static inline float rounding_of_points(PyramidShape shape) {
 }
 
 /// Surface points moved along `normal` (a unit vector in metric space, on the side that rays leave
-/// to) by what rounding may have put them behind the surface. Those of instances lie on that side in
-/// the instance's own voxels then, too, and those of the world's triangles on that of neighbours in
-/// the same plane. Points of cubes, fields and solids of the world stay where they are.
+/// to) by what rounding may have put them behind the surface. Those of instances lie on that side
+/// in the instance's own voxels then, too, and those of the world's triangles on that of neighbours
+/// in the same plane. In scenes with objects that let light through the latter stay where they are:
+/// beyond the back of a thin pane a ray would never leave it. So do points of cubes, fields and
+/// solids of the world.
 static inline Vector offset_origin(PyramidShape shape, Vector position, Vector normal,
                                    global const uint* restrict hits, uint stride, uint first) {
-    if (!(VXL_INSTANCES | VXL_TRIANGLES)) return position;
+    const bool moves_off_triangles = VXL_TRIANGLES && !VXL_TRANSMISSION;
+    if (!VXL_INSTANCES && !moves_off_triangles) return position;
     lane_float by = (lane_float)0.0f;
-    if (VXL_TRIANGLES) {
+    if (moves_off_triangles) {
         const lane_uint primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
         by = LANES_SELECT(LANE_MASK((primitive >> 30) == 0u), (lane_float)rounding_of_points(shape),
                           by);

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "runtime/base/error.hpp"
+#include "runtime/scene/fitted.hpp"
 #include "runtime/scene/parts/bounds.hpp"
 #include "runtime/scene/scene_motion.hpp"
 
@@ -57,15 +58,20 @@ glm::dvec3 middle_of(const JsonValue& observer, const Scene& scene) {
     return (world.min + world.max) / 2.0;
 }
 
+void put_number(JsonValue& object, const std::string& key, double number) {
+    JsonValue& value = member(object, key);
+    value.type = JsonType::number;
+    value.number = number;
+}
+
 /// What a fitted observer looks through, as `voxelume check` tells it.
-void add_fitted_display(JsonValue& observer) {
+void add_fitted_display(JsonValue& observer, double near) {
     JsonValue& display = member(observer, "display");
     JsonValue& shape = member(display, "shape");
     shape.type = JsonType::string;
     shape.text = "pyramid";
-    JsonValue& angle = member(display, "angle");
-    angle.type = JsonType::number;
-    angle.number = 40;
+    put_number(display, "angle", 40);
+    put_number(display, "near", near);
 }
 
 }  // namespace
@@ -75,11 +81,12 @@ JsonValue orbited(const JsonValue& document, const Scene& scene, double degrees)
     JsonValue changed = document;
     JsonValue& observer = member(changed, "observer");
     const glm::dvec3 middle = middle_of(observer, scene);
-    if (scene.fitted.observer) add_fitted_display(observer);
     const double angle = glm::radians(degrees), s = std::sin(angle), c = std::cos(angle);
     const glm::dmat3 turn(c, 0, -s, 0, 1, 0, s, 0, c);
     const glm::dmat3 axes = turn * scene.observer.world_from_observer;
     const glm::dvec3 position = middle + turn * (scene.observer.position - middle);
+    if (scene.fitted.observer)
+        add_fitted_display(observer, fitted_near(scene.world, position, axes[2]));
     std::erase_if(observer.members, [](const JsonMember& m) { return m.key == "turn"; });
     put_vector(observer, "position", position);
     put_vector(observer, "look_at", position + axes[2]);
