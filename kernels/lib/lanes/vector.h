@@ -51,4 +51,9 @@ static inline void store_vector(Vector v, global float* restrict p, uint stride,
     LANES_STORE(v.z, p, 2 * stride + first);
 }
 
+static inline Vector difference(Vector a, Vector b) {
+    const Vector result = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return result;
+}
+
 #endif

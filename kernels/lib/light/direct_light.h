@@ -215,6 +215,7 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
         if (light.kind != VXL_LIGHT_DIRECTIONAL)
             incidence->to_light = difference(incidence->to_light, up);
     }
+    if (!(VXL_INSTANCES | VXL_TRIANGLES)) return behind;
     const Vector start =
         offset_origin(world->shape, p->start, p->normal, batch->hits, stride, first);
     if (light.kind != VXL_LIGHT_DIRECTIONAL)

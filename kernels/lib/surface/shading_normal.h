@@ -26,11 +26,6 @@ static inline Vector triangle_corner(global const float* restrict triangles, lan
     return v;
 }
 
-static inline Vector difference(Vector a, Vector b) {
-    const Vector result = {a.x - b.x, a.y - b.y, a.z - b.z};
-    return result;
-}
-
 static inline Vector cross_of(Vector a, Vector b) {
     const Vector result = {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)),
                            fma(a.x, b.y, -(a.y * b.x))};
