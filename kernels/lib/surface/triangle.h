@@ -3,8 +3,8 @@
 //
 // The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and
 // the signs of three edge functions decide. Two triangles evaluate a shared edge to opposite
-// signs, so a ray cannot pass between them. Corners are taken from the ray's own origin, whatever voxel
-// lists them.
+// signs, so a ray cannot pass between them. Corners are taken from the ray's own origin, whatever
+// voxel lists them.
 #ifndef VXL_TRIANGLE_H
 #define VXL_TRIANGLE_H
 

@@ -23,8 +23,8 @@ static inline float rounding_of_points(PyramidShape shape) {
 /// solids of the world.
 static inline Vector offset_origin(PyramidShape shape, Vector position, Vector normal,
                                    global const uint* restrict hits, uint stride, uint first) {
-    const bool moves_off_triangles = VXL_TRIANGLES && !VXL_TRANSMISSION;
-    if (!VXL_INSTANCES && !moves_off_triangles) return position;
+    const int moves_off_triangles = VXL_TRIANGLES & !VXL_TRANSMISSION;
+    if (!(VXL_INSTANCES | moves_off_triangles)) return position;
     lane_float by = (lane_float)0.0f;
     if (moves_off_triangles) {
         const lane_uint primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
