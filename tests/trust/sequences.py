@@ -61,6 +61,7 @@ def main():
             if (done := len(os.listdir(folder / "out"))) != options.frames:
                 faults.append(f"{done} files for {options.frames} frames")
             tally.add(f"{options.frames} frames, run {number}, {' '.join(words)}", faults)
+            print(f"run {number}: {done} frames, {len(faults)} faults", flush=True)
             for file in (folder / "out").iterdir():
                 file.unlink()
     return tally.end(f" of {options.frames} frames each") > 0
