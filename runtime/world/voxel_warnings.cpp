@@ -5,7 +5,7 @@
 
 #include <glm/vector_relational.hpp>
 
-#include "runtime/analysis/warnings/object_warnings.hpp"
+#include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/memory/plan.hpp"
 
 namespace voxelume {

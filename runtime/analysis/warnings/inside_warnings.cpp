@@ -9,7 +9,7 @@
 #include <glm/vector_relational.hpp>
 #include <optional>
 
-#include "runtime/analysis/warnings/object_warnings.hpp"
+#include "runtime/analysis/warnings/warned_object.hpp"
 #include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/geometry/solid/solid_inside.hpp"
 #include "runtime/scene/predicates.hpp"

@@ -2,7 +2,6 @@
 // object -> whether it is in the world, and of a size that its voxels and the world's can show
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "runtime/assets/asset_store.hpp"
@@ -15,8 +14,5 @@ namespace voxelume {
 /// is outside of the world, or whose unit is unlikely, has no other warning.
 void add_object_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
                          std::vector<Warning>& warnings);
-
-/// How sentences name an object: by its name in quotes, or as "the object" if it has none.
-std::string title_of(const Object& object);
 
 }  // namespace voxelume

@@ -7,6 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <optional>
 
+#include "runtime/base/text.hpp"
 #include "runtime/geometry/solid/solid_bounds.hpp"
 #include "runtime/scene/predicates.hpp"
 
@@ -65,6 +66,11 @@ PlacedModel placed(const Scene& scene, const Object& object, AssetStore& meshes)
     }
     result.voxel = own_voxel(model, result.own, meshes) * result.scale;
     return result;
+}
+
+std::string title_of(const Object& object) {
+    return object.name.empty() || object.name.starts_with("objects[") ? "the object"
+                                                                      : quote(object.name);
 }
 
 }  // namespace voxelume

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/vec3.hpp>
+#include <string>
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/scene/scene.hpp"
@@ -16,6 +17,10 @@ inline double largest(const glm::dvec3& v) {
 inline double smallest(const glm::dvec3& v) {
     return std::min({v.x, v.y, v.z});
 }
+
+/// How far rounding may take sizes that are meant to be equal apart, as a share of them: turned
+/// maps and a "resolution" round theirs.
+inline constexpr double kSizeRounding = 1e-9;
 
 /// Lengths are metres.
 struct PlacedModel {
@@ -31,5 +36,8 @@ struct PlacedModel {
 
 /// Throws as AssetStore does.
 PlacedModel placed(const Scene& scene, const Object& object, AssetStore& meshes);
+
+/// How sentences name an object: by its name in quotes, or as "the object" if it has none.
+std::string title_of(const Object& object);
 
 }  // namespace voxelume
