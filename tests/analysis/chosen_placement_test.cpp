@@ -9,13 +9,14 @@ namespace {
 
 using PlacementChoices = ChosenScene;
 
-/// The placement that `auto` gives the first of `count` objects of the model.
+/// Whether `auto` makes the first object an instance.
 bool placed_as_instance(Scene scene) {
     AssetStore meshes;
     make_choices(scene, meshes);
     return is_instanced(scene, scene.objects[0]);
 }
 
+/// The same of the first of `count` objects of the model.
 bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
     scene.materials.push_back(material);
     scene.objects[0].material = int(scene.materials.size()) - 1;

@@ -230,7 +230,8 @@ TEST(RoundedEdges, AreSharpWhereVoxelsAreLargerThanTheyAre) {
         }
 }
 
-// Of a tenth of the side, in voxels of a twelfth, as in a world that holds much else.
+// The edges are rounded by a tenth of the side, and the voxels are a twelfth of it, as in a world
+// that holds much else.
 TEST(RoundedEdges, AreSharpInCoarseVoxels) {
     const Mesh mesh = rounded_box({1, 1, 1}, 0.1, 12);
     expect_choice(mesh, 1 / 12.0, Surface::exact, "turn by 40 degrees or more within");

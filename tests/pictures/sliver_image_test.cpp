@@ -67,6 +67,8 @@ std::vector<size_t> inner_pixels(const Image& a, const Image& b) {
     return pixels;
 }
 
+// The facets differ by 0.09 degrees from each other. The largest differences were 1.7e-6 m, a
+// fifty-thousandth of a voxel, and 2.1e-4.
 TEST_F(SliverImage, LiesWhereTheCylinderDoesAndIsLitLikeIt) {
     const char* const matt = R"("color": [0.5, 0.5, 0.5])";
     const Image truth = picture(kCylinder, "world", matt);
@@ -86,12 +88,15 @@ TEST_F(SliverImage, LiesWhereTheCylinderDoesAndIsLitLikeIt) {
     }
 }
 
+// A ray that met a neighbour, too, would bring less than half of the background.
 TEST_F(SliverImage, MirrorsNothingButTheBackground) {
-    const char* const mirror = R"("color": [0, 0, 0], "diffuse": 0, "reflection": 1)";
+    const char* const mirror = R"("color": [0, 0, 0], "diffuse": 0, "reflection": 0.5)";
     for (const char* const placement : {"world", "instance"}) {
         const Image image = picture(kPipe, placement, mirror);
-        for (const size_t pixel : inner_pixels(image, image))
-            ASSERT_EQ(image.planes.at("R")[pixel], 1.0f) << placement << ", pixel " << pixel;
+        const std::vector<size_t> pixels = inner_pixels(image, image);
+        ASSERT_GT(pixels.size(), 10000u);
+        for (const size_t pixel : pixels)
+            ASSERT_EQ(image.planes.at("R")[pixel], 0.5f) << placement << ", pixel " << pixel;
     }
 }
 

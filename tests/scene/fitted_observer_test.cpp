@@ -79,11 +79,7 @@ TEST(FittedObserver, LooksFromTheRightOfTheFrontAndFromAbove) {
     EXPECT_GT(from.z, from.x);
     EXPECT_NEAR(scene.observer.world_from_observer[0].y, 0, 1e-12) << "the horizon is level";
     EXPECT_EQ(scene.observer.display.voxels, glm::ivec3(640, 480, 256));
-    double nearest = INFINITY;
-    for (int i = 0; i < 8; ++i)
-        nearest = std::min(
-            nearest, glm::dot(scene.observer.world_from_observer[2],
-                              corner(lattice_bounds(scene.world), i) - scene.observer.position));
+    const double nearest = depth_of_nearest_corner(scene, scene.observer);
     EXPECT_LE(scene.observer.display.near, nearest) << "nothing is cut off";
     EXPECT_GT(scene.observer.display.near, 0.99 * nearest);
     const glm::dvec2 middle = place_in_image(scene.observer, {1, -2, 3});

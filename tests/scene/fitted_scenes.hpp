@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "runtime/base/error.hpp"
@@ -28,5 +31,15 @@ inline std::string message_about(const std::string& members) {
 inline constexpr const char* kBall =
     R"("models": {"ball": {"shape": "sphere", "radius": 0.5, "surface": "smooth"}},
 "objects": [{"name": "ball", "model": "ball", "position": [1, -2, 3]}])";
+
+/// How far ahead of the observer the world's nearest corner is, in metres.
+inline double depth_of_nearest_corner(const Scene& scene, const Observer& observer) {
+    const Bounds world = lattice_bounds(scene.world);
+    double nearest = INFINITY;
+    for (int i = 0; i < 8; ++i)
+        nearest = std::min(nearest, glm::dot(observer.world_from_observer[2],
+                                             corner(world, i) - observer.position));
+    return nearest;
+}
 
 }  // namespace voxelume

@@ -67,7 +67,8 @@ static inline ShearedCorner shear_corner(global const float* restrict triangles,
 }
 
 /// The edge function of a and b, within 1.5 of its own units in the last place, so that its sign is
-/// right (Kahan's difference of products: Jeannerod, Louvet and Muller 2013).
+/// right, unless products underflow (Kahan's difference of products: Jeannerod, Louvet and Muller
+/// 2013).
 static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
     const lane_float right = a.y * b.x;
     const lane_float rounded = fma(-a.y, b.x, right);
