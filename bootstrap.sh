@@ -17,6 +17,8 @@ Usage: ./bootstrap.sh COMMAND
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   coverage  run the tests with clang's counters and tell which share of the lines ran; half an hour
+  sanitize  run the tests with clang's sanitizers of addresses and undefined behaviour, or of threads:
+          sanitize thread; an hour
   trust   kill the program, break its disk, damage its files and tire it, for hours or for a share of
           them: trust 0.01
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
@@ -107,11 +109,16 @@ run_tests() {
     ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
 }
 
+# clang_build NAME OPTION...: build/NAME, configured for clang.
+clang_build() {
+    [ -f "build/$1/build.ninja" ] || CC=clang-14 CXX=clang++-14 cmake --preset release \
+        -B "build/$1" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 "${@:2}"
+}
+
 # run_fuzzers SECONDS: each reader with clang's sanitizers, from small valid files. What breaks one
 # is left in build/fuzz.
 run_fuzzers() {
-    [ -f build/fuzz/build.ninja ] || CC=clang CXX=clang++ cmake --preset release -B build/fuzz \
-        -DVXL_FUZZ=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+    clang_build fuzz -DVXL_FUZZ=ON
     ninja -C build/fuzz fuzzers
     build_targets voxelume
     tests/fuzz/make_seeds.py build/fuzz/seeds "$build/voxelume"
@@ -131,11 +138,17 @@ run_fuzzers() {
 
 # Compiled by clang, whose counters outlive processes that are killed.
 coverage() {
-    [ -f build/coverage/build.ninja ] || CC=clang-14 CXX=clang++-14 cmake --preset release \
-        -B build/coverage -DVXL_COVERAGE=ON -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DCMAKE_UNITY_BUILD=ON \
-        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+    clang_build coverage -DVXL_COVERAGE=ON -DCMAKE_CXX_FLAGS_RELEASE=-O1
     ninja -C build/coverage
     .ci/coverage build/coverage
+}
+
+# sanitize address | thread: -O1 and the lines alone, so that building takes minutes.
+sanitize() {
+    clang_build "sanitize-$1" -DVXL_SANITIZE="$1" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" \
+        -DVXL_FIRST_BUILD=ON
+    ninja -C "build/sanitize-$1"
+    .ci/sanitize "build/sanitize-$1" "$1"
 }
 
 # The version that CMakeLists.txt gives the project.
@@ -242,8 +255,9 @@ debian_package() {
 
 case "$*" in
     demo | build | test | 'test --slow' | 'test --all' | lint) install_packages packages.txt ;;
-    fuzz | 'fuzz '[1-9]*) install_packages packages.txt .ci/packages.txt ;;
-    coverage) install_packages packages.txt .ci/packages.txt ;;
+    fuzz | 'fuzz '[1-9]* | coverage | sanitize | 'sanitize thread')
+        install_packages packages.txt .ci/packages.txt
+        ;;
     trust | 'trust '[0-9]*) install_packages packages.txt ;;
     drivers) install_packages packages.txt .ci/driver_packages.txt ;;
     watch | 'watch --accept') install_packages packages.txt .ci/watch_packages.txt ;;
@@ -274,6 +288,7 @@ case "$1" in
     test) run_tests "${2:-}" ;;
     fuzz) run_fuzzers "${2:-60}" ;;
     coverage) coverage ;;
+    sanitize) sanitize "${2:-address}" ;;
     trust)
         build_targets voxelume write_faults
         tests/trust/all.py "$build/voxelume" "$build/tests/libwrite_faults.so" "${2:-1}"
