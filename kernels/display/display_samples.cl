@@ -124,9 +124,9 @@ static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint s
     for (uint i = 0; i < places; ++i)
         count += LANES_AS_UINT(place_on_plane(s, (lane_uint)i, log2, p)) & 1u;
     const Vector n = s->normal;
-    const lane_float most = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z));
+    const lane_float size = fmax(fmax(fabs(n.x), fabs(n.y)), fabs(n.z));
     *area = exact_divide(LANES_FLOAT(LANES_AS_INT(count)) * exact_sqrt(dot_product(n, n)),
-                         LANES_SELECT(LANE_MASK(most > 0.0f), most, (lane_float)1.0f));
+                         LANES_SELECT(LANE_MASK(size > 0.0f), size, (lane_float)1.0f));
     const lane_float in_order = ((float)sample + shift) * LANES_FLOAT(LANES_AS_INT(count)) *
                                 exact_quotient(1.0f, (float)samples);
     const lane_uint wanted =

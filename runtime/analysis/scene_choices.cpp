@@ -260,7 +260,7 @@ class LargestScales {
 /// many voxels as that, and exact meshes of many triangles have more. Cubes keep their size: large
 /// ones are a style.
 void size_instances(Scene& scene, AssetStore& meshes) {
-    const double most = longest(glm::dvec3(scene.world.voxels));
+    const double max_voxels = longest(glm::dvec3(scene.world.voxels));
     const LargestScales scales(scene);
     for (size_t number = 0; number < scene.models.size(); ++number) {
         Model& model = scene.models[number];
@@ -271,7 +271,7 @@ void size_instances(Scene& scene, AssetStore& meshes) {
             const glm::dvec3 sides = sides_of(model, meshes);
             for (int axis = 0; axis < 3; ++axis) {
                 const double world = model.voxel_size[axis];
-                const double edge = std::max(world / scale[axis], sides[axis] / most);
+                const double edge = std::max(world / scale[axis], sides[axis] / max_voxels);
                 model.voxel_size[axis] = std::min(edge, world);
             }
         }

@@ -33,7 +33,7 @@ struct FarLight {
     glm::dvec3 color;
     double irradiance;  ///< of a plane that faces it
     double spread;      ///< degrees
-    int spots;
+    int samples;
 };
 
 /// The cosine-weighted light that reaches a horizontal plane at `p`.
@@ -60,7 +60,7 @@ void add_light(const FarLight& far, const Bounds& box, Studio& studio, glm::dvec
     p.position = rounded(middle + distance * far.towards, 6);
     p.look_at = rounded(middle, 6);
     p.radius = rounded(distance * std::tan(glm::radians(far.spread)), 4);
-    p.light_samples = far.spots;
+    p.light_samples = far.samples;
     Light light;
     const Refuse refused = [](std::string_view, const std::string& sentence) {
         throw std::logic_error(sentence);  // the light is far from what it looks at
@@ -77,7 +77,7 @@ void add_light(const FarLight& far, const Bounds& box, Studio& studio, glm::dvec
         fmt::format("{{\"name\": \"{}\", \"type\": \"disk\", \"position\": {}, \"look_at\": {},\n"
                     "     \"radius\": {}, \"color\": {}, \"intensity\": {}, \"spots\": {}}}",
                     far.name, json_list(p.position), json_list(*p.look_at), p.radius,
-                    json_list(color), intensity, far.spots));
+                    json_list(color), intensity, far.samples));
 }
 
 /// The direction of a longitude and latitude in degrees.
@@ -183,13 +183,15 @@ Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ViewFr
     if (around.background) studio.background = *around.background;
     if (options.background) studio.background = *options.background;
     studio.background = rounded(studio.background, 4);
-    const double radius = ground_radius(box), most = max_radius(voxel_size);
+    const double radius = ground_radius(box), max_ground = max_radius(voxel_size);
     const bool has_ground =
         options.has_ground.value_or(around.has_ground && !options.is_transparent);
-    if (!has_ground || options.is_lattice || from.latitude < 0 || radius > most) return studio;
+    if (!has_ground || options.is_lattice || from.latitude < 0 || radius > max_ground)
+        return studio;
     const glm::dvec3 color = ground_color(around.ground, studio.background, on_ground, options);
     const bool ends = around.ground && !options.background;
-    add_ground(box, ends ? std::min(rounded(kFarGround * longest_side(box), 3), most) : radius,
+    add_ground(box,
+               ends ? std::min(rounded(kFarGround * longest_side(box), 3), max_ground) : radius,
                ground_gap(box, voxel_size), color, studio);
     return studio;
 }

@@ -12,9 +12,9 @@ static inline int bracket_depth(uint path) {
 
 /// How many brackets two fields are both in.
 static inline int shared_brackets(uint a, uint b) {
-    const int most = min(bracket_depth(a), bracket_depth(b));
+    const int max_depth = min(bracket_depth(a), bracket_depth(b));
     int shared = 0;
-    for (uint apart = a ^ b; shared < most && (apart & VXL_BRACKET_MASK) == 0; ++shared)
+    for (uint apart = a ^ b; shared < max_depth && (apart & VXL_BRACKET_MASK) == 0; ++shared)
         apart >>= VXL_BRACKET_BITS;
     return shared;
 }

@@ -106,15 +106,15 @@ struct Walk {
 /// The least width around an edge of this turn in which the surface turns by kSharpAngle, in the
 /// sense of the edge.
 double least_width(const Arm& a, const Arm& b, double turn) {
-    double least = std::numeric_limits<double>::infinity();
+    double min_way = std::numeric_limits<double>::infinity();
     const double sense = turn < 0 ? -1 : 1;
-    for (size_t i = 0; i < a.count && a.way[i] < least; ++i)
-        for (size_t j = 0; j < b.count && a.way[i] + b.way[j] < least; ++j)
+    for (size_t i = 0; i < a.count && a.way[i] < min_way; ++i)
+        for (size_t j = 0; j < b.count && a.way[i] + b.way[j] < min_way; ++j)
             if (sense * (turn + a.turn[i] + b.turn[j]) >= kSharpAngle) {
-                least = a.way[i] + b.way[j];
+                min_way = a.way[i] + b.way[j];
                 break;
             }
-    return least;
+    return min_way;
 }
 
 /// The largest turn around an edge within a width.

@@ -31,14 +31,14 @@ class WeightReader {
     WeightReader(const GltfFile& file, size_t joints) : file_(file), joints_(joints) {}
 
     SkinWeights read(const GltfValue& mesh) {
-        size_t most = 0;
+        size_t max_sets = 0;
         uint64_t vertices = 0;
         for (const GltfValue& primitive : gltf_primitives(mesh)) {
-            most = std::max(most, sets_of(primitive.at("attributes")));
+            max_sets = std::max(max_sets, sets_of(primitive.at("attributes")));
             vertices += count_gltf_values(file_, primitive.at("attributes"), "POSITION");
         }
-        found_.per_vertex = 4 * most;
-        if (most > 0 && vertices > kMaxSkinWeights / found_.per_vertex)
+        found_.per_vertex = 4 * max_sets;
+        if (max_sets > 0 && vertices > kMaxSkinWeights / found_.per_vertex)
             throw Error(ErrorKind::limit,
                         "{}: {}: {} vertices with {} joints each; at most {} weights are read",
                         SourcePlace(file_.path().string()), mesh.place(), vertices,

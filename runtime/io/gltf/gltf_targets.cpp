@@ -20,11 +20,11 @@ constexpr const char* kMoved[] = {"POSITION", "NORMAL"};
 void check_size(const GltfFile& file, const GltfValue& mesh) {
     uint64_t vertices = 0, lists = 0;
     for (const char* const key : kMoved) {
-        size_t most = 0;
+        size_t max_targets = 0;
         for (const GltfValue& primitive : mesh.items("primitives"))
-            for (size_t i = most; i < primitive.size("targets"); ++i)
-                if (primitive.item("targets", i).has(key)) most = i + 1;
-        lists += most;
+            for (size_t i = max_targets; i < primitive.size("targets"); ++i)
+                if (primitive.item("targets", i).has(key)) max_targets = i + 1;
+        lists += max_targets;
     }
     for (const GltfValue& primitive : gltf_primitives(mesh))
         vertices += count_gltf_values(file, primitive.at("attributes"), "POSITION");

@@ -23,7 +23,7 @@ constexpr uint64_t kMaxDecoded = uint64_t{16} << 30;
 /// How often data may be smaller than what they decode to. meshoptimizer's vertices take at least 2
 /// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no minimum size, so
 /// that its limit is a guess; what it may take is limited where it runs.
-uint64_t most_of_a_byte(MeshCodec codec) {
+uint64_t max_decoded_of_byte(MeshCodec codec) {
     return codec == MeshCodec::draco ? 8192 : codec == MeshCodec::meshopt_vertices ? 64 : 12;
 }
 
@@ -34,7 +34,7 @@ void check(const std::filesystem::path& file, const CodecJob& job) {
         throw Error(ErrorKind::limit,
                     "{}: {}: {} elements and {} indices; fewer than 2^31 are read", place,
                     job.place, task.count, task.indices);
-    if (task.decoded_bytes() / most_of_a_byte(task.codec) > job.input.size())
+    if (task.decoded_bytes() / max_decoded_of_byte(task.codec) > job.input.size())
         throw Error(ErrorKind::input,
                     "{}: {}: declares {} bytes, more than its {} compressed ones can hold; it is "
                     "damaged",

@@ -12,15 +12,15 @@ namespace {
 /// The first byte of a stream names its codec and its version.
 void check_version(MeshCodec codec, std::span<const uint8_t> input) {
     const bool is_vertices = codec == MeshCodec::meshopt_vertices;
-    const uint8_t most = is_vertices ? 0 : 1, first = input.empty() ? 0 : input[0];
+    const uint8_t max_version = is_vertices ? 0 : 1, first = input.empty() ? 0 : input[0];
     const uint8_t kind = is_vertices ? 0xA0 : codec == MeshCodec::meshopt_triangles ? 0xE0 : 0xD0;
     if ((first & 0xF0) != kind)
         throw std::runtime_error("its data aren't those of its mode; the file is damaged");
-    if ((first & 0x0F) > most)
+    if ((first & 0x0F) > max_version)
         throw std::runtime_error(
             fmt::format("its data are of version {} of the codec, and {} is the last that is read; "
                         "export it for EXT_meshopt_compression",
-                        first & 0x0F, most));
+                        first & 0x0F, max_version));
 }
 
 bool decode(const CodecTask& task, std::span<const uint8_t> input, uint8_t* data) {
