@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
-// The build constants VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE, VXL_SHOWS_POSITION,
-// VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, in addition to the features', are the
-// channels asked for. With VXL_EARLIER the image holds what the samples before the camera's first
-// one, whose number is a power of two, came to: their sums are its values times their number,
-// without rounding, and go on as if all samples had been added up in one run.
+// The build constants VXL_SHOWS_COLOR, VXL_SHOWS_VARIANCE, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE,
+// VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, in addition to the
+// features', are the channels asked for. With VXL_EARLIER the image holds what the samples before
+// the camera's first one, whose number is a power of two, came to: their sums are its values times
+// their number, without rounding, and go on as if all samples had been added up in one run.
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
@@ -16,7 +16,8 @@
 #include "shared/voxel.h"
 
 // The first planes of what an image shows.
-#define VXL_PLANE_DEPTH (4 * VXL_SHOWS_COLOR)
+#define VXL_PLANE_VARIANCE (4 * VXL_SHOWS_COLOR)
+#define VXL_PLANE_DEPTH (VXL_PLANE_VARIANCE + 3 * VXL_SHOWS_VARIANCE)
 #define VXL_PLANE_DISTANCE (VXL_PLANE_DEPTH + VXL_SHOWS_DEPTH)
 #define VXL_PLANE_POSITION (VXL_PLANE_DISTANCE + VXL_SHOWS_DISTANCE)
 #define VXL_PLANE_NORMAL (VXL_PLANE_POSITION + 3 * VXL_SHOWS_POSITION)
@@ -137,6 +138,27 @@ static inline void store_color(lane_float value, const Pixels* at, global float*
     store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), at, plane);
 }
 
+/// Stores the variance of the `mean` of a channel's samples, as if they were independent: the mean
+/// square of their deviations over the number of samples, less one. It is infinite for one sample,
+/// of which nothing is known, and finite for others.
+static inline void store_variance(const RayBatch* batch, uint first_ray, uint samples, uint channel,
+                                  lane_float mean, const Pixels* at, size_t pixels,
+                                  global float* restrict image) {
+    lane_float variance = (lane_float)INFINITY;
+    if (samples > 1) {
+        lane_float squares = (lane_float)0.0f;
+        for (uint sample = 0; sample < samples; ++sample) {
+            const uint ray = first_ray + sample * 16u;
+            const lane_float off =
+                LANES_LOAD(batch->radiance, channel * batch->stride + ray) - mean;
+            squares = fma(off, off, squares);
+        }
+        const float pairs = (float)samples * (float)(samples - 1u);
+        variance = fmin(exact_divide(squares, (lane_float)pairs), (lane_float)FLT_MAX);
+    }
+    store_pixels(variance, at, image + (VXL_PLANE_VARIANCE + channel) * pixels);
+}
+
 /// The distances of points in metres along their sight rays. `depth` is that along Z_E, and
 /// `square` the square of the distance from E.
 static inline lane_float distance_of(const Camera* camera, lane_float depth, lane_float square) {
@@ -192,9 +214,9 @@ static inline void store_number(lane_uint number, lane_int hit, const Pixels* at
                 (global float*)plane);
 }
 
-/// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A Z distance
-/// P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart; `ids` holds the numbers of the
-/// object and the material plus 1, likewise, 0 for none.
+/// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A variance.R
+/// variance.G variance.B Z distance P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart;
+/// `ids` holds the numbers of the object and the material plus 1, likewise, 0 for none.
 kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                            global float* restrict image, global uint* restrict ids,
@@ -209,8 +231,13 @@ kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origi
     const Samples s = sum_samples(&batch, first_ray, (uint)camera.samples,
                                   earlier_samples(&camera, &at, pixels, image));
     const float sample_weight = camera.sample_weight;
-    for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel)
-        store_color(s.color[channel] * sample_weight, &at, image + channel * pixels, not_finite);
+    for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel) {
+        const lane_float mean = s.color[channel] * sample_weight;
+        store_color(mean, &at, image + channel * pixels, not_finite);
+        if (VXL_SHOWS_VARIANCE)
+            store_variance(&batch, first_ray, (uint)camera.samples, channel, mean, &at, pixels,
+                           image);
+    }
     if (VXL_SHOWS_COLOR) store_pixels(s.covered * sample_weight, &at, image + 3 * pixels);
     const lane_int hit = LANE_MASK(s.shown != VXL_NO_VOXEL);
     const lane_uint ray = s.shown & LANES_AS_UINT(hit);

@@ -48,7 +48,7 @@ void add(const Volume& volume, Hasher& hasher) {
 Channels all_channels() {
     Channels channels = kNoChannels;
     for (const ChannelRow& row : channel_table()) channels.*row.member = true;
-    channels.motion = channels.samples = channels.noise = false;
+    channels.motion = channels.samples = channels.noise = channels.variance = false;
     return channels;
 }
 

@@ -123,10 +123,12 @@ void add_image_options(CLI::App& app, RenderCommand& command) {
                  "write the colours of .exr files as 32-bit floats, not halves");
     app.add_flag("--multi-part", command.multi_part,
                  "write each layer of .exr files as a part of its own: rgba, depth, N, ...");
-    app.add_option("--channels", command.channels,
-                   "channels of .exr files, with commas between them: RGBA Z distance P N objectId "
-                   "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "
-                   "motion samples noise; without RGBA and light's parts nothing is lit")
+    app.add_option(
+           "--channels", command.channels,
+           "channels of .exr files, with commas between them: RGBA Z distance P N objectId "
+           "materialId CryptoObject CryptoMaterial albedo direct indirect shadow lights "
+           "motion samples noise variance; without RGBA, variance and light's parts nothing "
+           "is lit")
         ->type_name("CHANNELS");
 }
 

@@ -26,7 +26,7 @@ Deliver = Callable[[int, Union[Image, None], Union[Volume, None]], object]
 
 Channel = Literal["color", "depth", "position", "normal", "object", "distance", "materialId",
                   "CryptoObject", "CryptoMaterial", "albedo", "direct", "indirect", "shadow",
-                  "lights", "motion", "samples", "noise"]
+                  "lights", "motion", "samples", "noise", "variance"]
 ALL_CHANNELS: tuple[Channel, ...] = ("color", "depth", "position", "normal", "object")
 
 

@@ -178,7 +178,8 @@ bool needs_radiance(const RenderSettings& render, const Features& features) {
     const ImageChannels& channels = render.channels;
     const bool has_matte = channels.object_matte || channels.material_matte;
     const bool shows_noise = render.noise.is_given() && (channels.samples || channels.noise);
-    return channels.color || shows_noise || (has_matte && features.transmission);
+    return channels.color || channels.variance || shows_noise ||
+           (has_matte && features.transmission);
 }
 
 /// Adds the values of hit points that the image asks for, or that are a step to values it asks for.

@@ -30,9 +30,10 @@ constexpr std::array kShadow = {"shadow.R", "shadow.G", "shadow.B"};
 constexpr std::array kLights = {"light_"};
 constexpr std::array kSamples = {"samples"};
 constexpr std::array kNoise = {"noise"};
+constexpr std::array kVariance = {"variance.R", "variance.G", "variance.B"};
 constexpr std::array kMotion = {"forward.u", "forward.v", "backward.u", "backward.v"};
 
-constexpr std::array<ChannelRow, 17> kTable = {
+constexpr std::array<ChannelRow, 18> kTable = {
     {{"RGBA", &Channels::color, kColor},
      {"Z", &Channels::depth, kDepth},
      {"distance", &Channels::distance, kDistance},
@@ -49,7 +50,8 @@ constexpr std::array<ChannelRow, 17> kTable = {
      {"lights", &Channels::light_groups, kLights},
      {"motion", &Channels::motion, kMotion},
      {"samples", &Channels::samples, kSamples},
-     {"noise", &Channels::noise, kNoise}}};
+     {"noise", &Channels::noise, kNoise},
+     {"variance", &Channels::variance, kVariance}}};
 
 }  // namespace
 

@@ -29,7 +29,8 @@ inline ImageChannels inside(const v1::Channels& channels) {
             .shadow = channels.shadow,
             .light_groups = channels.light_groups,
             .samples = channels.samples,
-            .noise = channels.noise};
+            .noise = channels.noise,
+            .variance = channels.variance};
 }
 
 /// What one frame took.

@@ -32,7 +32,7 @@ double writing_bytes(const Scene& scene) {
     const int passes = int(channels.albedo) + int(channels.direct) + int(channels.indirect) +
                        int(channels.shadow) + (channels.light_groups ? int(groups.size()) + 1 : 0);
     const int planes = 3 * passes + int(channels.samples) + int(channels.noise);
-    const int again = scene.render.noise.is_given() ? 4 : 0;
+    const int again = scene.render.noise.is_given() ? 4 + 3 * int(channels.variance) : 0;
     const double row =
         image_bytes(scene.render) / scene.render.size.y + 4.0 * planes * scene.render.size.x;
     return 2 * 4.0 * (planes + again) * scene.render.size.x * scene.render.size.y +
@@ -42,10 +42,11 @@ double writing_bytes(const Scene& scene) {
 /// True if all that a run is expected to take is there.
 bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
                  const DeviceInfo& device) {
-    const double memory = double(device.memory), most = plan.run_bytes(frames, memory);
+    const double memory = double(device.memory), max_bytes = plan.run_bytes(frames, memory);
     const double host = plan.host_bytes + writing_bytes(scene) + kDriverBytes +
-                        (device.kind == DeviceKind::cpu ? most : 0);
-    return most <= memory && host <= double(main_memory()) && !is_refused({1, scene, plan}, device);
+                        (device.kind == DeviceKind::cpu ? max_bytes : 0);
+    return max_bytes <= memory && host <= double(main_memory()) &&
+           !is_refused({1, scene, plan}, device);
 }
 
 /// The bands if there are so many, or, as rows are rounded up, fewer.

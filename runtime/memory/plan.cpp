@@ -65,8 +65,8 @@ double shown_of(const RenderSettings& render, double image, double volume) {
 }  // namespace
 
 double pixel_bytes(const ImageChannels& channels) {
-    return 4.0 * (4 * int(channels.color) + int(channels.depth) + int(channels.distance) +
-                  3 * int(channels.position) + 3 * int(channels.normal));
+    return 4.0 * (4 * int(channels.color) + 3 * int(channels.variance) + int(channels.depth) +
+                  int(channels.distance) + 3 * int(channels.position) + 3 * int(channels.normal));
 }
 
 double image_bytes(const RenderSettings& render) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "kernels/shared/matte.h"
+#include "runtime/render/noise.hpp"
 
 namespace voxelume {
 namespace {
@@ -171,10 +172,23 @@ void add_samples(const std::vector<uint32_t>& pixels, const Image& more, int sam
                 add_ranks(further, from, weight, ranks, to);
             });
     }
+    for (const char* color : {"R", "G", "B"}) {
+        const auto variance = image.planes.find(std::string("variance.") + color);
+        if (variance == image.planes.end()) continue;
+        each([&](size_t, size_t to, size_t from) {
+            const auto of = [&](int count, const Image& part, size_t at) {
+                return MeanOfSamples{count, double(part.planes.at(color)[at]),
+                                     double(part.planes.at(variance->first)[at])};
+            };
+            variance->second[to] =
+                float(joined_variance(of(samples, image, to), of(more_samples, more, from)));
+        });
+    }
     for (auto& entry : image.planes) {
         const std::string& name = entry.first;
         Plane<float>& plane = entry.second;
         const Plane<float>& other = more.planes.at(name);
+        if (name.starts_with("variance.")) continue;
         if (is_light(name))
             each([&](size_t, size_t to, size_t from) {
                 plane[to] = float((1 - weight) * plane[to] + weight * other[from]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace voxelume {
 namespace {
@@ -24,6 +25,18 @@ void for_each_pixel(uint32_t tile, const Image& image, See&& see) {
             see(size_t(y) * size_t(image.width) + size_t(x));
 }
 
+/// Makes the variance of a pixel's colour that of two images' samples, before they are averaged.
+void join_variance(const std::string& color, size_t at, int samples, const Image& other,
+                   Image& image) {
+    const auto plane = image.planes.find("variance." + color);
+    if (plane == image.planes.end()) return;
+    const auto of = [&](const Image& half) {
+        return MeanOfSamples{samples, double(half.planes.at(color)[at]),
+                             double(half.planes.at(plane->first)[at])};
+    };
+    plane->second[at] = float(joined_variance(of(image), of(other)));
+}
+
 }  // namespace
 
 bool is_dark_tile(uint32_t tile, const Image& image) {
@@ -36,7 +49,16 @@ bool is_dark_tile(uint32_t tile, const Image& image) {
     return sum == 0 && covered > 0;
 }
 
-double average_tile(uint32_t tile, const Image& other, Image& image) {
+double joined_variance(const MeanOfSamples& a, const MeanOfSamples& b) {
+    const auto squares = [](const MeanOfSamples& part) {
+        return part.samples < 2 ? 0 : double(part.samples) * (part.samples - 1) * part.variance;
+    };
+    const double apart = a.mean - b.mean, all = double(a.samples) + b.samples;
+    const double between = double(a.samples) * b.samples / all * apart * apart;
+    return (squares(a) + squares(b) + between) / (all * (all - 1));
+}
+
+double average_tile(uint32_t tile, int samples, const Image& other, Image& image) {
     std::array<double, 16> half{};
     double sum = 0, squares = 0;
     int pixels = 0;
@@ -45,6 +67,7 @@ double average_tile(uint32_t tile, const Image& other, Image& image) {
         for (const auto& [name, luminance] : kLight) {
             float& value = image.planes.at(name)[at];
             const float more = other.planes.at(name)[at];
+            join_variance(name, at, samples, other, image);
             difference += 0.5 * luminance * (double(value) - double(more));
             value = 0.5f * (value + more);
             sum += luminance * double(value);

@@ -36,8 +36,8 @@ class NoiseReached {
     Wide squares_ = 0;  ///< in units of 2^-64
 };
 
-/// Whether an image with a target of noise has colour for that alone.
-bool adds_color_for_noise(const Scene& scene);
+/// Whether an image has colour for its variance or for a target of noise alone.
+bool adds_color(const Scene& scene);
 
 /// Whether it is known of an image of a scene, once it is rendered.
 bool measures_noise(const Scene& scene);
@@ -45,9 +45,19 @@ bool measures_noise(const Scene& scene);
 /// Whether a tile shows surfaces of which no light came.
 bool is_dark_tile(uint32_t tile, const Image& image);
 
-/// Averages a tile's light over two images with equally many samples, in `image`. Returns the
-/// standard error of the light of its pixels over their mean, 0 where there is none. A pixel's
-/// error is half of the difference of its two values.
-double average_tile(uint32_t tile, const Image& other, Image& image);
+/// Averages a tile's light over two images with so many samples each, in `image`, and makes of
+/// their variances that of the average, if they have them. Returns the standard error of the light
+/// of its pixels over their mean, 0 where there is none. A pixel's error is half of the difference
+/// of its two values.
+double average_tile(uint32_t tile, int samples, const Image& other, Image& image);
+
+/// A pixel's mean and the variance of that mean, infinite for one sample.
+struct MeanOfSamples {
+    int samples = 1;
+    double mean = 0, variance = 0;
+};
+
+/// The variance of the mean of both pixels' samples (Chan, Golub and LeVeque 1983).
+double joined_variance(const MeanOfSamples& a, const MeanOfSamples& b);
 
 }  // namespace voxelume

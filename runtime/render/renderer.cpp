@@ -147,9 +147,9 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
     const glm::ivec2& size = scene.render.size;
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
         Scene shown = scene;
-        // Passes have as many samples as all light needs.
-        const bool adds_color = adds_color_for_noise(scene);
-        if (adds_color) shown.render.channels.color = true;
+        // Passes have as many samples as all light needs, and variance is that of colour.
+        const bool drops_color = adds_color(scene);
+        if (drops_color) shown.render.channels.color = true;
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());
         Sampled sampled;
@@ -161,7 +161,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         share_compiled_kernels(device_);
         if (!follows_) hits_.clear();
         if (!passes.empty()) finish_passes(shown, image);
-        if (adds_color)
+        if (drops_color)
             for (const char* channel : {"R", "G", "B", "A"}) image.planes.erase(channel);
         return image;
     });

@@ -24,8 +24,15 @@ constexpr int kFirstSamples = 16;
 /// The number of samples by which a tile of surfaces counts as dark: few paths may find its light.
 constexpr int kDarkSamples = 256;
 
-/// Colours, and no other channel.
-constexpr ImageChannels kColorAlone = {true, false, false, false, false};
+/// What is averaged of an image's channels, and no other.
+ImageChannels averaged(const ImageChannels& asked) {
+    return {.color = true,
+            .depth = false,
+            .position = false,
+            .normal = false,
+            .object = false,
+            .variance = asked.variance};
+}
 
 /// Adds a tile to those that ranges hold, in order.
 void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
@@ -157,15 +164,16 @@ void take_all(const Renderer::Tiles& tiles) {
 
 }  // namespace
 
-bool adds_color_for_noise(const Scene& scene) {
+bool adds_color(const Scene& scene) {
     const ImageChannels& channels = scene.render.channels;
-    return scene.render.noise.is_given() && !channels.color &&
-           (channels.samples || channels.noise || !light_passes(scene).empty());
+    if (channels.color) return false;
+    const bool shows_noise = channels.samples || channels.noise || !light_passes(scene).empty();
+    return channels.variance || (scene.render.noise.is_given() && shows_noise);
 }
 
 bool measures_noise(const Scene& scene) {
     const RenderSettings& render = scene.render;
-    return render.noise.is_given() && (render.channels.color || adds_color_for_noise(scene)) &&
+    return render.noise.is_given() && (render.channels.color || adds_color(scene)) &&
            render.samples >= 2 * std::min(kFirstSamples, render.samples);
 }
 
@@ -222,7 +230,8 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
     const auto tell_of_all = [&](uint32_t tile) {
         tiles.share.add_work(per_sample * (maximum - std::exchange(told[tile], maximum)));
     };
-    part.render.channels = kColorAlone;  // others are undefined in tiles that aren't rendered again
+    part.render.channels =
+        averaged(asked.channels);  // others are undefined in tiles that aren't rendered again
     for (int done = first; is_sampled_again(scene) && 2 * done <= maximum; done *= 2) {
         const std::vector<TileRange> left = tiles_where(
             tiles.taken, [&](uint32_t tile) { return state.of(tile) == done && needs_more(tile); });
@@ -235,7 +244,7 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
         const Image more = more_samples(part, world, of_more, {share, taken});
         if (tiles.share.is_closed()) break;
         for_each_tile(left, [&](uint32_t tile) {
-            state.set(tile, 2 * done, average_tile(tile, more, image));
+            state.set(tile, 2 * done, average_tile(tile, done, more, image));
             told[tile] += done;
             if (!needs_more(tile)) tell_of_all(tile);
         });

@@ -49,6 +49,7 @@ struct ImageChannels {
     bool light_groups = false;    ///< light_GROUP.R ... of each group, and light_rest.R ...
     bool samples = false;         ///< samples: of each pixel
     bool noise = false;           ///< noise: what `RenderSettings::noise` is held against
+    bool variance = false;        ///< variance.R ...: of the mean of a pixel's samples
 
     /// Whether there are parts of the light among them.
     bool has_passes() const { return albedo || direct || indirect || shadow || light_groups; }

@@ -40,6 +40,9 @@ struct Channels {
     /// noise: the standard error of the light of each 4 x 4 pixels over its mean, as
     /// Scene::with_noise measures it; +infinity where it isn't measured.
     bool noise = false;
+    /// variance.R, variance.G, variance.B: the variance of each pixel's mean, as if its samples
+    /// were independent; +infinity for a pixel of one sample.
+    bool variance = false;
 
     /// True if both have the same.
     friend bool operator==(const Channels&, const Channels&) = default;

@@ -17,6 +17,7 @@ constexpr const char* kSmallerImage = "render a smaller image";
 std::vector<const char*> plane_names(const ImageChannels& channels) {
     std::vector<const char*> names;
     if (channels.color) names = {"R", "G", "B", "A"};
+    if (channels.variance) names.insert(names.end(), {"variance.R", "variance.G", "variance.B"});
     if (channels.depth) names.push_back("Z");
     if (channels.distance) names.push_back("distance");
     if (channels.position) names.insert(names.end(), {"P.X", "P.Y", "P.Z"});
@@ -53,6 +54,7 @@ Defines resolve_defines(const Device& device, const Features& features,
                         const ImageChannels& channels, bool has_earlier) {
     Defines defines = features.defines(device);
     defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
+                                   {"VXL_SHOWS_VARIANCE", channels.variance},
                                    {"VXL_SHOWS_DEPTH", channels.depth},
                                    {"VXL_SHOWS_DISTANCE", channels.distance},
                                    {"VXL_SHOWS_POSITION", channels.position},

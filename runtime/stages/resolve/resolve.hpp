@@ -28,8 +28,9 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
-    /// Only the `channels` that are asked for are allocated and computed. Where there is an
-    /// `earlier` image, which has them, the camera's samples are added to those before them.
+    /// Only the `channels` that are asked for are allocated and computed. Variance is that of
+    /// colour, which is asked for, too. Where there is an `earlier` image, which has the channels
+    /// and no variance, the camera's samples are added to those before them.
     ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels = {}, const Image* earlier = nullptr);
 
