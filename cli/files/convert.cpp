@@ -30,8 +30,8 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
 VolumeFormat format_of(const std::string& from, const std::string& to) {
     const bool has_voxels = is_model_file(from) && ending_of(from) != ".vdb";
     if (has_voxels)
-        fail_usage("convert: {}: voxels are written as .vox .kv6 .binvox .npy .nrrd .vxm or .vdb",
-                   to);
+        fail_usage("convert: {}: voxels are written as {} {}", to, endings_of_voxels(false),
+                   endings_of_voxels(true));
     return volume_format_of(to);
 }
 
@@ -63,8 +63,9 @@ Action add_convert(CLI::App& app) {
                    ".vdb .npy .qb .gox .schem and others")
         ->required();
     app.add_option("B", command->to,
-                   "volumetric image to write: the same, or name.####.png .ply .kv6 .planes "
-                   ".cplanes .rgb332 .rgb565; or of voxels .vox .kv6 .binvox .npy .nrrd .vxm .vdb")
+                   fmt::format("volumetric image to write: the same, or name.####.png .ply .kv6 "
+                               ".planes .cplanes .rgb332 .rgb565; or of voxels {} {}",
+                               endings_of_voxels(false), endings_of_voxels(true)))
         ->required();
     app.add_option(
            "--format", command->format,

@@ -45,11 +45,10 @@ constexpr std::array kSets = {std::pair{std::string_view("supercover"), VoxelSet
 constexpr std::array kNormals = {std::pair{std::string_view("faces"), CubeNormals::faces},
                                  std::pair{std::string_view("surface"), CubeNormals::surface}};
 
-constexpr std::initializer_list<const char*> kCubeEndings = {".vox", ".kv6", ".binvox", ".npy",
-                                                             ".nrrd"};
-
 bool is_cube_name(const std::string& output) {
-    return std::ranges::count(kCubeEndings, ending_of(output)) > 0;
+    return std::ranges::any_of(voxel_formats(), [&](const VoxelFormat& format) {
+        return !format.has_surfaces && format.ending == ending_of(output);
+    });
 }
 
 /// Without --surface a mesh is what suits it, but in files that hold cubes alone.
@@ -146,10 +145,6 @@ double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) 
     return 0;
 }
 
-void check_voxels_output(const std::string& path) {
-    check_output(path, {".vxm", ".vdb", ".vox", ".kv6", ".binvox", ".npy", ".nrrd"}, "voxelize");
-}
-
 enum class InputKind : uint8_t { mesh, voxels, scene };
 
 /// A frame of a glTF file is one of the scene that shows it.
@@ -227,7 +222,7 @@ void voxelize_frames(VoxelizeCommand command) {
 
 int run(const VoxelizeCommand& command) {
     if (command.outputs.empty()) fail_usage("voxelize: say where the voxels go: -o model.vxm");
-    for (const std::string& path : command.outputs) check_voxels_output(path);
+    for (const std::string& path : command.outputs) check_voxels_output(path, "voxelize");
     const bool has_frames = is_file_sequence(command.file) || !command.frames.empty() ||
                             std::ranges::any_of(command.outputs, is_numbered);
     if (has_frames)
@@ -247,8 +242,9 @@ Action add_voxelize(CLI::App& app) {
            "scene, .json, all of whose objects become cubes; - is a scene from standard input")
         ->required();
     app.add_option("-o,--output", command->outputs,
-                   "output: model .vxm or OpenVDB volume .vdb, or of cubes .vox .kv6 .binvox .npy "
-                   ".nrrd; may be given again")
+                   fmt::format("output: model .vxm or OpenVDB volume .vdb, or of cubes {}; may be "
+                               "given again",
+                               endings_of_voxels(false)))
         ->allow_extra_args(false);
     const auto size =
         app.add_option("--voxel-size", command->voxel_size, "edge of a voxel in metres")

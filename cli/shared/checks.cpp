@@ -20,8 +20,8 @@ std::string ending_of(const std::filesystem::path& file) {
 }
 
 bool is_mesh_name(const std::filesystem::path& file) {
-    constexpr std::array kEndings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    return std::ranges::count(kEndings, ending_of(file)) > 0;
+    const std::vector<std::string> endings = mesh_file_endings();
+    return std::ranges::count(endings, ending_of(file)) > 0;
 }
 
 void check_output(const std::string& path, const std::vector<std::string>& extensions,
@@ -32,6 +32,22 @@ void check_output(const std::string& path, const std::vector<std::string>& exten
                    fmt::join(extensions, " or "));
     }
     check_output_file(path);
+}
+
+void check_voxels_output(const std::string& path, const char* command) {
+    std::vector<std::string> endings;
+    for (const VoxelFormat& format : voxel_formats()) endings.emplace_back(format.ending);
+    check_output(path, endings, command);
+}
+
+std::string endings_of_voxels(bool has_surfaces) {
+    std::string text;
+    for (const VoxelFormat& format : voxel_formats()) {
+        if (format.has_surfaces != has_surfaces) continue;
+        if (!text.empty()) text += ' ';
+        text += format.ending;
+    }
+    return text;
 }
 
 void check_image_output(const std::string& path, const char* command) {

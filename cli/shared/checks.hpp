@@ -36,6 +36,13 @@ void check_output(const std::string& path, const std::vector<std::string>& exten
 /// Throws likewise when the name has none of the endings of images.
 void check_image_output(const std::string& path, const char* command);
 
+/// Throws likewise when the name has none of the endings of files of voxels.
+void check_voxels_output(const std::string& path, const char* command);
+
+/// The endings of files of voxels that hold surfaces, or of those that hold cubes alone, with
+/// blanks between them.
+std::string endings_of_voxels(bool has_surfaces);
+
 /// Throws Error::usage when two outputs are one file, however it is spelled; empty names are none.
 void check_distinct(const std::vector<std::string>& paths, const char* command);
 

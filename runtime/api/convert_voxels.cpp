@@ -15,8 +15,10 @@
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
 #include "runtime/io/volume_file.hpp"
+#include "runtime/io/volume_format_table.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_file_table.hpp"
+#include "runtime/io/voxel_output_table.hpp"
 #include "runtime/voxelume/files.hpp"
 #include "runtime/voxelume/import.hpp"
 
@@ -28,6 +30,15 @@ bool holds_model(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
     if (ending == ".vox" || ending == ".vxm" || ending == ".vdb") return true;
     return voxel_format_named(path) != nullptr && !is_volume_nrrd(path);
+}
+
+/// Whether a volumetric image may have such a name.
+bool is_volume_name(const std::filesystem::path& path) {
+    const std::string ending = ending_of(path);
+    return std::ranges::any_of(volume_format_table(), [&](const VolumeFormatEntry& entry) {
+        return std::ranges::any_of(entry.endings,
+                                   [&](const char* name) { return name && ending == name; });
+    });
 }
 
 /// True for an OpenVDB file of a display. Throws as read_vdb_summary does.
@@ -96,19 +107,15 @@ std::vector<CubeMaterial> materials_of(const std::filesystem::path& from, const 
 }
 
 WriterNotes write_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
-    const auto write = cube_writer(to);
-    if (!write && !is_grid_name(to))
-        throw Error(ErrorKind::usage,
-                    "{}: the name of voxels ends in .vox, .kv6, .binvox, .npy, .nrrd, .vxm or .vdb",
-                    SourcePlace(to.string()));
-    if (!is_grid_name(to) && !holds_model(from)) return write(to, cubes_of_volume(from));
+    const VoxelOutputFormat& format = check_voxel_output(to);
+    if (format.write && !holds_model(from)) return format.write(to, cubes_of_volume(from));
     WriterNotes notes;
     VoxelModel model = model_of(from, notes);
     const std::vector<CubeMaterial> materials = materials_of(from, model);
-    if (!materials.empty() && ending_of(to) != ".vox")
+    if (!materials.empty() && !format.keeps_materials)
         notes.emplace_back("metal, glass, and what gives off light became plain colours");
-    const WriterNotes of_writer = is_grid_name(to) ? write_cubes(to, VoxelExport(std::move(model)))
-                                                   : write(to, cube_list(model, materials));
+    const WriterNotes of_writer = format.write ? format.write(to, cube_list(model, materials))
+                                               : write_cubes(to, VoxelExport(std::move(model)));
     notes.insert(notes.end(), of_writer.begin(), of_writer.end());
     return notes;
 }
@@ -118,12 +125,10 @@ WriterNotes write_voxels(const std::filesystem::path& from, const std::filesyste
 namespace v1 {
 
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to) {
-    const std::string ending = ending_of(to);
-    if (!is_grid_name(to)) {
-        if (!cube_writer(to)) return false;
-        // Volumetric images are written as .kv6 and .nrrd by writers of their own.
-        if (ending != ".kv6" && ending != ".nrrd") return true;
-    }
+    const VoxelOutputFormat* const format = voxel_output_format(to);
+    if (!format) return false;
+    // Volumetric images are written as .kv6 and .nrrd by writers of their own.
+    if (format->write && !is_volume_name(to)) return true;
     return holds_model(from) && !api::guarded([&] { return is_volume_vdb(from); });
 }
 

@@ -21,6 +21,7 @@
 #include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
+#include "runtime/io/voxel_output_table.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/document/scene_fields.hpp"
@@ -44,11 +45,12 @@ Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOpt
     return static_cast<Surface>(*options.surface);
 }
 
-/// Voxels along the longest side where the options don't say how many. A set has up to two more.
+/// Voxels along the longest side where the options don't say how many.
 int usual_resolution(const std::vector<fs::path>& outputs) {
-    const bool has_vox = std::ranges::any_of(
-        outputs, [](const fs::path& output) { return ending_of(output) == ".vox"; });
-    return has_vox ? 254 : 256;
+    int voxels = 256;
+    for (const fs::path& output : outputs)
+        voxels = std::min(voxels, check_voxel_output(output).usual_resolution);
+    return voxels;
 }
 
 /// What a scene would say of the mesh.
@@ -72,13 +74,7 @@ Model model_of(const fs::path& path, const Mesh& mesh, Surface surface,
 
 void check_endings(const std::vector<fs::path>& outputs, bool has_cubes) {
     for (const fs::path& output : outputs) {
-        if (ending_of(output) == ".vdb" || ending_of(output) == ".vxm") continue;
-        if (!cube_writer(output))
-            throw Error(ErrorKind::usage,
-                        "{}: the name of voxels ends in .vxm, .vdb, .vox, .kv6, .binvox, .npy or "
-                        ".nrrd",
-                        SourcePlace(output.string()));
-        if (!has_cubes)
+        if (check_voxel_output(output).write && !has_cubes)
             throw Error(ErrorKind::usage, "{}: files of this format hold cubes alone",
                         SourcePlace(output.string()));
     }
@@ -108,18 +104,16 @@ void add_notes(const std::vector<std::string>& notes, v1::VoxelizeReport& report
 
 /// What a file of cubes alone loses where voxels aren't cubes.
 std::string note_of_edges(const fs::path& output, const glm::dvec3& edge) {
-    const std::string ending = ending_of(output);
-    const bool has_edges = ending == ".vxm" || ending == ".vdb" || ending == ".nrrd";
-    if (has_edges || (edge.x == edge.y && edge.y == edge.z)) return {};
+    if (check_voxel_output(output).keeps_edges || (edge.x == edge.y && edge.y == edge.z)) return {};
     return fmt::format("{}: voxels of {:.4g} x {:.4g} x {:.4g} m became cubes",
                        output.filename().string(), edge.x, edge.y, edge.z);
 }
 
-/// What is lost of materials in files of voxels other than .vox, which know colours alone.
+/// What is lost of materials in files of voxels that know colours alone.
 std::vector<std::string> notes_of_materials(const std::vector<fs::path>& outputs,
                                             std::span<const CubeMaterial> materials) {
     const bool keeps = std::ranges::all_of(
-        outputs, [](const fs::path& output) { return ending_of(output) == ".vox"; });
+        outputs, [](const fs::path& output) { return check_voxel_output(output).keeps_materials; });
     if (keeps || !has_more_than_colors(materials)) return {};
     return {
         "metal, glass, mirrors, and what gives off light became plain colours in files other "
@@ -173,7 +167,7 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
         return cubes;
     };
     for (const fs::path& output : outputs) {
-        if (const auto write = cube_writer(output))
+        if (const auto write = check_voxel_output(output).write)
             add_notes(write(output, cube_list(painted(), finishes)), report);
         else if (ending_of(output) == ".vdb" && shows_voxels(model.surface))
             VoxelExport(painted()).write_vdb(output);
@@ -225,7 +219,7 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
     const std::vector<CubeMaterial> materials =
         cube_materials(scene.materials, model.frame.voxel_edge.x);
     for (const fs::path& output : outputs) {
-        const auto write = cube_writer(output);
+        const auto write = check_voxel_output(output).write;
         add_notes(write ? write(output, cube_list(model, materials))
                         : write_cubes(output, VoxelExport(model)),
                   report);
@@ -239,6 +233,16 @@ v1::VoxelizeReport voxelize_scene_to_files(const v1::Scene& handle,
 }  // namespace
 
 namespace v1 {
+
+std::span<const VoxelFormat> voxel_formats() {
+    static const std::vector<VoxelFormat> formats = [] {
+        std::vector<VoxelFormat> rows;
+        for (const VoxelOutputFormat& row : voxel_output_table())
+            rows.push_back({row.ending, row.write == nullptr});
+        return rows;
+    }();
+    return formats;
+}
 
 VoxelizeReport voxelize(const fs::path& mesh, const std::vector<fs::path>& outputs,
                         const Device& device, const VoxelizeOptions& options) {

@@ -78,6 +78,10 @@ std::vector<std::string> model_file_endings() {
     return voxelume::model_file_endings();
 }
 
+std::vector<std::string> mesh_file_endings() {
+    return voxelume::mesh_file_endings();
+}
+
 bool is_model_file(const fs::path& file) {
     return voxelume::is_model_file(file);
 }

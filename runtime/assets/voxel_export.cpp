@@ -14,6 +14,7 @@
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/voxel_art/cube_list.hpp"
+#include "runtime/io/voxel_output_table.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 
 namespace voxelume {
@@ -173,13 +174,9 @@ void VoxelExport::write_vdb(const std::filesystem::path& path) const {
     voxelume::write_vdb(path, volume);
 }
 
-bool is_grid_name(const std::filesystem::path& path) {
-    const std::string ending = ending_of(path);
-    return ending == ".vxm" || ending == ".vdb";
-}
-
 std::vector<std::string> write_cubes(const std::filesystem::path& path, const VoxelExport& voxels) {
-    if (const auto write = cube_writer(path)) return write(path, cube_list(voxels.cubes()));
+    if (const auto write = check_voxel_output(path).write)
+        return write(path, cube_list(voxels.cubes()));
     if (ending_of(path) == ".vdb")
         voxels.write_vdb(path);
     else

@@ -60,10 +60,6 @@ class VoxelExport {
     std::vector<float> triangles_;
 };
 
-/// Whether a file's name is that of voxels which are written without making a list of them: .vxm or
-/// .vdb.
-bool is_grid_name(const std::filesystem::path& path);
-
 /// Writes cubes as the name asks for. Returns sentences on what the format couldn't hold. Throws
 /// Error::output, and Error::limit for more voxels than the format has.
 std::vector<std::string> write_cubes(const std::filesystem::path& path, const VoxelExport& voxels);

@@ -27,14 +27,15 @@ constexpr double kAmbientInside = 0.15;
 struct ModelFormat {
     std::string_view ending;
     Contents (*read)(const ImportedFile& file);
+    bool is_mesh = false;  ///< and no file of voxels
 };
 
 constexpr std::array<ModelFormat, 8> kFormats = {{
-    {".obj", mesh_contents},
-    {".ply", mesh_contents},
-    {".stl", mesh_contents},
-    {".glb", gltf_contents},
-    {".gltf", gltf_contents},
+    {".obj", mesh_contents, true},
+    {".ply", mesh_contents, true},
+    {".stl", mesh_contents, true},
+    {".glb", gltf_contents, true},
+    {".gltf", gltf_contents, true},
     {".vxm", voxel_contents},
     {".vdb", voxel_contents},
     {".vox", vox_contents},
@@ -226,6 +227,13 @@ std::vector<std::string> model_file_endings() {
         for (const std::string_view ending : format.endings)
             if (!ending.empty())
                 endings.push_back(fmt::format("{}{}", format.is_numbered ? "0001" : "", ending));
+    return endings;
+}
+
+std::vector<std::string> mesh_file_endings() {
+    std::vector<std::string> endings;
+    for (const ModelFormat& format : kFormats)
+        if (format.is_mesh) endings.emplace_back(format.ending);
     return endings;
 }
 

@@ -15,6 +15,9 @@ namespace voxelume {
 /// How names of files end that `scene_of_file` reads, `0001.png` of slices among them.
 std::vector<std::string> model_file_endings();
 
+/// How names of those that are meshes end.
+std::vector<std::string> mesh_file_endings();
+
 /// Whether a file's ending says that `scene_of_file` reads it.
 bool is_model_file(const std::filesystem::path& file);
 

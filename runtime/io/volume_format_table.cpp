@@ -121,7 +121,7 @@ std::vector<VolumePath> with_header(const VolumePath& path) {
     return {path, header_path_of(path)};
 }
 
-void write_kv6(const VolumePath& path, const Volume& volume, Options options) {
+void write_kv6_volume(const VolumePath& path, const Volume& volume, Options options) {
     write_volume_kv6(path, volume, options.device);
 }
 
@@ -156,7 +156,7 @@ const std::array<VolumeFormatEntry, 11> kTable = {{
     {ply, {".ply"}, any_layout, no_bytes, kMaxFileBytes, kAnySize,
      check_file, one_file, written_by<write_volume_ply>, nullptr},
     {kv6, {".kv6"}, lattice_only, no_bytes, kMaxFileBytes, kMaxKv6,
-     check_file, one_file, write_kv6, nullptr},
+     check_file, one_file, write_kv6_volume, nullptr},
     {planes, {".planes"}, lattice_only, bits_a_voxel<1>, kMaxBufferBytes, kAnySize,
      check_with_header, with_header, written_as<write_volume_planes, planes>, nullptr},
     {color_planes, {".cplanes"}, lattice_only, bits_a_voxel<3>, kMaxBufferBytes, kAnySize,

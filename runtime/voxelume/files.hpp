@@ -30,6 +30,15 @@ struct VoxelizeOptions {
     CubeNormals normals = CubeNormals::faces;  ///< of cubes; models (.vxm) keep them
 };
 
+/// A format of files that voxels are written to.
+struct VoxelFormat {
+    std::string_view ending;    ///< of names: ".vox"
+    bool has_surfaces = false;  ///< smooth and exact ones as well; others hold cubes alone
+};
+
+/// The formats that `voxelize` and `convert_voxels` write.
+std::span<const VoxelFormat> voxel_formats();
+
 /// What voxelizing a mesh made.
 struct VoxelizeReport {
     uint64_t triangles = 0;     ///< of the mesh
@@ -41,8 +50,8 @@ struct VoxelizeReport {
     std::vector<std::string> notes{};
 };
 
-/// Voxelizes a mesh (.obj, .ply, .stl) and writes its voxels to files: models (.vxm) that scenes
-/// name, OpenVDB volumes (.vdb), or cubes for other programs (.vox, .kv6, .binvox, .npy, .nrrd).
+/// Voxelizes a mesh (.obj, .ply, .stl) and writes its voxels to files of `voxel_formats`: models
+/// (.vxm) that scenes name, OpenVDB volumes (.vdb), or cubes for other programs.
 /// Throws Error::input for a mesh that can't be read or lacks such a surface, Error::limit for one
 /// that doesn't fit the device, Error::usage for another ending, Error::output.
 VoxelizeReport voxelize(const std::filesystem::path& mesh,
@@ -69,11 +78,10 @@ VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesys
 /// can't be read.
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Writes the voxels of a file to one of another format: those of a model file of cubes (to .vox,
-/// .kv6, .binvox, .npy, .nrrd, .vxm, .vdb), or the cells of a volumetric image that are at least
-/// half opaque (to the first five).
-/// Returns sentences on what the format couldn't hold. Throws Error::input, Error::limit,
-/// Error::output.
+/// Writes the voxels of a file to one of another of `voxel_formats`: those of a model file of
+/// cubes, or, where the format holds cubes alone, the cells of a volumetric image that are at least
+/// half opaque. Returns sentences on what the format couldn't hold. Throws Error::input,
+/// Error::limit, Error::output.
 std::vector<std::string> convert_voxels(const std::filesystem::path& from,
                                         const std::filesystem::path& to);
 

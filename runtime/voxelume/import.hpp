@@ -59,6 +59,9 @@ struct ImportOptions {
 /// stacks of slices, whose names have numbers, it is "0001.png".
 std::vector<std::string> model_file_endings();
 
+/// How the names of those that are meshes end: ".obj" and others.
+std::vector<std::string> mesh_file_endings();
+
 /// Whether a file's name ends as those of the model files that `import_file` reads.
 bool is_model_file(const std::filesystem::path& file);
 

@@ -146,21 +146,4 @@ void shrink(CubeList& cubes) {
     cubes.size = box.high - box.low + 1;
 }
 
-WriterNotes (*cube_writer(const std::filesystem::path& path))(const std::filesystem::path&,
-                                                              const CubeList&) {
-    struct Row {
-        std::string_view ending;
-        WriterNotes (*write)(const std::filesystem::path&, const CubeList&);
-    };
-    constexpr std::array<Row, 5> kRows = {{{".vox", write_vox},
-                                           {".kv6", write_kv6},
-                                           {".binvox", write_binvox},
-                                           {".npy", write_npy},
-                                           {".nrrd", write_nrrd}}};
-    const std::string ending = ending_of(path);
-    for (const Row& row : kRows)
-        if (ending == row.ending) return row.write;
-    return nullptr;
-}
-
 }  // namespace voxelume

@@ -70,8 +70,4 @@ WriterNotes write_nrrd(const std::filesystem::path& path, const CubeList& cubes)
 /// that name, without listing them.
 void check_colors(const std::filesystem::path& path, const glm::ivec3& size);
 
-/// The writer for a file's name; null where the ending is of none.
-WriterNotes (*cube_writer(const std::filesystem::path& path))(const std::filesystem::path&,
-                                                              const CubeList&);
-
 }  // namespace voxelume
