@@ -55,8 +55,8 @@ struct ImportOptions {
     Size size{800, 600};            ///< of the image, pixels
 };
 
-/// How the names of the model files end that `import_file` reads: ".obj", ".nii.gz" and others. Of
-/// stacks of slices, whose names have numbers, it is "0001.png".
+/// The endings of model files that `import_file` reads: ".obj", ".nii.gz" and others. For stacks of
+/// numbered slices, it is "0001.png".
 std::vector<std::string> model_file_endings();
 
 /// Whether a file's name ends as those of the model files that `import_file` reads.

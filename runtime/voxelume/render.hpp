@@ -37,8 +37,8 @@ struct RenderOptions {
     /// Whether warnings end the call: it then throws Error::scene with the first one's sentence,
     /// after `warn` had those that were found with it.
     bool strict = false;
-    /// Whether other calls render other frames of the run. No warning then says what none of the
-    /// frames shows, nor for a part of an image, of Scene::with_crop.
+    /// Whether other calls render other frames of the run. Warnings of what none of the frames
+    /// shows are then left out, as they are for an image cut by Scene::with_crop.
     bool is_part = false;
     /// Called before each kernel that no earlier run compiled is first launched: the `kernel`-th of
     /// `known` such kernels so far. By one thread at a time, perhaps not the caller's. What it
