@@ -96,7 +96,7 @@ class JobList {
         return job;
     }
 
-    /// What would tell the files of two jobs apart.
+    /// The placeholders that would make the files of two jobs differ, or why none would.
     std::string advice(const RenderJob& a, const RenderJob& b) const {
         const std::string &first = a.command.scene.scene, &second = b.command.scene.scene;
         if (first == second && views_ * combinations_.size() == 1)

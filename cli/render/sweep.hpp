@@ -24,7 +24,7 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Sweep>& swe
 /// The last key of a path: "intensity".
 std::string last_key(const std::string& path);
 
-/// A value as a part of a file's name: "0,1,0" of "[0, 1, 0]".
+/// A value as part of a file name: "[0, 1, 0]" becomes "0,1,0".
 std::string file_part(const std::string& value);
 
 }  // namespace voxelume::cli
