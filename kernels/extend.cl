@@ -29,8 +29,8 @@ static inline void add_path_light(const RayBatch* batch, uint first, lane_int va
 }
 
 /// Notes how much of what lies behind the paths' first surfaces these cover: all, unless a path has
-/// left the world on a straight way. Paths that were scattered have noted it before. Of first
-/// surfaces alone it is their opacity.
+/// left the world on a straight way. Paths that were scattered have noted it before. For first
+/// surfaces alone, it is their opacity.
 static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_int met,
                                  lane_uint target, lane_float clear, lane_float opacity) {
     int add[VXL_LANES];

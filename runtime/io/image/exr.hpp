@@ -32,8 +32,8 @@ struct ExrStorage {
 void set_exr_threads(int threads);
 
 /// Writes `image` with ZIP compression, the chromaticities of Rec. 709, and its attributes and
-/// `others` as strings. Of several parts the first has these, and each part of a matte has that
-/// matte's own.
+/// `others` as strings. If there are several parts, the first has these, and each part of a matte
+/// has that matte's own.
 ///
 /// Returns how many values of R G B A weren't finite. They are written as 0, and the caller tells
 /// the user. Halves are rounded to nearest and clamped to +-65504. Equal images give equal bytes.
