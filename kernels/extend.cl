@@ -116,8 +116,8 @@ static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_
     return met_after(state) | LANES_SELECT(scattered, next, state & ~(lane_uint)VXL_STATE_MET);
 }
 
-/// Chooses directions for paths that matt and physically based surfaces scatter. Of `way`, clears
-/// `diffuse` for those that a surface swallows, and makes refracted those that go through glass.
+/// Chooses directions for paths that matt and physically based surfaces scatter. Clears `diffuse`
+/// of `way` for paths that a surface swallows, and makes those refracted that go through glass.
 static inline ScatteredWay scatter_diffusely(const ScatterPoint* p, const RayBatch* batch,
                                              uint first, const PhysicalView* view,
                                              const PathSamples* samples, Choice* way) {

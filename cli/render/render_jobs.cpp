@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFrame = "####";  // what {frame} stands for until the frame is known
 
-/// The part of an input's name that outputs have. In theirs, # stands for a frame.
+/// The part of an input's name that outputs have. In outputs' names, # stands for a frame.
 std::string name_of_input(const std::string& input) {
     if (input == "-") return "stdin";
     std::string name = std::filesystem::path(input).stem().string();

@@ -16,8 +16,8 @@ struct Sweep {
 /// Reads "PATH=V1,V2"; lists, objects and texts in quotes may hold commas. Throws Error::usage.
 Sweep parse_sweep(const std::string& text, const char* command);
 
-/// A value for each of the sweeps, in their order: the last one's changes first. A single empty
-/// combination for no sweep. Throws Error::usage for more than a million.
+/// A value for each of the sweeps, in their order: the last one's changes first. Without sweeps
+/// there is one empty combination. Throws Error::usage for more than a million.
 std::vector<std::vector<std::string>> combinations(const std::vector<Sweep>& sweeps,
                                                    const char* command);
 

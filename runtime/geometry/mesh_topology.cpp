@@ -44,7 +44,7 @@ struct NumberedEdge {
     bool is_forward;  ///< from the place whose hash is smaller
 };
 
-/// By position. A place has a hash once, not for each of the six triangles that meet there.
+/// The hash of each position: once for a place, not for each of the six triangles that meet there.
 std::vector<uint64_t> place_hashes(const Mesh& mesh) {
     std::vector<uint64_t> hashes(mesh.positions.size());
     for (size_t i = 0; i < hashes.size(); ++i) hashes[i] = hash_of(bits_of(mesh.positions[i]));

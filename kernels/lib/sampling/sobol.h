@@ -15,7 +15,7 @@ typedef struct {
     lane_float x, y;
 } SquarePoint;
 
-/// Such a point, each coordinate times 2^32.
+/// A point of the square, each coordinate times 2^32.
 typedef struct {
     lane_uint x, y;
 } SquareBits;

@@ -43,7 +43,7 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  const std::map<std::string, std::string>& others = {});
 
 /// The file that `write_exr` writes, in bands. A text `noise` that is only known at the end may be
-/// told then. Chunks of all parts but the first wait in a hidden file beside it for the last band.
+/// told then. Chunks of all parts but the first wait in a hidden file next to it for the last band.
 std::unique_ptr<ImageRows> exr_rows(const std::filesystem::path& path, const ImageWindow& window,
                                     const ExrStorage& storage,
                                     const std::map<std::string, std::string>& others);
@@ -74,7 +74,8 @@ struct ExrHeader {
     std::vector<ExrPartHeader> parts;               ///< empty for a file with one
 };
 
-/// Whether main memory has room for the channels of a flat file beside what the process holds.
+/// Whether main memory has room for the channels of a flat file in addition to what the process
+/// holds.
 bool fits_memory(const ExrHeader& header);
 
 /// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,
