@@ -32,8 +32,8 @@ using ValueReference =
                  const ValueRow<Object>*, const ValueRow<LightParameters>*,
                  const ValueRow<ObserverParameters>*, const ValueRow<DisplayParameters>*>;
 
-/// A solid of a model: the whole one, or the part of a part that the numbers lead to; of a model
-/// that is cut the first number is that of the cut.
+/// A solid of a model: the whole one, or the part of a part that the numbers lead to. If the model
+/// is cut, the first number is that of the cut.
 struct SolidPath {
     bool is_cut = false;
     std::vector<size_t> parts;

@@ -104,7 +104,7 @@ struct Morph {
 enum class Shading {
     automatic,  ///< those of the file's vertices, where it has some; else flat
     flat,       ///< each triangle's own
-    smooth      ///< as automatic; of a mesh without normals those of the faces around a vertex
+    smooth  ///< as automatic, but a mesh without normals gets those of the faces around a vertex
 };
 
 /// The length that a file's coordinate 1 stands for.
