@@ -18,8 +18,8 @@
 // How far outside of its voxel a sample may be met, in lattice voxels: surfaces lie on sides, too.
 #define VXL_SAMPLE_SLACK 0.00390625f
 
-// Surfaces that look downwards by so much have no samples: few see them, and the rims of plates
-// would have dark spots.
+// Surfaces whose normal's y is below minus this have no samples: few see them, and the rims of
+// plates would have dark spots.
 #define VXL_LOOKS_DOWN 0.7f
 
 /// Keeps the normals of rays 0 .. count-1, which were aimed at voxels from `first_voxel` on.

@@ -59,7 +59,7 @@ struct VoxelizeSceneOptions {
 };
 
 /// Writes the voxels of a scene's world to files, as `voxelize` does. All objects are cubes in it,
-/// in the colours of their voxels and materials; lights and reflections aren't told. Throws as
+/// in the colours of their voxels and materials; lights and reflections aren't written. Throws as
 /// `voxelize` and `render_frames` do, and Error::usage for an object that the scene doesn't have.
 VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
                               const Device& device, const VoxelizeSceneOptions& options = {});

@@ -48,7 +48,8 @@ std::unique_ptr<ImageRows> exr_rows(const std::filesystem::path& path, const Ima
                                     const ExrStorage& storage,
                                     const std::map<std::string, std::string>& others);
 
-/// The bytes of main memory that writing a band takes besides the band, of rows of so many bytes.
+/// The bytes of main memory that writing a band takes besides the band, whose rows have
+/// `row_bytes`.
 double exr_band_bytes(double row_bytes);
 
 /// The bytes of the file that `write_exr` writes.
