@@ -34,8 +34,8 @@ struct StressOptions {
     uint64_t seed = 1;
     uint64_t first = 0;  ///< number of the first case
     uint64_t count = 0;  ///< of cases
-    std::function<void(uint64_t cases)>
-        progress{};          ///< called after every batch with the number of its cases
+    /// Called after every batch with the number of its cases.
+    std::function<void(uint64_t cases)> progress{};
     std::stop_token stop{};  ///< ends the run after the batch it is in
 };
 
