@@ -35,7 +35,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake ${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake
         DESTINATION ${package})
 
-# Scenes to begin with, their schema and their manual, and what they name.
+# Scenes to begin with, their schema and their manual, and the files that they name.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume
         PATTERN pictures EXCLUDE PATTERN farm/*.sh EXCLUDE PATTERN farm/*.sbatch EXCLUDE)
 file(GLOB farm_programs CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scenes/farm/*.sh ${CMAKE_SOURCE_DIR}/scenes/farm/*.sbatch)

@@ -29,8 +29,8 @@ static inline void add_path_light(const RayBatch* batch, uint first, lane_int va
 }
 
 /// Notes how much of what lies behind the paths' first surfaces these cover: all, unless a path has
-/// left the world on a straight way. Paths that were scattered have noted it before. Of first
-/// surfaces alone it is their opacity.
+/// left the world on a straight way. Paths that were scattered have noted it before. For first
+/// surfaces alone, it is their opacity.
 static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_int met,
                                  lane_uint target, lane_float clear, lane_float opacity) {
     int add[VXL_LANES];
@@ -116,8 +116,8 @@ static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_
     return met_after(state) | LANES_SELECT(scattered, next, state & ~(lane_uint)VXL_STATE_MET);
 }
 
-/// Chooses directions for paths that matt and physically based surfaces scatter. Of `way`, clears
-/// `diffuse` for those that a surface swallows, and makes refracted those that go through glass.
+/// Chooses directions for paths that matt and physically based surfaces scatter. Clears `diffuse`
+/// of `way` for paths that a surface swallows, and makes those refracted that go through glass.
 static inline ScatteredWay scatter_diffusely(const ScatterPoint* p, const RayBatch* batch,
                                              uint first, const PhysicalView* view,
                                              const PathSamples* samples, Choice* way) {

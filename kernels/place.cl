@@ -48,7 +48,7 @@ kernel void mark_near_leaves(const uint count, const int threshold,
 }
 
 // One brick of the world, of those listed or, without a list, of all: raises its state to what the
-// object has there. A brick is full only if the voxels around it are too, since a brick beside an
+// object has there. A brick is full only if the voxels around it are too, since a brick next to an
 // empty voxel, or the world's end, must be stored.
 kernel void classify_bricks(const uint count, global const uint* restrict listed,
                             const int4 world_bricks, const WorldBounds bounds,

@@ -216,7 +216,8 @@ static inline void store_number(lane_uint number, lane_int hit, const Pixels* at
 
 /// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A variance.R
 /// variance.G variance.B Z distance P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart;
-/// `ids` holds the numbers of the object and the material plus 1, likewise, 0 for none.
+/// `ids` holds the numbers of the object and the material plus 1, those that are asked for,
+/// `pixels` apart; 0 for none.
 kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                            global float* restrict image, global uint* restrict ids,

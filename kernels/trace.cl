@@ -84,7 +84,8 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     WorldView world = VXL_WORLD;
-    // Opaque cubes of an instance would end rays again and again where they go on.
+    // Shows the instances of `hollow` objects alone: opaque cubes of others would stop rays
+    // repeatedly, which then have to be continued.
     world.instances.shown = hollow;
     const Surroundings around = VXL_SURROUNDINGS;
     const RayBatch batch = VXL_BATCH;

@@ -49,7 +49,8 @@
 // own units. Axes are right-handed with Y up.
 //
 // Errors. A call that fails throws `Error`, whose sentence is for people and whose parts (kind,
-// file, line, column, key) are for programs. After that, all objects are as they were before.
+// file, line, column, key) are for programs. After that, all objects are as they were before. In
+// comments, "Error::usage" is short for an Error whose kind is ErrorKind::usage.
 //
 // Warnings. What is probably wrong and stops nothing, as an object outside the world, is in
 // Statistics::warnings and Plan::warnings; RenderOptions::warn hears of it, RenderOptions::strict

@@ -32,10 +32,11 @@ std::vector<StressTest> stress_tests();
 /// Which cases of a test are tried. A case depends on the seed and its number alone.
 struct StressOptions {
     uint64_t seed = 1;
-    uint64_t first = 0;                              ///< number of the first case
-    uint64_t count = 0;                              ///< of cases
-    std::function<void(uint64_t cases)> progress{};  ///< told after every batch how many it had
-    std::stop_token stop{};                          ///< ends the run after the batch it is in
+    uint64_t first = 0;  ///< number of the first case
+    uint64_t count = 0;  ///< of cases
+    /// Called after every batch with the number of its cases.
+    std::function<void(uint64_t cases)> progress{};
+    std::stop_token stop{};  ///< ends the run after the batch it is in
 };
 
 /// A case that came out wrong.

@@ -60,7 +60,7 @@ Report environment_report() {
     return report;
 }
 
-/// As text, the table has no other heading than its columns'.
+/// The text form calls the column "cache base", because its table has no heading but the columns'.
 Report cache_report(bool as_json) {
     const fs::path folder = user_cache_folder();
     Report report;

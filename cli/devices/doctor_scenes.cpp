@@ -135,7 +135,7 @@ constexpr const char* kMotion = R"({"voxelume": 1,
     "keys": [{"frame": 1, "value": [0.8, 0, 0]}, {"frame": 2, "value": [-1, 0, 0.1]}]}]},
 "render": {"size": [256, 128], "samples": 2}})";
 
-// Before an entry of the world.
+// Goes in front of an entry of the world.
 constexpr const char* kFog = R"("medium": {"absorption": [0.3, 0.2, 0.1],
                                 "density": {"kind": "height", "base": 0.1, "scale_height": 0.5}},
           )";

@@ -40,7 +40,7 @@ template <class... Args>
     throw Error(ErrorKind::input, "merge: " + fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// What two parts of one run have in common, or why these have not.
+/// Why two parts don't belong to one run; empty if they do.
 std::string difference(const ShardManifest& a, const ShardManifest& b) {
     if (a.shard.count != b.shard.count)
         return fmt::format("one is of {} parts, the other of {}", a.shard.count, b.shard.count);

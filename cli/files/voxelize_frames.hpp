@@ -26,7 +26,7 @@ std::vector<VoxelizeNames> names_of_files(const VoxelizeNames& names, const std:
                                           std::vector<std::string>& gaps);
 
 /// Each frame's names for the frames of `list`, or the first `count`, of one moving file. Throws
-/// Error::usage likewise.
+/// Error::usage for outputs that don't go together, and for a frame that the file doesn't have.
 std::vector<VoxelizeNames> names_of_frames(const VoxelizeNames& names, const std::string& list,
                                            int count);
 

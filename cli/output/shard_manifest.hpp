@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What came of a part of a run: a file beside the part's own, which `voxelume merge` reads.
+// What came of a part of a run: a file next to the part's own, which `voxelume merge` reads.
 #pragma once
 
 #include <filesystem>

@@ -8,14 +8,14 @@
 
 namespace voxelume::cli {
 
-/// Which of the files that are there already are rendered.
+/// Decides which existing files are rendered again.
 enum class Overwrite { always, never, changed };
 
 /// What the options ask for. Throws Error::usage for an unknown word, and where the two options
 /// conflict.
 Overwrite overwrite_of(const RenderCommand& command);
 
-/// What is there of a run already.
+/// What already exists of a run.
 struct Finished {
     size_t frames = 0;   ///< need no rendering
     size_t damaged = 0;  ///< files, those without a hash with them

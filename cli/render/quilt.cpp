@@ -73,8 +73,8 @@ fs::path named(const fs::path& file, const std::string& suffix) {
     return file.parent_path() / (stem + suffix + file.extension().string());
 }
 
-/// Writes a frame's views to its files: all of them beside one another or, where a name tells eyes
-/// apart, each to a file of its own. Returns the files.
+/// Writes a frame's views to its files: all of them side by side or, where a name tells eyes apart,
+/// each to a file of its own. Returns the files.
 std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& quilt,
                                   const std::vector<fs::path>& names, const QuiltChoices& choices,
                                   const ImageFileOptions& options) {
@@ -124,8 +124,8 @@ void add_quilt_options(CLI::App& app, QuiltChoices& choices) {
                "by default")
             ->check(in_range(0, 120));
     app.add_option("--stereo", choices.stereo,
-                   "render a view for each of two eyes, so many metres apart, like 0.064: beside "
-                   "one another, the left one first, or into two files whose names have left and "
+                   "render a view for each of two eyes, so many metres apart, like 0.064: side by "
+                   "side, the left one first, or into two files whose names have left and "
                    "right in place of {eye}")
         ->check(in_range(1e-6, 1e6))
         ->excludes(quilt)

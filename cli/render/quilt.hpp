@@ -38,8 +38,8 @@ std::vector<std::filesystem::path> files_of_eyes(const std::filesystem::path& fi
                                                  const QuiltChoices& choices);
 
 /// Renders a quilt or a stereo pair of each of the job's frames, and writes its files: quilts under
-/// names that say what is in them, pairs beside one another or, where a name has `kEye`, one by
-/// one. Throws Error::usage for options that can't be had of them.
+/// names that say what is in them, pairs side by side or, where a name has `kEye`, one by one.
+/// Throws Error::usage for options that can't be had of them.
 void render_quilts(const RenderCommand& command, const Scene& scene, const FrameJob& job,
                    const std::vector<Device>& devices, const std::string& label);
 

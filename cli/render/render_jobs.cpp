@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFrame = "####";  // what {frame} stands for until the frame is known
 
-/// The part of an input's name that outputs have. In theirs, # stands for a frame.
+/// The part of an input's name that outputs have. In outputs' names, # stands for a frame.
 std::string name_of_input(const std::string& input) {
     if (input == "-") return "stdin";
     std::string name = std::filesystem::path(input).stem().string();
@@ -96,7 +96,7 @@ class JobList {
         return job;
     }
 
-    /// What would tell the files of two jobs apart.
+    /// The placeholders that would make the files of two jobs differ, or why none would.
     std::string advice(const RenderJob& a, const RenderJob& b) const {
         const std::string &first = a.command.scene.scene, &second = b.command.scene.scene;
         if (first == second && views_ * combinations_.size() == 1)

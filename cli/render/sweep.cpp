@@ -35,7 +35,8 @@ Sweep parse_sweep(const std::string& text, const char* command) {
     for (const std::string& value : sweep.values)
         if (value.empty())
             fail_usage(
-                "{}: --sweep {}: a value is missing beside a comma; give PATH=V1,V2, and lists as "
+                "{}: --sweep {}: there is an empty value next to a comma; give PATH=V1,V2, and "
+                "lists as "
                 "PATH=[1,2,3],[4,5,6]",
                 command, text);
     for (size_t i = 0; i < sweep.values.size(); ++i)

@@ -16,15 +16,15 @@ struct Sweep {
 /// Reads "PATH=V1,V2"; lists, objects and texts in quotes may hold commas. Throws Error::usage.
 Sweep parse_sweep(const std::string& text, const char* command);
 
-/// A value for each of the sweeps, in their order: the last one's changes first. A single empty
-/// combination for no sweep. Throws Error::usage for more than a million.
+/// A value for each of the sweeps, in their order: the last one's changes first. Without sweeps
+/// there is one empty combination. Throws Error::usage for more than a million.
 std::vector<std::vector<std::string>> combinations(const std::vector<Sweep>& sweeps,
                                                    const char* command);
 
 /// The last key of a path: "intensity".
 std::string last_key(const std::string& path);
 
-/// A value as a part of a file's name: "0,1,0" of "[0, 1, 0]".
+/// A value as part of a file name: "[0, 1, 0]" becomes "0,1,0".
 std::string file_part(const std::string& value);
 
 }  // namespace voxelume::cli

@@ -24,7 +24,7 @@ class TimeLeft {
     std::optional<double> seconds() const;
     /// What compiling took so far.
     double compile_seconds() const { return compile_; }
-    /// The same, with what is being compiled now.
+    /// What compiling took so far, including the kernel being compiled now.
     double compile_seconds(double now) const {
         return compile_ + (compiling_since_ ? now - *compiling_since_ : 0);
     }

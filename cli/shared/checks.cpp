@@ -124,7 +124,7 @@ Check list_of(Check check, const char* example) {
     return [check = std::move(check), example](const std::string& text) -> std::string {
         for (const std::string& value : listed({text})) {
             const std::string fault =
-                value.empty() ? quote(text) + " lacks a value beside a comma" : check(value);
+                value.empty() ? quote(text) + " has an empty value next to a comma" : check(value);
             if (!fault.empty()) return fmt::format("{}; give {}", fault, example);
         }
         return {};

@@ -33,7 +33,7 @@ bool is_mesh_name(const std::filesystem::path& file);
 void check_output(const std::string& path, const std::vector<std::string>& extensions,
                   const char* command);
 
-/// Throws likewise when the name has none of the endings of images.
+/// Throws as check_output does, for the endings of images.
 void check_image_output(const std::string& path, const char* command);
 
 /// Throws likewise when the name has none of the endings of files of voxels.

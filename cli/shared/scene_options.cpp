@@ -47,7 +47,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "seconds after which a device that doesn't answer ends the run")
         ->check(in_range(1, 1e6));
     app.add_option("--memory-limit", options.memory_limit,
-                   "most main memory that the run takes, and most of a device's own: 500MB, 2.5GB")
+                   "limit of main memory, and of the device's own memory: 500MB, 2.5GB")
         ->type_name("SIZE");
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");

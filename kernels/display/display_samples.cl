@@ -3,9 +3,9 @@
 //
 // A probe point and the normal there stand for a surface in a voxel: samples are spread evenly over
 // the part of that plane that lies in the voxel. Rays look at them as at the probe point, and count
-// where they meet a surface in the voxel. Of the probe points on lines along each axis a voxel has
-// one, which counts where its plane faces that axis most: two surfaces that meet in a voxel, as at
-// the rim of a plate, have a plane each.
+// where they meet a surface in the voxel. For each axis, a voxel has one probe point on lines along
+// it; it counts if its plane faces that axis most. So two surfaces that meet in a voxel, as at the
+// rim of a plate, have a plane each.
 #include "lib/display/lattice_mask.h"
 #include "lib/display/probe.h"
 #include "lib/display/voxel_light.h"
@@ -18,8 +18,8 @@
 // How far outside of its voxel a sample may be met, in lattice voxels: surfaces lie on sides, too.
 #define VXL_SAMPLE_SLACK 0.00390625f
 
-// Surfaces that look downwards by so much have no samples: few see them, and the rims of plates
-// would have dark spots.
+// Surfaces whose normal's y is below minus this have no samples: few see them, and the rims of
+// plates would have dark spots.
 #define VXL_LOOKS_DOWN 0.7f
 
 /// Keeps the normals of rays 0 .. count-1, which were aimed at voxels from `first_voxel` on.

@@ -155,7 +155,8 @@ kernel void order_lines(uint count, uint line_stride, global const uint* restric
 /// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
 /// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
 /// row r lie at (last_a - c + offset_a) / parts_a along the next axis and (last_b - r + offset_b) /
-/// parts_b along the one after it. With `packed` their surfaces come there.
+/// parts_b along the one after it. In scenes with transmission `packed`, unless it is null, gets
+/// their surfaces.
 kernel void pack_points(int axis, uint columns, int last_a, int last_b, float parts_a,
                         float parts_b, float offset_a, float offset_b,
                         global const uint* restrict counts, global const uint* restrict starts,

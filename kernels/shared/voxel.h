@@ -55,7 +55,7 @@
 // object follow each other and are a chain: its field is that of the first record, joined to the
 // next by the lesser (VXL_LINK_UNION) or the larger (VXL_LINK_INTERSECTION) of the two, joined to
 // the one after that, and so on. Between brackets is a chain of its own, which the link of its
-// first record joins to what stands before; of several brackets that open at once, this is the
+// first record joins to what stands before; if several brackets open at once, this is the
 // outermost.
 #define VXL_FIELD_WORDS 8
 #define VXL_LINK_WORD 4

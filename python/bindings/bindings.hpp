@@ -22,7 +22,7 @@ namespace voxelume_python {
 
 namespace py = pybind11;
 
-/// An open device, and the lock that has it serve one call at a time.
+/// An open device, and the lock that lets it serve one call at a time.
 struct OpenDevice {
     voxelume::Device device;
     std::shared_ptr<std::timed_mutex> in_use = std::make_shared<std::timed_mutex>();
@@ -57,7 +57,7 @@ auto interruptibly(const Work& work) {
     try {
         done.get();
     } catch (const std::exception&) {
-        // The interruption is what the user asked for and hears of.
+        // The user asked for the interruption, so that is what is reported.
     }
     throw *std::move(interruption);
 }

@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// The divisor that gives the part of a device's memory in which unused models are retained. As
-/// many bytes of main memory may retain their meshes.
+/// The divisor that gives the part of a device's memory in which unused models are retained. Their
+/// meshes may take as many bytes of main memory.
 inline constexpr uint64_t kRetainedPart = 8;
 
 /// For each model, one past the index in `frames` of the last frame that shows it; 0 if no frame

@@ -18,7 +18,7 @@
 namespace voxelume {
 
 /// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
-/// read as. Of the file's own name only the extension counts.
+/// read as. Only the extension of the file's own name counts.
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
 /// Names a part of the mesh that `source` names; 0 stands for all of it.
 std::string part_source(const std::string& source, int part);

@@ -17,12 +17,12 @@ namespace voxelume {
 /// A .vxm has to have the surface `surface`. From OpenVDB, cubes are the voxels of a fog whose
 /// value is above 0; the value, at most 1, is their coverage, and `Cd` their colour. A smooth
 /// surface is a level set. A .vox has cubes alone, and `part` says which of its models, as
-/// read_vox_voxels has it. Of other formats see read_voxel_file. Throws Error::input for a file
+/// read_vox_voxels has it. For other formats see read_voxel_file. Throws Error::input for a file
 /// that is missing, damaged or has another surface, and for a part of other files.
 VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface, int part = 0,
                             const VoxelValues& values = {});
 
-/// Reads it likewise, with colours as codes where its file has them so.
+/// Reads a model as read_voxel_model does, with colours as codes if its file has them as codes.
 VoxelModel read_coded_model(const std::filesystem::path& file, Surface surface, int part = 0,
                             const VoxelValues& values = {});
 

@@ -24,8 +24,8 @@ void require_room(const std::filesystem::path& file, std::string_view what, doub
 /// The limit of limit_main_memory(); the largest number without one.
 uint64_t chosen_memory_limit();
 
-/// The least of the limits that control groups of both versions set for a process. The largest
-/// number without any.
+/// The minimum of the limits that control groups of both versions set for a process. Without any,
+/// it is the largest number.
 ///
 /// @param groups  the process's groups, as /proc/self/cgroup lists them
 /// @param mount   the folder of all groups: /sys/fs/cgroup

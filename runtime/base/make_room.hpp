@@ -8,7 +8,7 @@
 
 namespace voxelume {
 
-/// Makes room for so many more elements, in large pages where there are any.
+/// Makes room for `more` further elements, in large pages where there are any.
 template <class Element, class Memory>
 void make_room(std::vector<Element, Memory>& elements, size_t more) {
     const size_t wanted = elements.size() + more;

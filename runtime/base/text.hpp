@@ -24,8 +24,8 @@ std::string with_article(std::string_view name);
 /// What a file's name ends with, in small letters: ".png" of "Bunny.PNG".
 std::string ending_of(const std::filesystem::path& file);
 
-/// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. Opens with
-/// `; `.
+/// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. It begins
+/// with `; `.
 std::string suggest(std::string_view text, std::span<const std::string_view> names);
 
 }  // namespace voxelume

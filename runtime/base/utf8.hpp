@@ -15,7 +15,7 @@ std::string utf8_text(const std::string& text);
 /// Whether text begins with the mark of UTF-16, of either order of bytes.
 bool is_utf16(const std::string& text);
 
-/// Such text in UTF-8, without its mark. What is no character becomes U+FFFD.
+/// The text in UTF-8, without its mark. What is no character becomes U+FFFD.
 std::string utf8_of_utf16(const std::string& text);
 
 }  // namespace voxelume

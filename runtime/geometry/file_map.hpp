@@ -15,7 +15,7 @@ namespace voxelume {
 /// Error::input, naming the file, for one that no float can hold.
 void apply(const FileMap& map, const std::filesystem::path& file, Mesh& mesh);
 
-/// Moves the lattice, and the mesh where there is one. Throws likewise.
+/// Moves the lattice, and the mesh if there is one. Throws as for a mesh.
 void apply(const FileMap& map, const std::filesystem::path& file, VoxelModel& voxels);
 
 /// The summary of the mesh after `apply`. Boxes are exact; areas are rounded in another order.

@@ -15,9 +15,10 @@ struct Chord {
     glm::dvec3 entry, exit;  ///< metres
     double thickness;        ///< metres: its length times the cosine at its entry
     double area;             ///< square metres of the entry's face that it stands for
-    bool is_between_walls =
-        false;                 ///< the faces at both ends look away from each other, to 60 degrees
-    bool is_in_sheet = false;  ///< the same to 6 degrees: beside most sharp edges they don't
+    /// The faces at both ends look away from each other, to 60 degrees.
+    bool is_between_walls = false;
+    /// They do so to 6 degrees, which they don't next to most sharp edges.
+    bool is_in_sheet = false;
 };
 
 /// Gives `add` the chords of lines along x, then y, then z: regular lattices that divide each side

@@ -11,8 +11,8 @@
 namespace voxelume {
 
 /// Moves vertices by the share `amount`, 0..1, of the straight way from `from` to `to`, and their
-/// colours too where both meshes have them. Normals turn likewise where both meshes have them, at
-/// the same corners; else the mesh has none. Everything else is `from`'s. 0 and 1 give the
+/// colours too where both meshes have them. Normals turn by the same share if both meshes have them
+/// at the same corners; else the mesh has none. Everything else is `from`'s. 0 and 1 give the
 /// positions of `from` and `to` bit by bit.
 ///
 /// Throws Error::input with both counts unless the meshes have equal numbers of vertices and the

@@ -33,7 +33,7 @@ double longest_edge(const Mesh& mesh) {
 
 Bounds mesh_bounds(const Mesh& mesh) {
     if (mesh.triangles.empty()) return kEmptyBounds;
-    // As doubles they are the same numbers.
+    // Floats are the same numbers as doubles.
     glm::vec3 min(INFINITY), max(-INFINITY);
     for (const glm::uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner) {

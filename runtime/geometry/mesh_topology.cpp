@@ -44,7 +44,7 @@ struct NumberedEdge {
     bool is_forward;  ///< from the place whose hash is smaller
 };
 
-/// By position. A place has a hash once, not for each of the six triangles that meet there.
+/// The hash of each position: once for a place, not for each of the six triangles that meet there.
 std::vector<uint64_t> place_hashes(const Mesh& mesh) {
     std::vector<uint64_t> hashes(mesh.positions.size());
     for (size_t i = 0; i < hashes.size(); ++i) hashes[i] = hash_of(bits_of(mesh.positions[i]));
@@ -103,8 +103,8 @@ class EdgeSums {
     std::vector<uint64_t> sums_;
 };
 
-/// The edges that may be open. Of those that one set of buckets leaves, which are all edges of a
-/// bucket with an open one, another set leaves a small share.
+/// The edges that may be open. One set of buckets leaves all edges of a bucket that has an open
+/// one; a second set leaves a small share of these.
 std::vector<DirectedEdge> doubtful_edges_of(const Mesh& mesh) {
     const std::vector<uint64_t> hashes = place_hashes(mesh);
     EdgeSums sums(0);

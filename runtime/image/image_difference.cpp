@@ -130,7 +130,7 @@ void for_each_pair(const Planes& a, const Planes& b, const Selection& selection,
     }
 }
 
-/// Likewise for all channels, and Cryptomatte's ids are ids.
+/// Visits all channels the same way, and treats Cryptomatte's ids as ids.
 template <class Visit>
 void for_each_channel(const Image& a, const Image& b, const Selection& selection,
                       const Visit& visit) {

@@ -28,7 +28,7 @@ GltfMorph gltf_morph(const GltfFile& file, const GltfClip& clip, const GltfNode&
 /// `, "morph": {...}` of a model; empty where nothing pulls.
 std::string morph_member(const GltfMorph& morph);
 
-/// The track of the time by which a clip of so many seconds moves a model's skin.
+/// The track of the time by which a clip of `seconds` moves a model's skin.
 std::string skin_track(const std::string& model, double seconds);
 
 /// A box around a mesh that lies in `box`, under the weights of all keys and under its skin at each

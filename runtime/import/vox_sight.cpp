@@ -48,7 +48,7 @@ double half_height(const VoxCamera& camera, double angle) {
     return camera.frustum > 1 ? camera.frustum : std::max(camera.radius * tangent, 0.5);
 }
 
-/// The display or projection of a camera that shows so much above its middle.
+/// The display or projection of a camera that shows `half` above its middle.
 std::string display_member(VoxCameraKind kind, double half, const glm::ivec2& size, double voxel) {
     switch (kind) {
         case VoxCameraKind::orthographic:

@@ -22,9 +22,9 @@ struct FramePlan {
 bool is_refused(const FramePlan& planned, const DeviceInfo& device);
 
 /// Plans all `frames` of a scene, one or more, and returns the first that doesn't fit the device,
-/// or else the one that needs the most memory. Of very many those of frames_to_plan() are planned,
-/// and some around the largest of them. Reads every file of models that they show. Calls
-/// `progress`, unless it is empty, with the number of frames that are done.
+/// or else the one that needs the most memory. If there are very many, those of frames_to_plan()
+/// are planned, and some around the largest of them. Reads every file of models that they show.
+/// Calls `progress`, unless it is empty, with the number of frames that are done.
 ///
 /// Throws as scene_at, check_placements and plan_scene do, with the frame.
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,

@@ -26,11 +26,11 @@ struct FramesToPlan {
 /// without colour, whose rays are followed through surfaces that he may be behind.
 bool is_planned_like(const Scene& a, const Scene& b);
 
-/// Chooses among `frames`. Up to kMaxPlannedFrames are all chosen, and nothing is checked. Of more
-/// frames each is held against the rules for values and placements. Those are chosen that lie at
-/// the keys of tracks, or, of more than kMaxPlannedKeys, at each track's extreme values and some
-/// other keys; then others at even distances, and in any case all that show an object or a file
-/// first. Calls `progress`, unless it is empty, with the number of frames seen.
+/// Chooses among `frames`. Up to kMaxPlannedFrames are all chosen, and nothing is checked. If there
+/// are more frames, each is held against the rules for values and placements. Those are chosen that
+/// lie at the keys of tracks, or, if these are more than kMaxPlannedKeys, at each track's extreme
+/// values and some other keys; then others at even distances, and in any case all that show an
+/// object or a file first. Calls `progress`, unless it is empty, with the number of frames seen.
 ///
 /// Throws as scene_at and check_placements do, with the frame.
 FramesToPlan frames_to_plan(const Scene& scene, std::span<const int> frames,

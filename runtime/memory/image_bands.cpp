@@ -49,7 +49,7 @@ bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
            !is_refused({1, scene, plan}, device);
 }
 
-/// The bands if there are so many, or, as rows are rounded up, fewer.
+/// At most `count` bands: fewer if rounding their rows up makes fewer of them.
 ImageBands cut(int height, int count) {
     const int rows = (height + count - 1) / count;
     const int rounded = (rows + kBandRows - 1) / kBandRows * kBandRows;

@@ -24,7 +24,8 @@ Scene band_of(const Scene& scene, const ImageBands& bands, int band);
 /// The bands in which the scene's image is rendered in all frames: one if the whole image fits, and
 /// otherwise as few as fit, by halves, with all that a plan expects, or with the minimum of it.
 /// One, too, where none fit: then the plan of the whole says what is too large. An image that takes
-/// little next to its world isn't planned here. So many devices render bands at once.
+/// little next to its world isn't planned here. `at_once` is the number of devices that render
+/// bands at once.
 ///
 /// Throws as plan_frames does.
 ImageBands bands_that_fit(const Scene& scene, std::span<const int> frames, AssetStore& meshes,

@@ -167,7 +167,8 @@ class Program {
     /// would change another's.
     static void build_together(const Device& device, std::span<const ProgramFile> files);
 
-    /// Compiles `source`, a text that may include kernels/ files. For tests of device functions.
+    /// Compiles `source`, a text that may include kernels/ files. Used by tests of device
+    /// functions.
     static Program from_text(const Device& device, const std::string& source,
                              const Defines& defines = {});
 

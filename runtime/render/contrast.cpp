@@ -114,7 +114,7 @@ void widen(int width, int height, std::vector<bool>& pixels) {
                         pixels[size_t(y) * size_t(width) + size_t(x)] = true;
 }
 
-/// Which of the pixels show nothing; of images of colours alone it doesn't matter.
+/// Which of the pixels show nothing. For images of colours alone, it doesn't matter.
 std::vector<bool> misses(const std::vector<uint32_t>& pixels, const Image& image) {
     std::vector<bool> missed(pixels.size());
     const auto depth = image.planes.find("Z");

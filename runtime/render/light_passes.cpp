@@ -44,7 +44,8 @@ void darken_all_but_lights(Scene& scene) {
     for (Material& material : scene.materials) material.emission = glm::vec3(0);
 }
 
-/// What the lights of a group bring; of the empty name, all that no group does.
+/// The scene with the lights of a group alone; for the empty name, with all light that no group
+/// has.
 Scene group_alone(const Scene& scene, const std::string& group) {
     Scene result = colors_of(scene);
     for (Light& light : result.lights)

@@ -45,7 +45,7 @@ bool measures_noise(const Scene& scene);
 /// Whether a tile shows surfaces of which no light came.
 bool is_dark_tile(uint32_t tile, const Image& image);
 
-/// Averages a tile's light over two images with so many samples each, in `image`, and makes of
+/// Averages a tile's light over two images with `samples` samples each, in `image`, and makes of
 /// their variances that of the average, if they have them. Returns the standard error of the light
 /// of its pixels over their mean, 0 where there is none. A pixel's error is half of the difference
 /// of its two values.

@@ -106,7 +106,7 @@ class Renderer {
         bool are_kept = false;   ///< for the image behind
     };
 
-    /// Where an image got more samples: what its passes do likewise.
+    /// Where an image got more samples, so that the passes over it do the same.
     struct Sampled {
         std::vector<int> tiles;  ///< the samples of each; empty: as many as they need
         std::optional<std::vector<uint32_t>> pixels;  ///< those that contrast; none: not known yet

@@ -72,7 +72,7 @@ void for_each_tile(const std::vector<TileRange>& tiles, See&& see) {
 /// How many samples an image's tiles have.
 class TileSamples {
   public:
-    /// All have so many, at most `maximum`.
+    /// All tiles have `first` samples, and get at most `maximum`.
     TileSamples(uint32_t tiles, int first, int maximum)
         : first_(first), maximum_(maximum), samples_(tiles, first), errors_(tiles, INFINITY) {}
 

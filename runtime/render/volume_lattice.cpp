@@ -37,7 +37,7 @@ std::vector<glm::vec3> middles_of(const VolumeFrame& frame, std::span<const uint
     return middles;
 }
 
-/// Throws Error::limit where so many voxels of a medium have no room.
+/// Throws Error::limit if `count` voxels of a medium have no room.
 void check_medium_voxels(uint64_t count, const VolumeFrame& frame) {
     constexpr double kBytes = 2 * 33 + 20;  // of a voxel, while two volumes are made one
     const double needed = double(count) * kBytes, there = double(main_memory());

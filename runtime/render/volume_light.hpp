@@ -30,8 +30,8 @@ void count_rays(const Illumination& illumination, RenderReport& report);
 /// Lights the rays of a volumetric image, in global light by paths.
 class VolumeLight {
   public:
-    /// For batches of at most `max_rays`. In global light rays are numbered as the pixels of an
-    /// image with so many tiles side by side.
+    /// Takes batches of at most `max_rays`. In global light rays are numbered as the pixels of an
+    /// image of `tiles_across` tiles side by side.
     VolumeLight(const VolumeWork& work, uint32_t max_rays, uint32_t tiles_across);
 
     Illumination& illumination() { return illumination_; }

@@ -30,7 +30,7 @@ std::vector<int> materials_of_groups(const Object& object,
 /// Whether one of the object's materials has emission.
 bool has_emission(const Scene& scene, const Object& object);
 
-/// The rank of each object by descending priority; of equal priorities the earlier object comes
+/// The rank of each object by descending priority; among equal priorities the earlier object comes
 /// first.
 std::vector<uint32_t> object_ranks(const std::vector<Object>& objects);
 

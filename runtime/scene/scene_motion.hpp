@@ -32,8 +32,8 @@ using ValueReference =
                  const ValueRow<Object>*, const ValueRow<LightParameters>*,
                  const ValueRow<ObserverParameters>*, const ValueRow<DisplayParameters>*>;
 
-/// A solid of a model: the whole one, or the part of a part that the numbers lead to; of a model
-/// that is cut the first number is that of the cut.
+/// A solid of a model: the whole one, or the part of a part that the numbers lead to. If the model
+/// is cut, the first number is that of the cut.
 struct SolidPath {
     bool is_cut = false;
     std::vector<size_t> parts;
@@ -46,8 +46,8 @@ struct Track {
     ValueReference value;
     SolidPath solid;  ///< whose value or placement it is, of a model
     int item = -1;    ///< number of a vector that changes alone, or -1
-    /// Numbers; true is 1 and false 0; models and materials are their indices in the scene; of
-    /// files there are none.
+    /// Numbers; true is 1 and false 0; models and materials are their indices in the scene; files
+    /// have no numbers.
     Keyframes keys;
     std::vector<std::filesystem::path> files;  ///< of each key
     std::string path;                          ///< of the value in its part, as messages have it

@@ -17,13 +17,15 @@ template <class Value>
 struct Key {
     double frame = 1;  ///< 1 is the first; fractions are allowed
     Value value{};     ///< the track's value there
-    /// The slope with which Interpolation::spline arrives at the value, per second; 0 without it.
+    /// The slope with which Interpolation::spline arrives at the value, in the value's unit per
+    /// second; 0 without it.
     std::optional<Value> in{};
-    std::optional<Value> out{};  ///< likewise: with which it leaves
+    /// The slope with which it leaves the value, in the value's unit per second; 0 without it.
+    std::optional<Value> out{};
 };
 
-template <class Value>
 /// The keys of one track, in the order of time.
+template <class Value>
 using Keys = std::vector<Key<Value>>;
 
 /// What a value is between two keys.
@@ -35,8 +37,8 @@ enum class Interpolation {
     spline   ///< number by number, with the slopes that the keys have
 };
 
-/// One value of the scene over time. Before the first key its value holds, after the last one the
-/// last one's.
+/// One value of the scene over time. Before the first key, the first value holds; after the last
+/// key, the last value holds.
 ///
 /// `target` is the path to the value by the keys of the scene format, which are the names of these
 /// structs' members (scenes/manual/animation.md): "objects.ball.position", "lights.lamp.intensity",
@@ -49,8 +51,8 @@ struct Track {
                  Keys<std::string>, Keys<std::array<double, 4>>, Keys<std::vector<double>>>
         keys{};  ///< in the order of time, one or more; four numbers are a quaternion of a `turn`,
                  ///< a vector is the weights of a morph
-    std::optional<Interpolation>
-        interpolation{};  ///< without it linear, or step of texts and bools
+    /// Without it linear, or step for texts and bools.
+    std::optional<Interpolation> interpolation{};
 };
 
 /// Frames of a scene, and the tracks that move it.

@@ -14,7 +14,7 @@ namespace voxelume::v1 {
 /// What went wrong. The numbers are the exit codes of the program `voxelume`.
 enum class ErrorKind : int {
     render = 1,      ///< rendering failed: a device was lost, a kernel misbehaved
-    usage = 2,       ///< an argument of a call is none that it takes
+    usage = 2,       ///< a call doesn't accept an argument
     scene = 3,       ///< the text or the values of a scene are wrong
     input = 4,       ///< a file is missing, unreadable or damaged
     output = 5,      ///< a file can't be written
@@ -26,10 +26,10 @@ enum class ErrorKind : int {
 
 /// Where a mistake stands. Parts that don't apply are empty or 0.
 struct ErrorPlace {
-    std::string
-        file{};      ///< the scene, mesh, image or volume; the name of a scene built from structs
-    int line = 0;    ///< from 1 on
-    int column = 0;  ///< from 1 on, in characters
+    /// The scene, mesh, image or volume; the name of a scene built from structs.
+    std::string file{};
+    int line = 0;       ///< from 1 on
+    int column = 0;     ///< from 1 on, in characters
     std::string key{};  ///< the path of a value in a scene: "objects[0].material"
 };
 

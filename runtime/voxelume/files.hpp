@@ -67,9 +67,9 @@ struct VoxelizeSceneOptions {
     std::vector<std::string> without{};  ///< names of objects to leave out
 };
 
-/// Writes the voxels of a scene's world to files, likewise. All objects are cubes in it, in the
-/// colours of their voxels and materials; lights and reflections aren't told. Throws as `voxelize`
-/// and `render_frames` do, and Error::usage for an object that the scene doesn't have.
+/// Writes the voxels of a scene's world to files, as `voxelize` does. All objects are cubes in it,
+/// in the colours of their voxels and materials; lights and reflections aren't written. Throws as
+/// `voxelize` and `render_frames` do, and Error::usage for an object that the scene doesn't have.
 VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
                               const Device& device, const VoxelizeSceneOptions& options = {});
 
@@ -108,7 +108,8 @@ struct Facts {
 /// `options`.
 Facts describe_file(const std::filesystem::path& file, const SceneOptions& options = {});
 
-/// What is in the stack of slices that a PNG file with a number in its name begins, likewise.
+/// What is in the stack of slices that begins with this PNG file, whose name has a number. Returns
+/// and throws as `describe_file` does.
 Facts describe_slices(const std::filesystem::path& first);
 
 /// What the checksums in a file say of it.

@@ -52,8 +52,8 @@ struct Channels {
 struct ChannelRow {
     std::string_view name;   ///< of the group: "RGBA", "CryptoObject"
     bool Channels::*member;  ///< that asks for it
-    std::span<const char* const>
-        planes;  ///< their names in files; one that ends in _ begins others
+    /// Their names in files; one that ends in _ begins others.
+    std::span<const char* const> planes;
 };
 
 /// All groups of channels, in the order in which people read them.
@@ -87,14 +87,14 @@ struct ImageFileOptions {
 /// which never change.
 ///
 /// Colour is linear Rec. 709 and multiplied by A. Z is the depth along the observer's axis in
-/// metres, and for displays that look backwards, too, the distance. `distance` counts along the
-/// sight ray, P is the point and N the normal in the world. Pixels that show no object have Z =
-/// distance = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene,
-/// and so do materials, after `default`, which is 1.
+/// metres; in displays that look backwards, it is the distance. `distance` counts along the sight
+/// ray, P is the point and N the normal in the world. Pixels that show no object have Z = distance
+/// = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene, and so do
+/// materials, after `default`, which is 1.
 class Image {
   public:
     /// Reads an OpenEXR file with all of its channels, or a PNG file, whose R G B A become codes
-    /// over 255 (`holds_codes`). Of an OpenEXR file with several parts it reads the first and all
+    /// over 255 (`holds_codes`). If an OpenEXR file has several parts, it reads the first and all
     /// flat ones with the same data window. Throws Error::input.
     static Image read(const std::filesystem::path& file);
 
@@ -112,9 +112,9 @@ class Image {
     /// The plane of a float channel. It lives as long as this image or a copy of it. Throws
     /// Error::usage for a channel that the image doesn't have.
     std::span<const float> plane(std::string_view channel) const;
-    /// The numbers of the objects; empty where they weren't asked for.
+    /// The numbers of the objects; empty if they weren't asked for.
     std::span<const uint32_t> object_ids() const;
-    /// Likewise those of the materials.
+    /// The numbers of the materials; empty if they weren't asked for.
     std::span<const uint32_t> material_ids() const;
 
     /// Copies a plane to the caller's memory of as many values. Throws Error::usage for another
@@ -168,9 +168,9 @@ struct ImageDifference {
     std::vector<ChannelDifference> channels{};  ///< by name; numbers of objects come last
     std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
     std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
-    std::optional<double>
-        flip;             ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours, all
-                          ///< are numbers, and memory has room for 200 bytes a pixel
+    /// Mean FLIP (Andersson et al. 2020, LDR), if both have colours, all are numbers, and memory
+    /// has room for 200 bytes a pixel.
+    std::optional<double> flip;
     uint64_t pixels = 0;  ///< of each image
     uint64_t above = 0;   ///< pixels above the threshold in some channel that both have
 };
@@ -185,8 +185,9 @@ struct CompareOptions {
 /// Error::usage where one holds codes and the other light, and for channels that neither has.
 ImageDifference compare(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// A picture of |a - b|, channel by channel; 65504 where a value isn't finite. Of images that hold
-/// codes it is one whose codes in a PNG file are the differences of theirs. Throws as `compare`.
+/// A picture of |a - b|, channel by channel; 65504 where a value isn't finite. For images that hold
+/// codes, the result is an image whose codes in a PNG file are the differences of theirs. Throws as
+/// `compare`.
 Image difference_image(const Image& a, const Image& b, const CompareOptions& options = {});
 
 /// A picture of FLIP: a channel FLIP, 0..1, and as R, G, B a scale of heat from black, for what

@@ -49,14 +49,14 @@ struct ImportOptions {
     bool transparent = false;
     double fit = 0;  ///< metres of the longest side; 0: the file's own size
     /// Metres from voxel to voxel along X, Y and Z, before `up` turns them, instead of the file's
-    /// own: of arrays, scans and files of voxels of one model. Not with `fit`.
+    /// own: for arrays, scans and files of voxels of one model. It can't be given with `fit`.
     std::optional<Vec3> spacing{};
     UpAxis up = UpAxis::automatic;  ///< of the file's coordinates
     Size size{800, 600};            ///< of the image, pixels
 };
 
-/// How the names of the model files end that `import_file` reads: ".obj", ".nii.gz" and others. Of
-/// stacks of slices, whose names have numbers, it is "0001.png".
+/// The endings of model files that `import_file` reads: ".obj", ".nii.gz" and others. For stacks of
+/// numbered slices, it is "0001.png".
 std::vector<std::string> model_file_endings();
 
 /// How the names of those that are meshes end: ".obj" and others.
@@ -76,8 +76,8 @@ std::string import_file(const std::filesystem::path& file, const std::filesystem
 Scene scene_of_file(const std::filesystem::path& file, const ImportOptions& options = {},
                     const SceneOptions& scene_options = {});
 
-/// Such a scene of voxels in memory, whose array needs a name. `fit` gives them a size; their Y is
-/// up. Throws as `Scene::load` does, and as SceneOptions::voxels says.
+/// A scene that shows voxels in memory, whose array needs a name. `fit` gives them a size; their Y
+/// is up. Throws as `Scene::load` does, and as SceneOptions::voxels says.
 Scene scene_of_voxels(const VoxelArray& voxels, const ImportOptions& options = {},
                       const SceneOptions& scene_options = {});
 

@@ -51,8 +51,8 @@ struct RectangleLight {
 /// A source of light.
 struct Light {
     std::string name{};  ///< for messages and tracks; empty: "lights[n]"
-    std::variant<PointLight, SpotLight, DirectionalLight, DiskLight, RectangleLight>
-        source{};          ///< its type, with what that type needs
+    /// Its type, with what that type needs.
+    std::variant<PointLight, SpotLight, DirectionalLight, DiskLight, RectangleLight> source{};
     Color color{1, 1, 1};  ///< linear Rec. 709; the intensity multiplies it
     double intensity = 1;  ///< at 1 m, falling with the square; of a directional light everywhere
     std::string group{};   ///< whose part of an image Channels::light_groups shows; empty: none

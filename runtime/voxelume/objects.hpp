@@ -104,7 +104,7 @@ struct Morph {
 enum class Shading {
     automatic,  ///< those of the file's vertices, where it has some; else flat
     flat,       ///< each triangle's own
-    smooth      ///< as automatic; of a mesh without normals those of the faces around a vertex
+    smooth  ///< as automatic, but a mesh without normals gets those of the faces around a vertex
 };
 
 /// The length that a file's coordinate 1 stands for.
@@ -213,18 +213,18 @@ struct Object {
     std::string name{};      ///< for messages and tracks; empty: "objects[n]"
     std::string model{};     ///< name of its model
     std::string material{};  ///< empty: "default"
-    std::vector<std::pair<std::string, std::string>>
-        group_materials{};           ///< group of faces, material
+    /// Pairs of a group of faces and its material.
+    std::vector<std::pair<std::string, std::string>> group_materials{};
     Vec3 position{};                 ///< metres: where the model's origin goes
     Vec3 turn{};                     ///< degrees [psi, theta, gamma]
     Vec3 scale{1, 1, 1};             ///< negative numbers mirror
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
     int priority = 0;     ///< where objects overlap: the higher wins, then the earlier in the list
     bool visible = true;  ///< false: it isn't there, casts no shadow and sends out no light
-    std::optional<int>
-        light_samples{};  ///< points that its emission lights the world from, 0..16384
-    Placement placement =
-        Placement::automatic;  ///< in the world's voxels, as an instance, or whichever suits
+    /// Points that its emission lights the world from, 0..16384.
+    std::optional<int> light_samples{};
+    /// In the world's voxels, as an instance, or whichever suits.
+    Placement placement = Placement::automatic;
     /// Each stands in the one before it, and the object in the last.
     std::vector<Parent> parents{};
 };

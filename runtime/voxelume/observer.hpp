@@ -13,8 +13,8 @@ namespace voxelume::v1 {
 /// A rectangular pyramid: the perspective of a camera.
 struct PyramidDisplay {
     std::optional<std::array<double, 2>> angles{};  ///< degrees: horizontal and vertical opening
-    std::optional<double>
-        angle{};                  ///< degrees: horizontal opening of square pixels; 40 without both
+    /// Degrees: horizontal opening of square pixels; 40 without both.
+    std::optional<double> angle{};
     double near = 0;              ///< metres along Z_E
     std::optional<double> far{};  ///< metres; without it the end of the world
 };
@@ -62,10 +62,10 @@ enum class SeenAlong {
 
 /// The space that the observer sees, VS_E, and the voxels of a volumetric image of it.
 struct Display {
-    std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay>
-        shape{};  ///< the sight space
-    std::optional<std::array<int, 3>>
-        voxels{};                              ///< u, v, k, or x, y, z; without it image size, 256
+    /// The sight space.
+    std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay> shape{};
+    /// Their numbers along u, v, k, or x, y, z; without it the image's size, and 256.
+    std::optional<std::array<int, 3>> voxels{};
     VolumeLayout layout = VolumeLayout::rays;  ///< how the voxels of a volumetric image lie
     std::optional<Visibility> visibility{};    ///< of a lattice; without it `observer`
     std::optional<SeenAlong> seen_along{};  ///< of a lattice; without it `facing`, and `observer`

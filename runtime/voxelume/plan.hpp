@@ -21,9 +21,9 @@ namespace voxelume::v1 {
 
 /// Whether a frame fits a device.
 enum class Verdict {
-    fits,         ///< the most that it may take is there
-    may_fit,      ///< the least is there, the most isn't
-    does_not_fit  ///< the least isn't there, or a limit is exceeded
+    fits,         ///< the maximum that it may take is available
+    may_fit,      ///< the minimum is available, the maximum isn't
+    does_not_fit  ///< the minimum isn't available, or a limit is exceeded
 };
 
 /// "fits", "may fit" or "doesn't fit".

@@ -20,8 +20,8 @@ const char* version();
 struct ProcessOptions {
     /// Sets POCL_CACHE_DIR while OpenCL starts up, and unsets it again: kernels that PoCL, the
     /// OpenCL of CPUs, compiled are then kept in Voxelume's own cache, where processes can't damage
-    /// each other's. Not thread-safe against code of the program that reads the environment then.
-    /// Without it PoCL keeps kernels where its own rules say, in ~/.cache/pocl.
+    /// each other's. This isn't thread-safe against code of the program that reads the environment
+    /// at that time. Without it PoCL keeps kernels where its own rules say, in ~/.cache/pocl.
     bool set_driver_environment = false;
 
     /// Has the program voxelume-vdb-reader, which is installed with the library, read OpenVDB
@@ -37,9 +37,9 @@ struct ProcessOptions {
 /// once.
 void configure(const ProcessOptions& options);
 
-/// Deletes what the process has begun to write and not finished: the hidden files beside outputs
-/// and the folder of its kernels. For a program that has to end while calls of the library still
-/// run; those fail, if they go on. Any thread may call it.
+/// Deletes what the process has begun to write and not finished: the hidden files next to outputs
+/// and the folder of its kernels. It is for a program that has to end while calls of the library
+/// still run; those fail, if they go on. Any thread may call it.
 void remove_unfinished_files();
 
 /// Calls `late` once, from a thread of its own, with a sentence that names the device and what it

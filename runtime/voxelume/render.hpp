@@ -37,12 +37,12 @@ struct RenderOptions {
     /// Whether warnings end the call: it then throws Error::scene with the first one's sentence,
     /// after `warn` had those that were found with it.
     bool strict = false;
-    /// Whether other calls render other frames of the run. No warning then says what none of the
-    /// frames shows, nor for a part of an image, of Scene::with_crop.
+    /// Whether other calls render other frames of the run. Warnings of what none of the frames
+    /// shows are then left out, as they are for an image cut by Scene::with_crop.
     bool is_part = false;
     /// Called before each kernel that no earlier run compiled is first launched: the `kernel`-th of
-    /// `known` such kernels so far. By one thread at a time, perhaps not the caller's. What it
-    /// throws ends the call.
+    /// `known` such kernels so far. It is called by one thread at a time, perhaps not the caller's.
+    /// What it throws ends the call.
     std::function<void(int kernel, int known)> compiling{};
     /// Asks the call to end: it then throws Error::cancelled within about a batch of rays. Frames
     /// that were complete have been delivered.
@@ -78,7 +78,7 @@ struct Quilt {
 /// its rows and the proportions of its views, as in "_qs8x6a0.75".
 std::string quilt_suffix(const Quilt& quilt, Size view);
 
-/// Renders a frame's views and lays them beside one another: the leftmost at the bottom left, the
+/// Renders a frame's views and lays them side by side: the leftmost at the bottom left, the
 /// rightmost at the top right. The scene's image is the size of one. The observer needs a display
 /// that is a pyramid. Throws as render_image does, and Error::usage for other quilts or observers.
 Image render_quilt(const Scene& scene, const std::vector<Device>& devices, const Quilt& quilt,

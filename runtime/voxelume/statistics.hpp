@@ -112,8 +112,8 @@ struct Statistics {
     double open_seconds = 0;                          ///< before the first frame
     double write_seconds = 0;  ///< writing files, perhaps while other work went on
     double total_seconds = 0;  ///< by the clock
-    std::optional<int>
-        one_by_one_from;  ///< frame from which on none overlapped, for want of memory
+    /// Frame from which on none overlapped, for want of memory.
+    std::optional<int> one_by_one_from;
     std::vector<FrameStatistics> frames{};  ///< one for each frame
     std::vector<Warning> warnings{};        ///< what is probably wrong, each once
 

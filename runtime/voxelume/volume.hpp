@@ -72,9 +72,10 @@ struct VolumeFileOptions {
 struct VolumeFrame {
     VolumeLayout layout = VolumeLayout::lattice;  ///< what its voxels' axes are
     std::array<int, 3> size{};                    ///< voxels along the three axes of the layout
-    Vec3
-        origin{};  ///< lattice: voxel (i, j, k) fills origin + edge * [(i, j, k), (i, j, k) + 1] in
-    Vec3 edge{};   ///< metres of the observer's coordinates
+    /// Metres of the observer's coordinates. In a lattice, voxel (i, j, k) fills
+    /// origin + edge * [(i, j, k), (i, j, k) + 1].
+    Vec3 origin{};
+    Vec3 edge{};                   ///< metres, along the same axes
     double near = 0;               ///< rays: voxel k of a ray spans near + step * [k, k + 1] metres
     double step = 0;               ///< metres, of the layout rays
     Matrix world_from_observer{};  ///< 4 x 4

@@ -19,7 +19,7 @@ enum class WarningKind {
                           ///< than 128 triangles
     coarser_than_world,   ///< a model's voxels are coarser than the world's, by more than 4
     open_mesh,            ///< a mesh has holes, and its surface or material needs an inside
-    inside_out_mesh,      ///< a mesh's faces turn inwards, likewise
+    inside_out_mesh,      ///< a mesh's faces turn inwards, and it needs an inside
     unlikely_unit,        ///< a mesh is far larger or smaller than the world
     ignored_materials,    ///< a mesh's material library or textures, or parts of them, aren't shown
     world_not_cached,     ///< the world is too large to be kept on disk

@@ -57,8 +57,8 @@ void resize_voxels(double edge, Scene& scene) {
         if (!model.is_sized) model.voxel_size *= factor;
 }
 
-/// Throws Error::limit where so many bricks have no room in main memory: their colours and the
-/// numbers of their materials, and the colours twice more while a file is written.
+/// Throws Error::limit if `bricks` have no room in main memory: their colours and the numbers of
+/// their materials, and the colours twice more while a file is written.
 void check_room(const World& world, uint32_t bricks) {
     constexpr double kBytes = 4.0 * sizeof(uint32_t) * kVoxelsPerBrick;
     const double needed = kBytes * bricks, there = double(main_memory());

@@ -16,7 +16,7 @@ bool placed_as_instance(Scene scene) {
     return is_instanced(scene, scene.objects[0]);
 }
 
-/// The same of the first of `count` objects of the model.
+/// Whether `auto` makes the first of `count` objects of the model an instance.
 bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
     scene.materials.push_back(material);
     scene.objects[0].material = int(scene.materials.size()) - 1;

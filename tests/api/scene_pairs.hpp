@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of plain structs beside those of texts.
+// Scenes of plain structs, each with its text as a scene file.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -230,7 +230,8 @@ TEST_F(AtomicFileLeftovers, ThatMayBeAnothersWorkStay) {
 }
 
 TEST_F(AtomicFileLeftovers, StayWhileTheirWriterHoldsThem) {
-    // As in another container of this name, whose processes can't be seen.
+    // This stands for a writer in another container of the same name, whose processes can't be
+    // seen.
     const fs::path path = put_temporary(host + ".4194305.12345");
     const int held = open(path.c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_EQ(flock(held, LOCK_EX), 0);

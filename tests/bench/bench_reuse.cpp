@@ -4,7 +4,7 @@
 //
 //   bench_reuse MESH
 //
-// The mesh, 512 voxels along its longest side and smooth, stands in a world of 512³ voxels, beside
+// The mesh, 512 voxels along its longest side and smooth, stands in a world of 512³ voxels, with
 // sixty smooth balls. Medians of seven, each change and its full frame in turn.
 #include <fmt/format.h>
 

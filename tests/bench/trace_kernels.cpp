@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// The hash of the hits' t, voxels, cells and faces. Of a miss only its voxel counts.
+/// The hash of the hits' t, voxels, cells and faces. For a miss only its voxel counts.
 uint64_t hash_of(const RayBatch& batch, size_t count) {
     std::vector<uint32_t> words = batch.hits.read();
     uint64_t hash = 0;

@@ -20,7 +20,7 @@ class CliDriverTest : public SceneProgramTest {
             folder.string(), environment, command));
     }
 
-    /// The same, with the first answer of the self-test wrong.
+    /// Runs a command whose self-test gets a wrong first answer.
     ProgramResult with_wrong_bits(const std::string& command) const {
         return with(
             fmt::format("LD_PRELOAD='{}' VXL_FAULT=clEnqueueReadBuffer:1:wrong", VXL_FAULTS),

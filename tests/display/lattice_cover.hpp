@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the voxels of a lattice, laid over one another, cover along its axes, beside what the flat
-// picture of the same objects does.
+// What the voxels of a lattice, laid over one another, cover along its axes, compared with what the
+// flat picture of the same objects does.
 #pragma once
 
 #include <fmt/format.h>

@@ -62,7 +62,7 @@ class PlacedScene {
         world_ = WorldBuilder(shared_device(), false, meshes).build(scene_, report);
     }
 
-    /// What the observer sees that stands so many metres to the right and above.
+    /// What the observer sees from `right` and `up` metres to the right and above.
     Image picture(double right = 0, double up = 0) const {
         Scene scene = scene_;
         scene.observer.position += right * scene.observer.world_from_observer[0] +

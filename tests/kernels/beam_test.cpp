@@ -83,7 +83,7 @@ HostBricks scattered_cubes(const glm::ivec3& size, int count) {
     return bare_bricks(frame_of(size), voxels);
 }
 
-/// The packed values of the hits. Of a miss only its mark counts, the rest is cleared.
+/// The packed values of the hits. For a miss only its mark counts; the rest is cleared.
 std::vector<uint32_t> hits_of(const RayBatch& batch) {
     std::vector<uint32_t> words = batch.hits.read(0, size_t(batch.stride) * VXL_HIT_PRIMITIVE);
     for (uint32_t i = 0; i < batch.stride; ++i)

@@ -231,10 +231,10 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
     EXPECT_GT(compared, 2400);
 }
 
-// These triangles are 12 voxels long and 1/100 wide: their areas are small beside the products that
-// they are the differences of. The largest error of the first 94 such rays was 2.1e-6 voxel; where
-// these products were rounded it was 1.1e-4. The bound is what the shear alone may round on an
-// axis.
+// These triangles are 12 voxels long and 1/100 wide: their areas are small compared with the
+// products that they are the differences of. The largest error of the first 94 such rays was 2.1e-6
+// voxel; where these products were rounded it was 1.1e-4. The bound is what the shear alone may
+// round on an axis.
 TEST(ExactHit, OfSliversIsTheRationalOne) {
     const Mesh mesh = ball({21.3, 18.1, 14.2}, 12, 8000, 3);
     const FixedGrid grid = fixed_grid(kHitGrid);

@@ -111,7 +111,7 @@ class Textures {
     std::vector<uint32_t> words_, places_;
 };
 
-/// The mean of so many bilinear values in each direction.
+/// The mean of `each` bilinear values in each direction.
 glm::dvec3 mean_of(const oracle::Picture& picture, const Area& area, int each) {
     glm::dvec3 sum(0);
     for (int j = 0; j < each; ++j)

@@ -13,7 +13,7 @@ constexpr const char* kBall = R"({"shape": "sphere", "radius": 0.35, "surface": 
 
 class ImageBandsTest : public PlanTest {
   protected:
-    /// A ball in a picture of so many pixels, of 48 bytes on the device.
+    /// A ball in a picture of `size` pixels, which take 48 bytes each on the device.
     Scene picture(glm::ivec2 size, double voxel = 0.05) {
         Scene scene = scene_of(kBall, voxel);
         scene.render.size = size;

@@ -28,7 +28,7 @@ class CoatFormulas {
     explicit CoatFormulas(double alpha);
     double returned(double cosine) const;
 
-    /// As PhysicalFormulas::value.
+    /// The value of this coat, as PhysicalFormulas::value has it.
     double value(const glm::dvec3& out, const glm::dvec3& in) const;
 
   private:

@@ -25,7 +25,7 @@ class LatticeDistance {
     LatticeDistance(const World& world, const Solid& solid, const glm::dmat4& world_from_object)
         : origin_(world.bounds.min), edge_(world.voxel_size), solid_(solid, world_from_object) {}
 
-    /// At a point of the world, in metres, positive outside.
+    /// The distance at a point of the world, in metres; positive outside.
     double at(const glm::dvec3& point) const {
         const glm::dvec3 place = (point - origin_) / edge_;
         const glm::dvec3 voxel = glm::floor(place), part = place - voxel;

@@ -4,7 +4,7 @@
 //
 // Where surfaces coincide, rounding alone says which of them a ray meets first. What has to be
 // shown instead is told by pictures in which nothing coincides: the object that counts is moved by
-// an eighth of a voxel so that it covers the other. The pictures differ in few pixels, beside
+// an eighth of a voxel so that it covers the other. The pictures differ in few pixels, next to
 // edges.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of an exact mesh of slivers: a closed pipe, as CAD programs write it, which no point of
-// its own shades, beside the cylinder that it approximates.
+// its own shades, compared with the cylinder that it approximates.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -66,8 +66,8 @@ inline int second_difference(uint32_t bits) {
     return bits / 512 ? -size : size;
 }
 
-/// The bits of the second difference nearest to D, given 2D. Searches all; of two equally near
-/// takes the even one.
+/// The bits of the second difference nearest to D, given 2D. Searches all, and takes the even one
+/// if two are equally near.
 inline uint32_t nearest_bits(int twice) {
     uint32_t best = twice < 0 ? 512 : 0;
     const uint32_t first = best;

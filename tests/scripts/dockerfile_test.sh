@@ -3,8 +3,8 @@
 # Does what cmake/Dockerfile says, without Docker: its stages are bare Debians in folders, and its
 # lines run there by chroot. Then renders a picture as the container would. The first stage, which
 # builds the package from the last commit's sources, is left out where PACKAGE is one: that takes a
-# quarter of an hour. As root; needs what bare_debian.sh does.
-# Usage: dockerfile_test.sh SOURCE_FOLDER CACHE_FOLDER [PACKAGE]
+# quarter of an hour. Runs as root; needs what bare_debian.sh does. Usage: dockerfile_test.sh
+# SOURCE_FOLDER CACHE_FOLDER [PACKAGE]
 set -euo pipefail
 source=$(realpath "$1")
 mkdir -p "$2"

@@ -199,13 +199,14 @@ TEST_F(BenchProgram, RefusesWhatItCannotDoBeforeItMeasures) {
     for (const auto& [options, sentence] :
          {std::pair("--placement worl",
                     "--placement: \"worl\" isn't one; give world, instance, or world,instance"),
-          std::pair("--samples 4,,1",
-                    "--samples: \"4,,1\" lacks a value beside a comma; give numbers like 1,4,16"),
+          std::pair(
+              "--samples 4,,1",
+              "--samples: \"4,,1\" has an empty value next to a comma; give numbers like 1,4,16"),
           std::pair("--samples 4,x",
                     "--samples: \"x\" isn't a whole number from 1 to 4096 in "
                     "digits; give numbers like 1,4,16"),
           std::pair("--resolution 16,",
-                    "--resolution: \"16,\" lacks a value beside a comma; give "
+                    "--resolution: \"16,\" has an empty value next to a comma; give "
                     "numbers like 16,32,64")}) {
         const ProgramResult refused = run(std::string("bench ") + options);
         EXPECT_EQ(refused.exit_code, 2) << options;

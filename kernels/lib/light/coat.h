@@ -3,10 +3,10 @@
 // gets to what is below, and back.
 //
 // A coat lets one share of light through along the direction in which light comes, and another
-// along that in which it leaves. Of light that facets below return at once, the lesser of both gets
-// through: what a polished coat throws back at a mirror leaves the same way later. The rest is
-// spread by the rules for light that facets miss, so that none is lost and both ways between two
-// directions are equal.
+// along that in which it leaves. Light that the facets below return at once is multiplied by the
+// smaller of the two shares: what a polished coat throws back at a mirror leaves the same way
+// later. The rest is spread by the rules for light that facets miss, so that none is lost and both
+// ways between two directions are equal.
 #ifndef VXL_COAT_H
 #define VXL_COAT_H
 

@@ -53,7 +53,8 @@ static inline Albedo albedo_at(const FacetTable* t, lane_float cosine) {
     return a;
 }
 
-/// What facets return at once, reflecting so much of the light straight on and at grazing angles.
+/// What facets return at once that reflect `reflectance` of the light straight on, and `grazing` of
+/// it at grazing angles.
 static inline lane_float at_once(const Albedo* a, lane_float reflectance, lane_float grazing) {
     return fma(reflectance, a->all - a->by_angle, grazing * a->by_angle);
 }

@@ -60,7 +60,7 @@ static inline lane_float multiple_share(lane_float reflectance, lane_float grazi
     return exact_divide(mean * mean * (1.0f - missing), fma(-mean, missing, (lane_float)1.0f));
 }
 
-/// What the matt part of materials is multiplied by, so that no light is lost.
+/// The factor of the materials' matt part, chosen so that no light is lost.
 static inline lane_float matt_factor(const PhysicalView* s, lane_uint material) {
     const lane_float own = LANES_GATHER_FLOAT(s->materials, material + VXL_MATERIAL_MATT);
     const Layers* l = &s->layers;

@@ -50,8 +50,9 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
 /// The part of the ways along the unit vectors `way` that the light shines on: the light's middle
 /// lies at `to_light` from their origins, and they reach from `begin` to `end`, all in metres.
 ///
-/// Where ways begin at a light, as those of an observer with a lamp, a medium scatters an infinite
-/// amount of its light. Within a voxel of it, chance alone finds that, so that pictures show more.
+/// If the rays begin at a light, as for an observer who carries one, the medium scatters an
+/// infinite amount of its light. Within a voxel of it, chance alone finds that, so that pictures
+/// show more.
 static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light, Vector way,
                                  lane_float begin, lane_float end, lane_int valid) {
     const lane_float one = (lane_float)1.0f;

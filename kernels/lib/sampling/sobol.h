@@ -2,9 +2,9 @@
 // Points of the unit square for the decisions of paths: Sobol's sequence, scrambled and shuffled as
 // Owen 1995 describes, by hashes (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)).
 //
-// Of 2^k successive samples, one falls into each of 2^k boxes that divide the square evenly,
-// whatever their shape: the points are a (0,2)-sequence. Points of different seeds are independent.
-// All is computed in integers, so all devices have the same points.
+// 2^k successive samples fall one each into 2^k boxes that divide the square evenly, whatever their
+// shape: the points are a (0,2)-sequence. Points of different seeds are independent. All is
+// computed in integers, so all devices have the same points.
 #ifndef VXL_SOBOL_H
 #define VXL_SOBOL_H
 
@@ -15,7 +15,7 @@ typedef struct {
     lane_float x, y;
 } SquarePoint;
 
-/// Such a point, each coordinate times 2^32.
+/// A point of the square, each coordinate times 2^32.
 typedef struct {
     lane_uint x, y;
 } SquareBits;
@@ -85,8 +85,9 @@ static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
     return p;
 }
 
-/// Which of `count` equal parts of [0, 1) a 32-bit fraction lies in. Of 2^20 parts, no two differ
-/// by more than 1 in 4096 fractions; the 24 bits of a float would make some a sixteenth larger.
+/// Which of `count` equal parts of [0, 1) a 32-bit fraction lies in. If there are 2^20 parts, no
+/// two differ by more than 1 in 4096 fractions; the 24 bits of a float would make some a sixteenth
+/// larger.
 static inline lane_uint part_of(lane_uint fraction, uint count) {
     return mul_hi(fraction, (lane_uint)count);
 }

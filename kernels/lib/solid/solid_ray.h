@@ -52,7 +52,7 @@ static inline ShapeSpan later_span(ShapeSpan s, lane_float by) {
     return span(s.enter + by, s.leave + by);
 }
 
-/// Between the planes at ±extent along one axis.
+/// The span between the planes at ±extent along one axis.
 static inline ShapeSpan slab_span(lane_float p, lane_float v, float extent) {
     const lane_int moves = LANE_MASK(v != 0.0f);
     const lane_float divisor = LANES_SELECT(moves, v, (lane_float)1.0f);

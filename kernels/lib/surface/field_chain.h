@@ -7,7 +7,8 @@
 
 #include "lib/surface/smooth.h"
 
-// A ray goes through at most so many zeros of a chain's records in search of the chain's own.
+// The maximum number of zeros of a chain's records that a ray goes through in search of the chain's
+// own.
 #define VXL_CHAIN_ZEROS 64
 
 #define VXL_NO_RECORD 0xFFFFFFFFu

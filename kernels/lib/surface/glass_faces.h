@@ -11,7 +11,7 @@
 #include "lib/traverse/voxel_kinds.h"
 #include "lib/traverse/world.h"
 
-/// A cell beside a face.
+/// A cell next to a face.
 typedef struct {
     lane_int x, y, z;
 } FaceCell;

@@ -90,7 +90,8 @@ void add_thin_part_warning(const Scene& scene, const PlacedModel& placed, AssetS
     const double scale = smallest(placed.scale), voxel = field_voxel(scene, placed);
     const MeshThickness thickness = meshes.thickness_of(model);
     if (thickness.part * scale >= kThinPartVoxels * voxel) return;
-    // Beside sharp edges little is behind the area, however thick the body is: sheets alone count.
+    // Next to sharp edges, little lies behind the area, however thick the body is: sheets alone
+    // count.
     const bool is_sharp = has_sharp_edges(mesh, meshes.shape_of(model), voxel / scale);
     const double part = (is_sharp ? thickness.sheet : thickness.part) * scale;
     const bool has_inside = part > 0;

@@ -39,8 +39,8 @@ auto guarded(const Action& action) -> decltype(action()) {
     }
 }
 
-/// A caller's callback, for the library's inside: what it throws arrives at the caller as it is.
-/// Empty for an empty one.
+/// A caller's callback, for the library's inside: what it throws arrives at the caller as it is. It
+/// is empty if the caller's is.
 template <class... Args>
 std::function<void(Args...)> callback(const std::function<void(Args...)>& of_caller) {
     if (!of_caller) return {};

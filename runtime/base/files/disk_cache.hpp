@@ -19,7 +19,7 @@ namespace voxelume {
 std::filesystem::path cache_folder();
 
 /// The folders before the last one of VOXELUME_CACHE_DIR, between colons: what is in them is read,
-/// and nothing is written there. Those of `name` below them.
+/// and nothing is written there. With `name`, the folders of that name below them.
 std::vector<std::filesystem::path> cache_bases(const std::string& name = {});
 
 /// Why a base isn't read, or one of the folders in it, in words for people. Empty if it is.
@@ -51,7 +51,7 @@ class DiskCache {
     void write(const std::string& key, std::string_view bytes) const noexcept;
 
     /// Why nothing can be written, in the words of the system: "Permission denied". Empty if
-    /// something can be, and for a cache that keeps nothing. Leaves nothing there.
+    /// something can be, and for a cache that keeps nothing. Asking leaves no file behind.
     std::string refusal() const;
     const std::filesystem::path& folder() const { return folder_; }
 

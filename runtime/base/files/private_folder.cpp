@@ -36,7 +36,7 @@ PrivateFolder PrivateFolder::open_base(const fs::path& path) {
 
 PrivateFolder PrivateFolder::open_trusted(const fs::path& path, bool may_be_roots) {
     PrivateFolder folder;
-    // With a slash at its end, a link's target would be opened.
+    // If the name ended in a slash, a link's target would be opened.
     const fs::path name = path.has_filename() ? path : path.parent_path();
     folder.descriptor_ =
         ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);

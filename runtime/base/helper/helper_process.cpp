@@ -39,7 +39,7 @@ class Descriptor {
     int number_;
 };
 
-/// A copy of a descriptor whose number is none that the helper's own will have.
+/// A copy of a descriptor, with a number that none of the helper's own descriptors will have.
 int moved_away(int descriptor) {
     return fcntl(descriptor, F_DUPFD_CLOEXEC, kHelperAnswer + 1);
 }

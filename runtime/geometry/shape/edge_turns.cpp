@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMostEdges = 32;
 
-/// A right angle turns so much more than the least sharp edge.
+/// How many times as much a right angle turns as an edge that is just sharp.
 constexpr double kRightAngle = 90 / kSharpAngle;
 
 /// Around a rounded edge the surface bends to its side alone, within so many widths to each side,

@@ -145,7 +145,7 @@ double length_within(const MeshEdges& mesh, const std::vector<SharpEdge>& edges,
     return sum;
 }
 
-/// Widths are found among those that are so many to an octave, over so many octaves.
+/// Widths are found among kRungs to an octave, over kOctaves octaves.
 constexpr int kRungs = 16, kOctaves = 12;
 
 }  // namespace

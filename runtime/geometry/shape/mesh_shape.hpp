@@ -52,7 +52,7 @@ struct SurfaceChoice {
 /// its distances, metres in the space of the mesh.
 SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
-/// Why parts of a mesh may not be exact beside a field, where that is left out: its outermost
+/// Why parts of a mesh may not be exact next to a field, where that is left out: its outermost
 /// voxels have neither colours nor groups in the world. Empty if they may.
 std::string refusal_of_parts(const MeshSummary& mesh);
 

@@ -20,7 +20,7 @@ CellArray read_nrrd_header(const std::filesystem::path& path);
 bool is_volume_nrrd(const std::filesystem::path& path);
 
 /// A NIfTI 1 or 2 file (.nii, .nii.gz), or a pair of which either file is named (.hdr and .img,
-/// each also with .gz behind it), turned likewise. Of several volumes it is the first.
+/// each also with .gz behind it), turned likewise. If it has several volumes, the first is read.
 CellArray read_nifti_header(const std::filesystem::path& path);
 
 /// A stack of PNG slices, whose names have consecutive numbers: that of the file and those of its

@@ -33,7 +33,8 @@ struct CellRun {
     size_t brick;
 };
 
-/// The runs of cells of which each adds so much to the number of its brick.
+/// The runs of cells that add the same to the number of their brick; `bricks` has what each cell
+/// adds.
 std::vector<CellRun> runs_of(const std::vector<size_t>& bricks);
 
 }  // namespace voxelume

@@ -21,7 +21,7 @@ class StepMeter {
           weight_(weight),
           pairs_(sides.inside.words()) {}
 
-    /// Between neighbours in layer z.
+    /// Measures between neighbours in layer z.
     template <class Value>
     void measure(const Value* layer, int z) {
         const int height = array_.counts.y;
@@ -36,7 +36,7 @@ class StepMeter {
         }
     }
 
-    /// Between layer z and the one after it.
+    /// Measures between layer z and the one after it.
     template <class Value>
     void measure(const Value* layer, const Value* next, int z) {
         for (int y = 0; y < array_.counts.y; ++y) {

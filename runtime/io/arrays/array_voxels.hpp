@@ -12,16 +12,16 @@
 
 namespace voxelume {
 
-/// The cells that have such values as cubes. Of colours, they are those that aren't black, or with
-/// an opacity those that aren't clear. Throws Error::input for a file that is truncated or damaged,
-/// for arrays without such cells, and for `values` that colours don't have.
+/// The cells that have such values as cubes. If the array has colours, they are the cells that
+/// aren't black, or with an opacity those that aren't clear. Throws Error::input for a file that is
+/// truncated or damaged, for arrays without such cells, and for `values` that colours don't have.
 VoxelModel cubes_of_array(const CellArray& array, const VoxelValues& values);
 
 /// The surface between the cells that have such values and the others. The field is linear in the
-/// array's values: half-Taylor interpolation between the middles of cells is of third order.
-/// Beyond the array's end its values are mirrored, so that the surface is closed there. Throws
-/// Error::input likewise, and for colours and arrays of more than 2^30 cells,
-/// or 2^28 in gzip.
+/// array's values: half-Taylor interpolation between the middles of cells is of third order. Beyond
+/// the array's end its values are mirrored, so that the surface is closed there. Throws
+/// Error::input as cubes_of_array does, and for colours and arrays of more than 2^30 cells, or 2^28
+/// in gzip.
 VoxelModel surface_of_array(const CellArray& array, const VoxelValues& values);
 
 /// What the values of an array come to.

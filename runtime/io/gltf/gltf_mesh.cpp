@@ -94,9 +94,10 @@ class MeshBuilder {
         }
         for (const std::string& note : file_.notes()) mesh_.notes.push_back(note);
         if (skipped_ > 0)
-            mesh_.notes.push_back(fmt::format(
-                "{} of its primitives are points or lines beside triangles, which aren't shown",
-                skipped_));
+            mesh_.notes.push_back(
+                fmt::format("{} of its primitives are points or lines, which aren't shown in a "
+                            "mesh with triangles",
+                            skipped_));
         return std::move(mesh_);
     }
 

@@ -12,7 +12,7 @@ namespace voxelume {
 /// A mesh of the file, numbered from 1 on, in its own space; with 0 all that the file's scene
 /// shows, in its places. Groups are named by GltfFile::material_name().
 ///
-/// Points and lines of a mesh without triangles become triangles without area; beside triangles
+/// Points and lines of a mesh without triangles become triangles without area; if it has triangles,
 /// they are left out with a note. Base colour textures are those of metallic-roughness and of
 /// specular-glossiness materials. Throws Error::input for a file that is damaged or has nothing to
 /// show, Error::limit for too many.

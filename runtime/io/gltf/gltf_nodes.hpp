@@ -36,7 +36,7 @@ std::vector<int> gltf_parents(const GltfFile& file);
 glm::dvec3 gltf_translation(const GltfValue& node);
 glm::dvec4 gltf_rotation(const GltfValue& node);  ///< a quaternion x, y, z, w
 glm::dvec3 gltf_scale(const GltfValue& node);
-/// By these three or by its matrix.
+/// The node's map, by these three or by its matrix.
 glm::dmat4 gltf_parent_from_node(const GltfValue& node);
 
 /// Whether some primitive of a mesh with triangles has joints, so that a skin moves it.

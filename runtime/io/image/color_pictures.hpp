@@ -16,7 +16,8 @@ ColorPicture read_exr_colors(const std::filesystem::path& path, uint64_t max_pix
 ColorPicture read_radiance_colors(const std::filesystem::path& path, uint64_t max_pixels);
 ColorPicture read_png_colors(const std::filesystem::path& path, uint64_t max_pixels);
 
-/// Read the size alone, which the header tells. Throw Error::input likewise.
+/// Read the size alone, which the header tells. Throw Error::input for a file that is missing or
+/// damaged.
 glm::ivec2 read_exr_size(const std::filesystem::path& path);
 glm::ivec2 read_radiance_size(const std::filesystem::path& path);
 glm::ivec2 read_png_size(const std::filesystem::path& path);

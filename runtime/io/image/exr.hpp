@@ -32,8 +32,8 @@ struct ExrStorage {
 void set_exr_threads(int threads);
 
 /// Writes `image` with ZIP compression, the chromaticities of Rec. 709, and its attributes and
-/// `others` as strings. Of several parts the first has these, and each part of a matte has that
-/// matte's own.
+/// `others` as strings. If there are several parts, the first has these, and each part of a matte
+/// has that matte's own.
 ///
 /// Returns how many values of R G B A weren't finite. They are written as 0, and the caller tells
 /// the user. Halves are rounded to nearest and clamped to +-65504. Equal images give equal bytes.
@@ -43,12 +43,13 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  const std::map<std::string, std::string>& others = {});
 
 /// The file that `write_exr` writes, in bands. A text `noise` that is only known at the end may be
-/// told then. Chunks of all parts but the first wait in a hidden file beside it for the last band.
+/// told then. Chunks of all parts but the first wait in a hidden file next to it for the last band.
 std::unique_ptr<ImageRows> exr_rows(const std::filesystem::path& path, const ImageWindow& window,
                                     const ExrStorage& storage,
                                     const std::map<std::string, std::string>& others);
 
-/// The bytes of main memory that writing a band takes besides the band, of rows of so many bytes.
+/// The bytes of main memory that writing a band takes besides the band, whose rows have
+/// `row_bytes`.
 double exr_band_bytes(double row_bytes);
 
 /// The bytes of the file that `write_exr` writes.
@@ -74,7 +75,8 @@ struct ExrHeader {
     std::vector<ExrPartHeader> parts;               ///< empty for a file with one
 };
 
-/// Whether main memory has room for the channels of a flat file beside what the process holds.
+/// Whether main memory has room for the channels of a flat file in addition to what the process
+/// holds.
 bool fits_memory(const ExrHeader& header);
 
 /// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes and,

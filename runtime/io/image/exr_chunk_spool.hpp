@@ -12,8 +12,8 @@
 
 namespace voxelume {
 
-/// A hidden file, beside the one that chunks are for. It never gets a name, and is gone with the
-/// spool.
+/// A hidden file in the folder of the one that chunks are for. It never gets a name, and is gone
+/// with the spool.
 class ExrChunkSpool {
   public:
     explicit ExrChunkSpool(const std::filesystem::path& beside) : file_(beside) {}

@@ -34,8 +34,8 @@ struct ExrChunk {
 /// How often the bytes of a chunk lie in memory while it is compressed.
 inline constexpr int kChunkCopies = 4;
 
-/// How many threads, of so many, compress chunks of so many bytes without taking much memory
-/// besides a band of an image: 64 MiB, or what one takes.
+/// How many of `threads` compress chunks of `chunk_bytes` without taking much memory besides a band
+/// of an image: 64 MiB, or what one takes.
 int threads_for_band(size_t chunk_bytes, int threads);
 
 /// Calls `write` with every chunk of the image, from the top down. `threads` threads compress them.

@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// All bands of an image but the last have a multiple of so many rows: the chunks of OpenEXR.
+/// The number of an OpenEXR chunk's rows. All bands of an image but the last have a multiple of it.
 inline constexpr int kBandRows = 16;
 
 /// The pixels of an image, and their place in a picture that they are a part of.

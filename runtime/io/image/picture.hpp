@@ -19,10 +19,11 @@ inline constexpr uint64_t kMaxTexturePixels = uint64_t{1} << 26;
 /// kMaxTexturePixels.
 Picture parse_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& name);
 
-/// Decodes a PNG or JPEG, as its first bytes tell. Throws Error::input likewise.
+/// Decodes a PNG or JPEG, as its first bytes tell. Throws as parse_jpeg does.
 Picture parse_picture(std::span<const uint8_t> bytes, const std::filesystem::path& name);
 
-/// Reads a picture's file. Throws Error::input likewise.
+/// Reads a picture's file. Throws as parse_picture does, and Error::input for a file that can't be
+/// read.
 Picture read_picture(const std::filesystem::path& path);
 
 }  // namespace voxelume

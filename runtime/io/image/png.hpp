@@ -57,7 +57,8 @@ std::string png_bytes(const Image& image, const PngOptions& options = {});
 /// 2^28 pixels, and Error::limit for one that memory doesn't hold.
 Picture read_png(const std::filesystem::path& path);
 
-/// Decodes the bytes of a PNG likewise, with at most `max_pixels`; `name` opens the messages.
+/// Decodes the bytes of a PNG as read_png does, with at most `max_pixels`; `name` opens the
+/// messages.
 Picture parse_png(std::span<const uint8_t> bytes, const std::filesystem::path& name,
                   uint64_t max_pixels);
 

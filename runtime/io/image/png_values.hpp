@@ -22,7 +22,7 @@ struct PngShape {
 PngShape read_png_shape(const std::filesystem::path& path);
 
 /// The numbers of a PNG of that shape, row 0 at the top, in the order of bytes of this machine.
-/// Throws Error::input likewise, and for another shape.
+/// Throws as read_png_shape does, and Error::input for another shape.
 std::vector<std::byte> read_png_values(const std::filesystem::path& path, const PngShape& shape);
 
 }  // namespace voxelume

@@ -21,8 +21,8 @@ struct ColorPicture {
 glm::ivec2 parse_radiance_size(std::span<const uint8_t> bytes, const std::filesystem::path& name);
 
 /// Decodes an .hdr: four bytes red, green, blue and exponent, as they are or in runs, both old and
-/// new ones. Exposures that its header notes aren't undone. Throws Error::input likewise, for
-/// damaged bytes and for more than `max_pixels`.
+/// new ones. Exposures that its header notes aren't undone. Throws as parse_radiance_size does, and
+/// Error::input for damaged bytes and for more than `max_pixels`.
 ColorPicture parse_radiance(std::span<const uint8_t> bytes, const std::filesystem::path& name,
                             uint64_t max_pixels);
 

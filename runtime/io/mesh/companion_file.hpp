@@ -10,9 +10,9 @@ namespace voxelume {
 
 /// The canonical path of a regular file that the file `of` names, in its folder or below it.
 ///
-/// Backslashes count as slashes. Of a name that leads elsewhere, as those of the computer that
-/// wrote the file do, only the last part counts. Empty where there is no such file, and for links
-/// that lead out of the folder.
+/// Backslashes count as slashes. If a name leads elsewhere, as names of the computer that wrote the
+/// file do, only its last part counts. Empty where there is no such file, and for links that lead
+/// out of the folder.
 std::optional<std::filesystem::path> companion_file(const std::filesystem::path& of,
                                                     std::string name);
 

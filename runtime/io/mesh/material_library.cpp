@@ -186,7 +186,7 @@ std::vector<NamedLibrary> find_libraries(const std::filesystem::path& mesh,
     return found;
 }
 
-/// Says which libraries, whose names are in quotes, aren't there. At least one isn't.
+/// Says which libraries, one or more, aren't there. The names are in quotes.
 std::string missing_sentence(std::vector<std::string> names) {
     if (names.size() == 1)
         return fmt::format("its material library {} isn't in its folder", names[0]);

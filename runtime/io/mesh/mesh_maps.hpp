@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The maps that a material of an OBJ file's library names, beside its colour's texture.
+// The maps that a material of an OBJ file's library names, apart from its colour's texture.
 #pragma once
 
 #include <filesystem>

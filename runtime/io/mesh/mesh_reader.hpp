@@ -16,10 +16,10 @@ struct MeshSource;
 /// The content decides the format where it is unmistakable (PLY by its first line, binary STL by
 /// its size, ascii STL by "solid" ... "facet" or "endsolid"), whatever the file's name; otherwise
 /// the extension decides. Vertex colours are taken as sRGB and become linear. Polygons are cut into
-/// triangles. Of a file without faces, points and lines become triangles without area, and where it
-/// has none either, all vertices do. What else a file has beyond struct Mesh (free-form curves,
-/// lines beside faces) is skipped. Vertices that no face uses and triangles without area are kept.
-/// Units are taken as metres.
+/// triangles. If a file has no faces, its points and lines become triangles without area; if it has
+/// none of these either, all vertices do. What else a file has beyond struct Mesh (free-form
+/// curves, lines of a file with faces) is skipped. Vertices that no face uses and triangles without
+/// area are kept. Units are taken as metres.
 ///
 /// Throws Error::input for a file that is missing, unreadable, damaged or without vertices, with a
 /// sentence that starts with the file and the line or byte. Throws Error::limit for a file that is
@@ -36,8 +36,8 @@ Mesh parse_mesh(const std::string& bytes, const std::filesystem::path& name);
 /// Parses OBJ (Wavefront): `v`, `vn`, `vt`, `f`, `p`, `l`, `usemtl` and the name of `mtllib`. Other
 /// statements of the format are skipped, and unknown words are refused. `v x y z r g b` has a
 /// colour in [0, 1]; a vertex without a colour is white if others have one. Indices may be negative
-/// but may not refer to later vertices. Of a corner whose normal is missing or no number none is
-/// known. `g` and `o` don't make groups. A face of fewer than three corners is an error.
+/// but may not refer to later vertices. A corner has no normal if it is missing or not a number.
+/// `g` and `o` don't make groups. A face of fewer than three corners is an error.
 Mesh parse_obj(const MeshSource& source);
 
 /// Parses PLY 1.0: the elements `vertex` and `face` with `vertex_indices` (or `vertex_index`) in

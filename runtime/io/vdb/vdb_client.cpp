@@ -24,7 +24,7 @@ constexpr uint64_t kMaxVolumeVoxels = UINT32_MAX;
 
 std::atomic<bool> readers_are_isolated = true;
 
-/// The helper, which is installed beside this module.
+/// The helper, which is installed next to this module.
 fs::path reader_program() {
     Dl_info module{};
     if (dladdr(&voxelume_vdb_functions, &module) == 0 || !module.dli_fname) return kReaderName;

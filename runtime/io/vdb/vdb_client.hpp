@@ -28,8 +28,8 @@ struct ReaderLimits {
 };
 
 /// The limits for a file of `bytes`. A tree in memory takes at most 40 times its bytes in a file,
-/// where its nodes' masks aren't compressed, and the largest model 3 GB beside it. A damaged file
-/// that declares more is refused in the half second that clearing 0.5 GB takes.
+/// where its nodes' masks aren't compressed, and the largest model 3 GB more. A damaged file that
+/// declares more is refused in the half second that clearing 0.5 GB takes.
 inline ReaderLimits reader_limits(uint64_t bytes) {
     const uint64_t seconds = 20 + bytes / 4'000'000, reading = (uint64_t{1} << 29) + 64 * bytes;
     return {reading, reading + (uint64_t{4} << 30), seconds, 40 + 3.0 * double(seconds)};

@@ -126,7 +126,7 @@ Volume read_volume_raw(const VolumePath& path) {
         volume.attributes = header.at("attributes").get<std::map<std::string, std::string>>();
         const VolumePath name = header.at("data").get<std::string>();
         if (name.has_parent_path() || !name.has_filename() || name == "..")
-            throw damaged("its data file isn't beside it");
+            throw damaged("its data file isn't in its folder");
         const InputFile data(header_path.parent_path() / name);
         read_voxels(RawFile{data, header.at("arrays"), volume.frame}, volume);
         return volume;

@@ -44,7 +44,7 @@ CellMap cell_map(const VoxStanding& standing) {
 /// Appends the value of each cell of a brick.
 void append_values(const std::array<uint32_t, 256>& values, const uint8_t* cells,
                    std::vector<uint32_t>& to) {
-    // By way of a brick in the cache: memory is touched once.
+    // Goes through a brick that stays in the cache, so that memory is touched once.
     std::array<uint32_t, kVoxelsPerBrick> words;
     for (size_t i = 0; i < kVoxelsPerBrick; ++i) words[i] = values[cells[i]];
     to.insert(to.end(), words.begin(), words.end());

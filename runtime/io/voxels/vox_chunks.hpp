@@ -25,7 +25,7 @@ class VoxContent {
     float take_float();
     std::string take_text();
     VoxDictionary take_dictionary();
-    /// A count of things that take at least so many bytes each.
+    /// A count of things that take at least `bytes_each`.
     int32_t take_count(size_t bytes_each);
     const std::string& bytes() const { return bytes_; }
     [[noreturn]] void refuse(std::string_view reason) const;

@@ -32,7 +32,8 @@ class ObjectCounts {
           lattices_(scene, meshes),
           of_solids_(solids) {}
 
-    /// The grid of a model in its own space; of an object in the world's, or a part of it.
+    /// The grid of a model in its own space, and the grid of an object in the world's, or a part of
+    /// it.
     GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
     GridCounts object_grid(const Object& object, const Model& model, const GridFrame& frame,
                            Estimate estimate);

@@ -13,8 +13,8 @@ namespace voxelume {
 /// that the file's leaves of 4³ voxels reach into.
 ///
 /// `spread` is the ratio of the box around a turned brick, in the object's space, to the brick. The
-/// bricks of cubes are exact for maps that turn by right angles, and too many for others. Of voxels
-/// much larger than the world's, and of smooth ones, they follow from the volume alone.
+/// bricks of cubes are exact for maps that turn by right angles, and too many for others. For
+/// voxels much larger than the world's, and for smooth ones, they follow from the volume alone.
 BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_object,
                         double spread, const GridFrame& world, TakenBricks& taken);
 

@@ -47,7 +47,7 @@ class PoclFolder {
 
     /// Runs `build`, which makes PoCL build one program, after the program's files were restored.
     /// Also restores those of its kernels, `parts()`, that other programs compiled; a program that
-    /// this process built before has them. `parts` runs beside `build`, on a thread of its own.
+    /// this process built before has them. `parts` runs while `build` does, on a thread of its own.
     /// Returns true if there were files of this program, from an earlier run or an earlier build.
     bool build_with_files(const DiskCache& cache, const std::string& key,
                           const std::function<std::vector<ProgramPart>()>& parts,

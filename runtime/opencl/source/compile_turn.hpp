@@ -14,7 +14,7 @@ namespace voxelume {
 /// Processes that start together on a cold cache would each compile the same kernels. The first
 /// that misses an entry takes the turn for it; others wait until it has kept what it compiled.
 ///
-/// The turn is a lock on a hidden file beside the entry. It ends with its process, however that
+/// The turn is a lock on a hidden file next to the entry. It ends with its process, however that
 /// ends. A process waits for at most a minute in all, and never while it has a turn, so that no two
 /// wait for each other. Where no file can be made there are no turns: then each process compiles.
 class CompileTurn {

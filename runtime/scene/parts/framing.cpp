@@ -54,7 +54,7 @@ glm::dmat3 view_axes(const ViewFrom& from) {
     const double longitude = glm::radians(from.longitude), latitude = glm::radians(from.latitude);
     const glm::dvec3 z(-std::sin(longitude) * std::cos(latitude), -std::sin(latitude),
                        -std::cos(longitude) * std::cos(latitude));
-    // Also right for views along Y, where a cross product with Y would vanish.
+    // This holds for views along Y, too, where a cross product with Y would vanish.
     const glm::dvec3 x(-std::cos(longitude), 0, std::sin(longitude));
     return {x, glm::cross(z, x), z};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A light as values, and one descriptor row for each type of light.
 //
-// A type is added with an enumerator of LightKind, a row of light_types(), and the function of
-// kernels/light.cl that shades by its `shading` number.
+// A type is added with an enumerator of LightKind, a row of light_types(), and the branches for its
+// `shading` number in kernels/lib/light/direct_light.h. CONTRIBUTING.md lists the other places.
 #pragma once
 
 #include <cstdint>

@@ -29,8 +29,8 @@ struct Material {
     std::string name;
     glm::vec3 color{0.8f};  ///< linear Rec. 709, 0..1
     float diffuse = 1;      ///< 0..1
-    /// 0..1: the part of Blinn and Phong's highlight, otherwise 0; of a physically based material
-    /// what the reflectance of what isn't metal is multiplied by, otherwise 1
+    /// 0..1: the part of Blinn and Phong's highlight, 0 by default. For a physically based
+    /// material, the factor of the reflectance of what isn't metal, 1 by default.
     std::optional<double> specular;
     float shininess = 50;     ///< Blinn-Phong exponent, 1..1e6
     float reflection = 0;     ///< R_i, 0..1

@@ -45,7 +45,7 @@ std::span<const FilterRow> filter_rows();
 const FilterRow& filter_row(const ReconstructionFilter& filter);
 
 /// Where the filter has the share `share`, in [0, 1), of its weight on the lower side: pixels from
-/// its middle. Exactly 0 for one half.
+/// its middle. It is exactly 0 for one half.
 double filter_offset(const ReconstructionFilter& filter, double share);
 
 /// The display whose sight rays are those of all samples: some of the pixels at an image's border

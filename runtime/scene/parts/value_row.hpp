@@ -40,7 +40,7 @@ using Slot = std::variant<double*, float*, int*, bool*, glm::dvec2*, glm::dvec3*
 
 /// Sets a value by one number for each of its components, or by one that stands for all of them;
 /// true is any number but 0, and a list gets as many numbers as there are. With an `item` from 0 on
-/// it sets that number of a vector alone. Not for files.
+/// it sets that number of a vector alone. Files can't be set so.
 void put(const Slot& slot, std::span<const double> numbers, int item = -1);
 
 /// A value of a part of the scene.

@@ -283,7 +283,7 @@ void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& l
                 return;
     };
     if (visibility_ != Visibility::observer) {
-        // As in find_views: through a surface that lets light through, its other side is seen.
+        // As in find_views, the other side of a transparent surface is seen through it.
         look_elsewhere(0.0f);
         if (transmission_) look_elsewhere(kMaxCovered);
     }

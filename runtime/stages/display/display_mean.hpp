@@ -13,7 +13,7 @@ Buffer<float> allocate_light_sums(const Device& device, uint32_t rays);
 /// The kernel of display_mean.cl.
 class DisplayMeanStage {
   public:
-    /// For batches of `rays`, each of which begins as many paths, at least 2.
+    /// Takes batches of `rays`, each of which begins `paths` paths, at least 2.
     DisplayMeanStage(const Device& device, const Features& features, uint32_t rays, uint32_t paths);
 
     uint32_t paths() const { return paths_; }

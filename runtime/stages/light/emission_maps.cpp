@@ -36,7 +36,7 @@ struct Level {
     }
 };
 
-/// The level of which a part of a texture covers at most so many texels.
+/// The first level in which a part of a texture covers at most `max_texels`.
 Level level_of(const uint32_t* head, double part, double max_texels) {
     Level level{head + VXL_TEXTURE_HEAD, int(head[0]), int(head[1]), head[2]};
     while ((level.width > 1 || level.height > 1) &&

@@ -45,8 +45,8 @@ void keep_brightest(std::vector<WeightedEmitter>& emitters) {
     emitters.resize(kMaxEmitters);
 }
 
-/// Adds the emitters of a source whose voxels have a volume of so many cubic metres. Never holds
-/// more than twice those that may stay.
+/// Adds the emitters of a source whose voxels have a `volume` in cubic metres. Never holds more
+/// than twice those that may stay.
 void add_emitters(const EmissiveSource& source, std::span<const ListedPiece> voxels,
                   uint32_t instance, double volume, std::vector<WeightedEmitter>& emitters) {
     const double side = std::pow(volume, 2.0 / 3);

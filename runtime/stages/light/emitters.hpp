@@ -12,14 +12,15 @@
 
 namespace voxelume {
 
-/// The maximum number of emitters. Of more voxels those are listed that shine most, of equal ones
-/// those that a hash chooses all over the scene; paths find the others by running into them.
+/// The maximum number of emitters. If there are more voxels, the brightest are listed; a hash
+/// decides between equal ones, so that they lie all over the scene. Paths find the others by
+/// running into them.
 inline constexpr size_t kMaxEmitters = size_t{1} << 20;
 
 /// The share of rays to light that go to emitters where others go to a sky.
 inline constexpr float kEmittersBesideSky = 0.5f;
 
-/// The main memory that listing so many voxels takes, of sources that have `listed` together.
+/// The main memory that listing `voxels` takes, of sources that have `listed` together.
 double emitter_host_bytes(size_t voxels, size_t listed);
 
 /// The value of VXL_EMITTERS that a scene's settings ask for, if it has emissive objects.

@@ -157,8 +157,8 @@ class RecordList {
     }
 
   private:
-    /// Adds floats as records of tables. Returns the number of the first in the array of all
-    /// materials, of which so many records come before the tables.
+    /// Adds floats as records of tables. Returns the number of their first float in the array of
+    /// all materials, in which `before_` records come before the tables.
     float add_table(std::span<const float> values) {
         const size_t first = tables_.size();
         tables_.resize(first + values.size_bytes() / sizeof(MaterialRecord));

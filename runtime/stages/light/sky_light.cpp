@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// Radiance 1 in the scene for so many kcd/m^2: a white surface in the light of a sun of 100 klx,
+/// The kcd/m^2 that are radiance 1 in the scene: a white surface in the light of a sun of 100 klx,
 /// whose intensity is 1.
 constexpr double kLuminance = 100 / std::numbers::pi;
 

@@ -29,7 +29,8 @@ class DensityLattice {
     bool is_zero() const;
     bool has_colors() const { return !scans_.empty(); }
 
-    /// The density of a brick where it is known to be constant; of one with colours only 0.
+    /// The density of a brick if it is known to be constant; for a density with colours, only 0 is
+    /// known.
     std::optional<float> constant_in(size_t number) const;
     /// `colors` has three numbers for each density, or is empty without colours.
     void sample(size_t number, std::span<float, kBrickCells> densities,

@@ -13,7 +13,7 @@ namespace voxelume {
 /// of that name.
 std::unique_ptr<DensityField> density_field(const Medium& medium);
 
-/// The values of a grid's file; throws likewise.
+/// The values of a grid's file. Throws as density_field does.
 std::unique_ptr<DensityField> grid_field(const GridDensity& grid);
 
 }  // namespace voxelume

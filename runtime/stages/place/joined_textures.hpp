@@ -11,7 +11,8 @@ namespace voxelume {
 /// Where the textures of each grid begin in the array that they are joined to.
 class JoinedTextures {
   public:
-    /// Adds the textures of a grid, of so many words, unless equal ones are there; true if it did.
+    /// Adds the textures of a grid, which have `words`, unless equal ones are there; true if it
+    /// did.
     bool add(uint64_t key, uint64_t words) {
         if (words == 0 || !places_.try_emplace({key, words}, words_).second) return false;
         words_ += words;

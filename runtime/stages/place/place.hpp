@@ -62,7 +62,7 @@ struct PlacedObject {
 /// Exact objects must be in the world's frame. Their lists are joined per voxel, in the order of
 /// `objects`.
 ///
-/// Overlaps: a voxel shows the object with the larger priority; of two with equal priorities it
+/// Overlaps: a voxel shows the object with the larger priority; if two have equal priorities, it
 /// shows the one earlier in `objects`. Among smooth surfaces it shows the one nearest to its
 /// centre, and ties follow the rule above. A smooth object that wins takes the voxels its surface
 /// passes through away from cubes. An exact and a smooth surface share a voxel: the voxel is exact

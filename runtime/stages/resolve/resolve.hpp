@@ -19,7 +19,7 @@ Defines resolve_defines(const Device& device, const Features& features,
 /// What an image is made in.
 struct ImageArrays {
     Buffer<float> planes;         ///< one after another
-    Buffer<uint32_t> ids;         ///< numbers of the object and the material plus 1, likewise
+    Buffer<uint32_t> ids;         ///< planes of the object's and the material's number plus 1
     Buffer<uint32_t> not_finite;  ///< one value
 };
 ImageArrays allocate_image(const Device& device, const glm::ivec2& size,

@@ -17,9 +17,9 @@ namespace voxelume {
 enum class DilationLevel { leaves, bricks };
 
 /// The leaves (or bricks) of a pyramid that hold voxels, and all that touch one. If a point's leaf
-/// isn't among them, no surface is within 4 voxels (16) of the point. `sectors` and `bricks` are as
-/// in Pyramid, but nothing lies below the masks of leaves. A dilated occupancy of bricks is that of
-/// a pyramid of voxels four times as long.
+/// isn't among them, no surface is within 4 voxels (16 for bricks) of the point. `sectors` and
+/// `bricks` are as in Pyramid, but nothing lies below the masks of leaves. For bricks, read the
+/// voxels as four times as long.
 struct DilatedOccupancy {
     Buffer<uint32_t> sectors, bricks;
     DilationLevel of = DilationLevel::leaves;

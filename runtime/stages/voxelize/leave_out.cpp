@@ -15,7 +15,7 @@ namespace {
 
 /// What is added to distances that are 0, 1, 2 .. nodes from the nearest point, in distance units:
 /// 1.5 voxels, of which walls thinner than two have none, and beyond the walls less from node to
-/// node. The interpolated field bulges outwards beside a rise, by up to a sixteenth of it; where
+/// node. The interpolated field bulges outwards next to a rise, by up to a sixteenth of it; where
 /// each rise is a fifth of the next, it sinks all the same.
 constexpr std::array<int, kLeftOut + 1> kRise = {12288, 12288, 12288, 2458, 492, 98};
 

@@ -9,7 +9,8 @@
 
 namespace voxelume {
 
-/// Within so many voxels of the points along each axis, a field lies behind its mesh.
+/// The number of voxels from the points, along each axis, within which a field lies behind its
+/// mesh.
 inline constexpr int kLeftOut = 5;
 
 /// Raises the distances around points, unless the field's voxels are larger than those of

@@ -38,7 +38,7 @@ BrickGrid voxelize_part(const Device& device, const Solid& solid, bool is_comple
                         const glm::dmat4& frame_from_solid, const GridFrame& frame);
 
 /// The grids of a formula's parts, in its order, as one grid with parts: those that decide
-/// somewhere in the frame, which is that of all. Without bricks if none does.
+/// somewhere in the frame, which is that of all. The grid has no bricks if none does.
 BrickGrid with_parts(std::vector<GridPart> parts);
 
 /// Does what voxelize_solid does for a `smooth` solid, and gives each of its parts, as parts_of has

@@ -42,8 +42,9 @@ struct Windings {
     Buffer<int16_t> passing;  ///< one per brick of the frame: of those without triangles
 };
 
-/// The arrays of winding numbers in `stored` bricks and `bins` with triangles of a frame of
-/// `places` bricks; of the rows of stored bricks' points, which are inside; of triangles' shapes.
+/// Allocate arrays: of winding numbers in `stored` bricks and `bins` with triangles, for a frame of
+/// `places` bricks; of which points of stored bricks are inside, row by row; and of triangles'
+/// shapes.
 Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places);
 Buffer<uint16_t> allocate_inside(const Device& device, size_t stored);
 Buffer<float> allocate_shapes(const Device& device, size_t triangles);

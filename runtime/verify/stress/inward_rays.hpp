@@ -22,7 +22,7 @@ struct Ring {
 
     /// A point of the tube: on the surface for a `share` of 1, inside it for less.
     glm::dvec3 point(double around, double across, double share) const;
-    /// A lower bound of the distance outside the ring, in voxels, if positive; of the depth inside,
+    /// A lower bound, in voxels: of the distance outside the ring if positive, of the depth inside
     /// if negative.
     double outside(const glm::dvec3& p) const;
     Mesh mesh() const;

@@ -154,7 +154,7 @@ class RayStress {
         const std::vector<WalkDigest> device = walks_.digests();
         for (size_t i = batch.first; i < batch.end; ++i) {
             result_.cells += exact_[i].cells;
-            // The digests tell whether walks agree; of one walk the cells are compared, too.
+            // The digests tell whether walks agree; for one walk, the cells are compared, too.
             if (device[i] == exact_[i] &&
                 (i != batch.first || lists_agree(grid, rays_[i], steps, max_cells)))
                 continue;

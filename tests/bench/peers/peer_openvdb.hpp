@@ -11,7 +11,7 @@ namespace voxelume {
 std::string openvdb_name();
 
 /// Samples the distance within 3 voxels of the surface: a sphere by OpenVDB's own maker of spheres,
-/// a torus leaf by leaf on all threads. Then intersects ray by ray, as its renderer does.
+/// a torus leaf by leaf on all threads. Then it intersects ray by ray, as its renderer does.
 PeerTimes run_openvdb(const BenchSolid& solid, int resolution, const BenchTruth& truth,
                       Image& image);
 

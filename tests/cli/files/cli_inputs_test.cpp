@@ -72,7 +72,7 @@ TEST_F(CliInputsTest, ASweepRendersAllCombinations) {
 
 TEST_F(CliInputsTest, SweepsThatCantBeReadAreMistakes) {
     EXPECT_THAT(expect_failure(2, "render scene.json -o {x}.exr --sweep world.ambient=1,,2"),
-                HasSubstr("a value is missing beside a comma"));
+                HasSubstr("there is an empty value next to a comma"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o {color}.exr --sweep lights.0.color=1,0,0"),
                 HasSubstr("the value 0 stands there twice; lists are written in brackets"));
     EXPECT_THAT(expect_failure(2, "render scene.json -o {x}.exr --sweep format=1,2"),

@@ -103,7 +103,8 @@ TEST_F(VolumeRawTest, AHeaderLeadsToNoOtherFolder) {
     for (const char* name : {"../a.raw", "/etc/passwd", "..", ""}) {
         json["data"] = name;
         put_bytes(header(), json.dump());
-        EXPECT_THAT(error_of([&] { read_volume(header()); }).what(), HasSubstr("beside it"))
+        EXPECT_THAT(error_of([&] { read_volume(header()); }).what(),
+                    HasSubstr("isn't in its folder"))
             << name;
     }
 }

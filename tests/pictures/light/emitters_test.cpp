@@ -125,7 +125,7 @@ void expect_agreement(const std::vector<SensedRay>& a, const std::vector<SensedR
             for (size_t i = part * a.size() / 4; i < (part + 1) * a.size() / 4; ++i)
                 differences.push_back(a[i].color[channel] - b[i].color[channel]);
             const Estimate e = estimate_of(differences);
-            // Of 192 such differences one may well be 3.5 errors.
+            // Among 192 such differences, one of 3.5 errors is likely.
             EXPECT_LE(std::abs(e.mean), 3.5 * e.error + 1e-6)
                 << what << ", channel " << channel << ", part " << part;
         }

@@ -141,8 +141,8 @@ double reflectance(double incidence, double ior) {
 }
 
 TEST(Energy, O11ADepthLimitTakesFromABallOfGlassWhatTheSeriesSays) {
-    // Each meeting with the ball reflects R. Of R + (1-R)^2 (1 + R + ...) the depth limit n keeps 1
-    // - (1-R) R^(n-1).
+    // Each meeting with the ball reflects R. The whole is R + (1-R)^2 (1 + R + ...); the depth
+    // limit n keeps 1 - (1-R) R^(n-1) of it.
     const glm::dvec3 center(0.017, -0.028, 0.05);
     for (const int depth : {2, 3, 6}) {
         Json scene = furnace(depth);

@@ -138,8 +138,7 @@ TEST(GlobalLight, ARectangleLightsTheFloorBelowByItsFormFactor) {
                 kWidth);
 }
 
-/// The error of a pixel with so many samples of a floor that a big lamp lights, by root mean
-/// square.
+/// The error of a pixel with `samples` of a floor that a big lamp lights, as a root mean square.
 double floor_error(int samples) {
     Json scene = lit_floor(samples);
     scene["materials"]["lamp"] = {{"color", {0, 0, 0}}, {"emission", {3, 3, 3}}};

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// The picture's edge of so many pixels, and by default a third of them.
+/// The picture's edge: `pixels` in exhaustive runs, by default a third of them.
 int edge_of(int pixels) {
     return is_exhaustive() ? pixels : pixels / 3;
 }

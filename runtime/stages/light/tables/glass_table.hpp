@@ -8,8 +8,8 @@
 
 namespace voxelume {
 
-/// The numbers of kernels/shared/scene.h for one width and index. Of two numbers the first is that
-/// of the outside.
+/// The numbers of kernels/shared/scene.h for one width and index. In pairs, the outside comes
+/// first.
 struct GlassTable {
     std::array<float, VXL_GLASS_ENTRIES * 2> values{};  ///< missing shares by the angle
     std::array<double, 2> missing{};                    ///< their means, by the cosine
