@@ -9,6 +9,7 @@
 
 #include "tests/api/api_fixture.hpp"
 #include "tests/support/exhaustive.hpp"
+#include "tests/support/file_fixture.hpp"
 
 namespace voxelume::v1 {
 namespace {
