@@ -80,17 +80,17 @@ static inline uint word_with_kind(const BrickGrid* grid, size_t voxel, bool smoo
     return VXL_ATTRIBUTES ? packed : without_kind | kinds.x;
 }
 
-// Writes the voxel at `place` of a brick of the grid as voxel `number` of the pyramid, and its
+// Writes the voxel at `index` of a brick of the grid as voxel `number` of the pyramid, and its
 // primitives from number `primitive` on. Returns the number after the last primitive.
-static inline uint write_voxel(const BrickGrid* grid, uint slot, int place, bool smooth,
+static inline uint write_voxel(const BrickGrid* grid, uint slot, int index, bool smooth,
                                uint2 kinds, const short* nodes, uint number, uint primitive,
                                const WrittenVoxels* to) {
-    const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + place;
+    const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + index;
     if (VXL_WRITE_ATTRIBUTES) to->attributes[number] = word_with_kind(grid, voxel, smooth, kinds);
     if (VXL_COLORS) to->colors[number] = grid->colors[voxel];
     if (VXL_VOXEL_NORMALS) to->normals[number] = grid->normals[voxel];
     if (VXL_SMOOTH) {
-        const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
+        const int4 cell = (int4)(index & 15, index >> 4 & 15, index >> 8, 0);
         vstore8(smooth ? field_record(nodes, cell) : (uint8)(0), number, to->fields);
     }
     if (VXL_PRIMITIVES) {

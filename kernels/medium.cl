@@ -3,7 +3,8 @@
 // that rays go through, takes and adds.
 //
 // The density of the medium scales its absorption alone, so the sum of density times length stands
-// for a ray's whole way: passed = exp(-absorption * sum), emitted = color * (1 - passed).
+// for a ray's whole way:
+//     transmittance = exp(-absorption * sum), emitted = color * (1 - transmittance).
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/medium/phase.h"
@@ -39,14 +40,15 @@ lane_float material_absorption(global const float* materials, lane_uint material
 
 /// The part of a channel's light that a medium of colours lets through. What is sent to emitters,
 /// `looks`, loses what the medium scatters, too.
-lane_float veil_passed(const Veil* veil, MediumScattering scattered, lane_int looks, int channel) {
-    lane_float passed = veil->passed[channel];
+lane_float veil_transmittance(const Veil* veil, MediumScattering scattered, lane_int looks,
+                              int channel) {
+    lane_float transmittance = veil->transmittance[channel];
     if (VXL_SCATTERING && VXL_LOOKS) {
         const lane_float turned =
             exact_exp(-scattered.per_metre[channel] * (veil->depth - veil->lost));
-        passed *= LANES_SELECT(looks, turned, (lane_float)1.0f);
+        transmittance *= LANES_SELECT(looks, turned, (lane_float)1.0f);
     }
-    return passed;
+    return transmittance;
 }
 
 /// Applies the medium between the start of each ray, or of its segment, and its end to the ray's
@@ -96,7 +98,8 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
         const lane_float tau = per_metre * depth;
         lane_float weight = exact_exp(-tau), added = shown * exact_rise(tau);
         if (VXL_MEDIUM_COLORS) {
-            weight = LANES_SELECT(in_object, weight, veil_passed(&veil, scattered, looks, channel));
+            weight = LANES_SELECT(in_object, weight,
+                                  veil_transmittance(&veil, scattered, looks, channel));
             added = LANES_SELECT(in_object, added, veil.emitted[channel] * shows);
         }
         const lane_float behind = LANES_LOAD(radiance, place);

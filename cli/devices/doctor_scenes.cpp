@@ -33,7 +33,7 @@ constexpr const char* kMatt = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [28, 18], "samples": 2, "adaptive": 0.05}})";
 
-// Glass around the observer, mirrors, a lamp and a light with an area.
+// Glass around the observer, mirrors, an emissive object and a light with an area.
 constexpr const char* kLocal = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.5, -1.1, -2.4], "max": [1.5, 1.3, 1.6]},
           "ambient": [0.2, 0.2, 0.2], "medium": {"absorption": [0.1, 0.2, 0.3]}},

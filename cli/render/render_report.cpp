@@ -42,7 +42,7 @@ std::string reuse_text(const std::vector<FrameStatistics>& frames) {
         return std::ranges::count(frames, reuse, &FrameStatistics::image);
     };
     return fmt::format(
-        "{} frames ({} worlds formed, {} with instances moved; {} traced, {} shaded, {} still); ",
+        "{} frames ({} worlds built, {} with instances moved; {} traced, {} shaded, {} still); ",
         frames.size(), worlds(WorldReuse::built), worlds(WorldReuse::instances_moved),
         images(ImageReuse::traced), images(ImageReuse::shaded), images(ImageReuse::kept));
 }
@@ -104,8 +104,8 @@ void print_details(const Statistics& statistics) {
             tell(
                 "  frame {:<5} world {}: {} voxelized, {} bricks painted, {} instances "
                 "moved; image {}\n",
-                frame.frame, name_of(frame.world), frame.voxelized, frame.painted_bricks,
-                frame.instances_moved, name_of(frame.image));
+                frame.frame, frame.world == WorldReuse::built ? "built" : name_of(frame.world),
+                frame.voxelized, frame.painted_bricks, frame.instances_moved, name_of(frame.image));
     for (const auto& [kernel, ms] : statistics.kernel_ms)
         tell("  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms, statistics.launches.at(kernel));
 }

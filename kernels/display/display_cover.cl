@@ -7,8 +7,8 @@
 
 static inline bool is_shown(const DisplayLattice* l, global const uint* mask, int4 v) {
     if (!is_in_display(l, v)) return false;
-    const size_t place = index_of(l, v);
-    return (mask[place >> 5] & (1u << (place & 31u))) != 0u;
+    const size_t index = index_of(l, v);
+    return (mask[index >> 5] & (1u << (index & 31u))) != 0u;
 }
 
 /// The voxel that shows a line's surface: the one that it is crossed in, or one next to it on the

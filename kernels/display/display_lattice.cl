@@ -3,7 +3,7 @@
 //
 // Probe points are in lattice voxels, three arrays `total` apart: on a probe line two of their
 // coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
-// every voxel of the lattice, by place x + size_x (y + size_y z), tells which are shown; the voxels
+// every voxel of the lattice, by index x + size_x (y + size_y z), tells which are shown; the voxels
 // of 256 bits are numbered from their group's start.
 #include "lib/display/depth.h"
 #include "lib/display/lattice_mask.h"
@@ -77,9 +77,9 @@ kernel void mark_shown(DisplayLattice lattice, VXL_POINTS_PARAMETERS, global uin
     for (uint which = 0; which < 8; ++which) {
         const int4 v = voxel_at(&lattice, point, which);
         if (v.x < 0) continue;
-        const size_t place = index_of(&lattice, v);
-        const uint bit = 1u << (place & 31u);
-        if (!(mask[place >> 5] & bit)) atomic_or(mask + (place >> 5), bit);
+        const size_t index = index_of(&lattice, v);
+        const uint bit = 1u << (index & 31u);
+        if (!(mask[index >> 5] & bit)) atomic_or(mask + (index >> 5), bit);
     }
 }
 
@@ -94,7 +94,7 @@ kernel void count_groups(global const uint* restrict mask, uint count,
     counts[group] = sum;
 }
 
-/// Lists the places of the marked voxels in ascending order.
+/// Lists the indices of the marked voxels in ascending order.
 kernel void list_indices(global const uint* restrict mask, global const uint* restrict starts,
                          uint count, global ulong* restrict indices) {
     const uint group = work_item();

@@ -125,8 +125,8 @@ static inline void add_amount(const StepSums* sums, uint k, float amount) {
     global float* at = sums->amounts + (size_t)k * sums->stride;
     for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c) {
         const lane_float absorption = (lane_float)sums->absorption[c];
-        const lane_float passed = exact_exp(-absorption * at[0]);
-        const lane_float light = passed * exact_rise(absorption * amount) * sums->color[c];
+        const lane_float transmittance = exact_exp(-absorption * at[0]);
+        const lane_float light = transmittance * exact_rise(absorption * amount) * sums->color[c];
         at[(c + 1u) * sums->plane] += lane_0_of(light);
     }
     at[0] += amount;

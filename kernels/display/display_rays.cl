@@ -3,7 +3,7 @@
 // before it.
 //
 // Rays lie in the order of sight.cl, one sample a pixel. Space between a ray's way into the world
-// and its end is cut into steps; the voxels of P are written by ascending place, u + width (v +
+// and its end is cut into steps; the voxels of P are written by ascending index, u + width (v +
 // height k).
 #include "lib/display/depth.h"
 #include "lib/display/voxels.h"
@@ -59,7 +59,7 @@ static inline lane_float covered_part(lane_float x) {
 
 /// Keeps the span in which a ray is in the world, up to the surface that it met.
 static inline void measure_span(const Camera* camera, PyramidShape shape, const RayBatch* batch,
-                                uint first, lane_int hit, const RayDepths* kept, uint place) {
+                                uint first, lane_int hit, const RayDepths* kept, uint index) {
     const uint stride = batch->stride;
     const lane_float t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);
     lane_float t_first = (lane_float)0.0f, t_last = t_end;
@@ -72,11 +72,11 @@ static inline void measure_span(const Camera* camera, PyramidShape shape, const 
     const lane_float begin = scale.origin;
     const lane_float end = fma(scale.along, t, begin);
     const lane_int seen = LANE_MASK(t_end >= 0.0f);
-    LANES_STORE(begin, kept->spans, VXL_SPAN_FIRST * kept->total + place);
-    LANES_STORE(LANES_SELECT(seen, end, begin), kept->spans, VXL_SPAN_END * kept->total + place);
+    LANES_STORE(begin, kept->spans, VXL_SPAN_FIRST * kept->total + index);
+    LANES_STORE(LANES_SELECT(seen, end, begin), kept->spans, VXL_SPAN_END * kept->total + index);
     const lane_float ratio =
         exact_divide(scale.metres, LANES_SELECT(seen, scale.along, (lane_float)1.0f));
-    LANES_STORE(ratio, kept->spans, VXL_SPAN_RATIO * kept->total + place);
+    LANES_STORE(ratio, kept->spans, VXL_SPAN_RATIO * kept->total + index);
 }
 
 /// Keeps of rays 0 .. count-1, which are the image's from `first_ray` on, what their voxels need:
@@ -88,20 +88,20 @@ kernel void measure_steps(Camera camera, PyramidShape shape, DisplaySteps steps,
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;
     const RayDepths kept = VXL_DEPTHS;
-    const uint place = first_ray + first;
+    const uint index = first_ray + first;
     const lane_int hit =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     const lane_float depth =
         depth_of(&camera, shape.edge, from_eye(&camera, load_vector(positions, stride, first)));
     const lane_uint step = step_of(&steps, depth - camera.near_plane);
-    LANES_STORE(LANES_SELECT(hit, step, (lane_uint)VXL_NO_STEP), ray_steps, place);
-    LANES_STORE(depth + camera.lead, ray_depths, place);
+    LANES_STORE(LANES_SELECT(hit, step, (lane_uint)VXL_NO_STEP), ray_steps, index);
+    LANES_STORE(depth + camera.lead, ray_depths, index);
     const lane_uint object = (LANES_LOAD(hit_attributes, first) & VXL_OBJECT_MASK) + 1u;
-    LANES_STORE(object & LANES_AS_UINT(hit), ray_objects, place);
+    LANES_STORE(object & LANES_AS_UINT(hit), ray_objects, index);
     for (uint channel = 0; channel < 3; ++channel)
         LANES_STORE(LANES_LOAD(radiance, channel * stride + first), ray_colors,
-                    channel * total + place);
-    if (VXL_MEDIUM) measure_span(&camera, shape, &batch, first, hit, &kept, place);
+                    channel * total + index);
+    if (VXL_MEDIUM) measure_span(&camera, shape, &batch, first, hit, &kept, index);
 }
 
 /// The index of pixel (u, v)'s ray in the order of sight.cl.
@@ -141,7 +141,7 @@ kernel void count_voxels(uint width, uint height, DisplaySteps steps, VXL_DEPTHS
     }
 }
 
-/// Writes the places of row v's voxels from starts[v + height k] on, which move, and to `sources`
+/// Writes the indices of row v's voxels from starts[v + height k] on, which move, and to `sources`
 /// the ray of each.
 kernel void place_voxels(uint width, uint height, DisplaySteps steps, VXL_DEPTHS_PARAMETERS,
                          global uint* restrict starts, global ulong* restrict indices,

@@ -38,10 +38,10 @@ static inline Vector voxel_corners(const DisplayLattice* l, global const ulong* 
                                    uint first, uint end) {
     float x[VXL_LANES], y[VXL_LANES], z[VXL_LANES];
     for (uint i = 0; i < VXL_LANES; ++i) {
-        const ulong place = first + i < end ? indices[first + i] : 0;
-        x[i] = (float)(place % (ulong)l->size_x);
-        y[i] = (float)(place / (ulong)l->size_x % (ulong)l->size_y);
-        z[i] = (float)(place / (ulong)l->size_x / (ulong)l->size_y);
+        const ulong index = first + i < end ? indices[first + i] : 0;
+        x[i] = (float)(index % (ulong)l->size_x);
+        y[i] = (float)(index / (ulong)l->size_x % (ulong)l->size_y);
+        z[i] = (float)(index / (ulong)l->size_x / (ulong)l->size_y);
     }
     const Vector corners = {LANES_LOAD(x, 0), LANES_LOAD(y, 0), LANES_LOAD(z, 0)};
     return corners;
@@ -146,8 +146,8 @@ static inline lane_float voxel_shift(global const ulong* restrict indices, uint 
                                      float turn) {
     float shift[VXL_LANES];
     for (uint i = 0; i < VXL_LANES; ++i) {
-        const ulong place = first + i < end ? indices[first + i] : 0;
-        uint mixed = (uint)place ^ (uint)(place >> 32);
+        const ulong index = first + i < end ? indices[first + i] : 0;
+        uint mixed = (uint)index ^ (uint)(index >> 32);
         mixed = (mixed ^ mixed >> 16) * 0x7FEB352Du;
         mixed = (mixed ^ mixed >> 15) * 0x846CA68Bu;
         shift[i] = (float)(mixed >> 8) * 0x1p-24f + turn;

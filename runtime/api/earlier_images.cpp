@@ -36,7 +36,7 @@ void check_channels(const RenderSettings& render, const v1::Channels& channels) 
             std::ranges::find(kContinued, row.member) == std::end(kContinued))
             throw Error(ErrorKind::usage,
                         "samples can't be added to channels {}: leave them out, or render the "
-                        "image anew",
+                        "image again from the start",
                         row.name);
     if (render.noise.is_given()) {
         if (channels.color && channels.samples && channels.noise) return;
@@ -55,7 +55,7 @@ void check_job(const Scene& scene, const v1::FrameJob& job) {
     if (is_adaptive(scene.render))
         throw Error(ErrorKind::usage,
                     "{}: samples can't be added by contrast: leave render.adaptive out, or render "
-                    "the image anew",
+                    "the image again from the start",
                     scene.file.string());
     if (!job.image_files.float_color)
         throw Error(
@@ -64,8 +64,10 @@ void check_job(const Scene& scene, const v1::FrameJob& job) {
             "and of this one (--float, float_color)");
     for (const v1::FrameFiles& frame : job.frames)
         if (!frame.earlier.empty() && !frame.volumes.empty())
-            throw Error(ErrorKind::usage,
-                        "samples are added to flat images alone: render volumetric images anew");
+            throw Error(
+                ErrorKind::usage,
+                "samples are added to flat images alone: render volumetric images again from the "
+                "start");
 }
 
 /// A number in an image's header.
@@ -88,7 +90,7 @@ RenderSettings sampling_in(const std::filesystem::path& file) {
         throw Error(
             ErrorKind::input,
             "{}: doesn't say how many samples its pixels have, so none can be added: render "
-            "it anew",
+            "it again from the start",
             file.string());
     render.samples = *samples;
     render.noise = {number_in<double>(header, kNoiseTarget).value_or(0),
@@ -101,7 +103,8 @@ void check_samples(const std::filesystem::path& file, const RenderSettings& earl
                    const RenderSettings& wanted) {
     if (earlier.noise.is_given() != wanted.noise.is_given())
         throw Error(ErrorKind::usage,
-                    "{}: has samples {}, and others are asked for {}: render it anew, or ask alike",
+                    "{}: has samples {}, and others are asked for {}: render it again "
+                    "from the start, or ask alike",
                     file.string(), by_noise(earlier), by_noise(wanted));
     if (earlier.noise.is_given()) {
         if (wanted.noise.error <= earlier.noise.error && wanted.samples >= earlier.samples) return;
@@ -164,11 +167,13 @@ EarlierFiles::EarlierFiles(const v1::Scene& scene, const v1::FrameJob& job,
             hash_for_image(hashes->of(frame.frame), *image_format_of(".exr"), job.image_files);
         const StampState state = check_stamp(frame.earlier, hash);
         if (state != StampState::current)
-            throw Error(
-                ErrorKind::input, "{}: {}, so no samples can be added to it: render it anew",
-                frame.earlier.string(),
-                state == StampState::stale ? "was made from another scene, frame, option or version"
-                                           : "isn't as it was written");
+            throw Error(ErrorKind::input,
+                        "{}: {}, so no samples can be added to it: render it again from the "
+                        "start",
+                        frame.earlier.string(),
+                        state == StampState::stale
+                            ? "was made from another scene, frame, option or version"
+                            : "isn't as it was written");
         files_[frame.frame] = {frame.earlier, earlier.noise.is_given() ? 0 : earlier.samples};
     }
 }

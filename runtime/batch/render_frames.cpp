@@ -102,7 +102,8 @@ class Batch {
 
     std::optional<NeedOfWhole> need_of_whole() const {
         if (options_.earlier)
-            return NeedOfWhole{"samples are added to whole images", "render it anew"};
+            return NeedOfWhole{"samples are added to whole images",
+                               "render it again from the start"};
         if (!options_.bands)
             return NeedOfWhole{"only files are written in bands", "write it to a file"};
         return voxelume::need_of_whole(scene_.render);

@@ -27,7 +27,7 @@ struct FileObserver {
 
 /// Local light sends rays from each point to each spot of each emissive object. Together they have
 /// three times the spots of a studio's sun.
-inline constexpr size_t kLampSpots = 72;
+inline constexpr size_t kEmissiveSpots = 72;
 
 struct Contents {
     std::vector<std::string> materials;  ///< members: `"name": {...}`
@@ -42,10 +42,11 @@ struct Contents {
     std::optional<FileLight> file_light;   ///< none: the studio's own
     bool has_glass = false;                ///< shadows are to let light through
     std::vector<size_t> emissive_objects;  ///< numbers of items that emit light
-    size_t lamps_in_local_light = 16;  ///< of more emissive objects pictures are in global light
-    Bounds box;                        ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};          ///< of the world, metres
-    glm::dvec3 lattice{0};             ///< a corner of some voxel, metres
+    /// If there are more emissive objects, pictures are in global light.
+    size_t max_locally_emissive = 16;
+    Bounds box;                ///< around all that is visible, metres
+    glm::dvec3 voxel_size{0};  ///< of the world, metres
+    glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
 };
 
 /// Names that are taken, so that each new one is another.

@@ -96,7 +96,7 @@ class SceneOfGltf {
             add_observer_tracks(gltf_, nodes, frames_, contents_.tracks);
         if (!contents_.tracks.empty()) contents_.frames = frames_.count;
         contents_.fps = kGltfFrameRate;
-        contents_.lamps_in_local_light = kLampSpots;  // each has one
+        contents_.max_locally_emissive = kEmissiveSpots;  // each has one
         return std::move(contents_);
     }
 

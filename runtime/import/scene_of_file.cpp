@@ -161,7 +161,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
     return a;
 }
 
-/// The objects, of which emissive ones share kLampSpots, where there are several.
+/// The objects, of which emissive ones share kEmissiveSpots, where there are several.
 std::vector<std::string> lit_objects(const Contents& contents) {
     std::vector<std::string> objects = contents.objects;
     const size_t count = contents.emissive_objects.size();
@@ -169,7 +169,7 @@ std::vector<std::string> lit_objects(const Contents& contents) {
     for (const size_t number : contents.emissive_objects) {
         objects[number].pop_back();
         objects[number] +=
-            fmt::format(", \"spots\": {}}}", std::max<size_t>(1, kLampSpots / count));
+            fmt::format(", \"spots\": {}}}", std::max<size_t>(1, kEmissiveSpots / count));
     }
     return objects;
 }
@@ -209,7 +209,7 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
         has_camera ? contents.observer.text : observer_of(contents.box, studio.box, from, options);
     // Volumetric images are in local light.
     const bool is_global =
-        contents.emissive_objects.size() > contents.lamps_in_local_light && !options.is_lattice;
+        contents.emissive_objects.size() > contents.max_locally_emissive && !options.is_lattice;
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}{}{}}}\n}}\n",
                               options.size.x, options.size.y, is_global ? kGlobalSamples : kSamples,
                               is_global ? ", \"light\": \"global\"" : "",

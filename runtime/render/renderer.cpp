@@ -79,7 +79,8 @@ void note_counts(const Illumination& illumination, const std::optional<BeamStage
 [[noreturn]] void refuse_textures() {
     throw Error(ErrorKind::usage,
                 "samples can't be added by their number where surfaces wear textures, which are "
-                "blurred by it: use --noise in both runs, or render the image anew");
+                "blurred by it: use --noise in both runs, or render the image again "
+                "from the start");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ bool has_scattering(const Scene& scene);
 /// Whether any light comes from a light that isn't infinitely far away.
 bool has_placed_light(const Scene& scene);
 
-/// Whether it shines from a patch, not from one point or direction.
+/// Whether it shines from an area, not from one point or direction.
 bool has_area(const Light& light);
 
 /// Whether rays see the voxels inside of the object, too: solid cubes that let light through.

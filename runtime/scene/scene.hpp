@@ -64,7 +64,7 @@ enum class LightMode : uint8_t {
 };
 
 /// How paths of global light find emissive surfaces.
-enum class LampSearch : uint8_t {
+enum class EmitterSearch : uint8_t {
     both,   ///< by rays to them and by running into them, each as far as it is the likelier way
     paths,  ///< by running into them
     rays,   ///< by rays to them, but for what mirrors and glass show
@@ -103,7 +103,7 @@ struct RenderSettings {
     double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
     LightMode light = LightMode::local;
     int bounces = 8;  ///< global light: times that a path is scattered, 0..64
-    LampSearch lamps = LampSearch::both;
+    EmitterSearch emitters = EmitterSearch::both;
     bool transparent = false;   ///< observers see nothing where no object is; other rays do
     NoiseTarget noise;          ///< not in scene files
     ImageChannels channels;     ///< not in scene files: what the outputs have

@@ -116,17 +116,17 @@ bool shows_emission(const Scene& scene, const SceneMotion& motion) {
     if (std::ranges::find(shines, true) == shines.end()) return false;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        bool is_visible = object.visible, is_lamp = shines[size_t(object.material)];
+        bool is_visible = object.visible, can_shine = shines[size_t(object.material)];
         for (const GroupMaterial& group : object.groups)
-            is_lamp = is_lamp || shines[size_t(group.material)];
+            can_shine = can_shine || shines[size_t(group.material)];
         for_tracks<Object>(motion, ScenePart::object, i, "visible",
                            [&](const auto& values) { is_visible = has_other_than_0(values); });
         for_tracks<Object>(motion, ScenePart::object, i, "material",
                            [&](const std::vector<double>& values) {
                                for (const double material : values)
-                                   is_lamp = is_lamp || shines[size_t(material)];
+                                   can_shine = can_shine || shines[size_t(material)];
                            });
-        if (is_visible && is_lamp) return true;
+        if (is_visible && can_shine) return true;
     }
     return false;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kShadowNames = {"opaque", "filtered"};
 constexpr std::array<std::string_view, 2> kLightModes = {"local", "global"};
-constexpr std::array<std::string_view, 3> kLampSearches = {"both", "paths", "rays"};
+constexpr std::array<std::string_view, 3> kEmitterSearches = {"both", "paths", "rays"};
 
 Bounds read_bounds(const SceneValue& value) {
     const SceneFields fields(value, "bounds");
@@ -139,8 +139,8 @@ RenderSettings read_render(const SceneValue& value) {
     if (const auto transparent = fields.find("transparent"))
         render.transparent = transparent->boolean();
     render.bounces = fields.integer("bounces", 0, 64, render.bounces);
-    if (const auto lamps = fields.find("lamps"))
-        render.lamps = LampSearch(lamps->choice(kLampSearches));
+    if (const auto emitters = fields.find("emitters"))
+        render.emitters = EmitterSearch(emitters->choice(kEmitterSearches));
     render.min_weight = fields.number("least_weight", kRatio, render.min_weight);
     return render;
 }

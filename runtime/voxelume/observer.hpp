@@ -102,7 +102,7 @@ enum class LightMode {
 };
 
 /// How paths of global light find emissive surfaces. The light is the same on average.
-enum class LampSearch {
+enum class EmitterSearch {
     both,   ///< by rays to them and by running into them: the least noise
     paths,  ///< by running into them: for large emissive objects
     rays    ///< by rays to them, but for what mirrors and glass show
@@ -118,16 +118,16 @@ enum class ReconstructionFilter {
 
 /// The flat image.
 struct RenderSettings {
-    Size size{640, 480};                  ///< pixels, 1..kMaxImageSide each
-    int samples = 1;                      ///< sight rays a pixel, 1..4096
-    double adaptive = 0;                  ///< local light: contrast of pixels that get all, 0..1
-    int depth = 5;                        ///< reflections and refractions in a row, 0..64
-    bool shadows = true;                  ///< whether lights cast shadows
-    bool filtered_shadows = false;        ///< refracting objects tint light instead of hiding it
-    double min_weight = 1.0 / 4096;       ///< paths that would add less of a pixel end
-    LightMode light = LightMode::local;   ///< what light reaches surfaces
-    int bounces = 8;                      ///< times that a path of global light is scattered, 0..64
-    LampSearch lamps = LampSearch::both;  ///< of global light
+    Size size{640, 480};                 ///< pixels, 1..kMaxImageSide each
+    int samples = 1;                     ///< sight rays a pixel, 1..4096
+    double adaptive = 0;                 ///< local light: contrast of pixels that get all, 0..1
+    int depth = 5;                       ///< reflections and refractions in a row, 0..64
+    bool shadows = true;                 ///< whether lights cast shadows
+    bool filtered_shadows = false;       ///< refracting objects tint light instead of hiding it
+    double min_weight = 1.0 / 4096;      ///< paths that would add less of a pixel end
+    LightMode light = LightMode::local;  ///< what light reaches surfaces
+    int bounces = 8;                     ///< times that a path of global light is scattered, 0..64
+    EmitterSearch emitters = EmitterSearch::both;             ///< of global light
     ReconstructionFilter filter = ReconstructionFilter::box;  ///< of samples
     std::optional<double> filter_width{};  ///< pixels from end to end, at most 16; without it 1 of
                                            ///< a box, 2 of a tent, 3 of others

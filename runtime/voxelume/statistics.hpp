@@ -25,7 +25,8 @@ enum class ImageReuse {
     traced
 };
 
-/// The word for it in summaries and in JSON: "kept", "instances moved" or "formed".
+/// The word for it in JSON: "kept", "instances moved" or, for `built`, "formed": the word that
+/// older versions wrote, which scripts compare.
 const char* name_of(WorldReuse world);
 
 /// The word for it in summaries and in JSON: "kept", "shaded" or "traced".

@@ -102,7 +102,7 @@ BuiltWorld WorldBuilder::build(const Scene& scene, WorldReport& report,
     const Origin origin = origin_of(scene);
     if (origin_ == origin) return kept_world(scene, report);
     try {
-        return build_anew(scene, origin, report, retained);
+        return rebuilt_world(scene, origin, report, retained);
     } catch (const Error& error) {
         const bool makes_room = grids_ && grids_->retained_bytes() > 0;
         if (error.kind() != ErrorKind::limit || !makes_room) throw;
@@ -112,11 +112,11 @@ BuiltWorld WorldBuilder::build(const Scene& scene, WorldReport& report,
     shown_.clear();
     grids_->forget_unused(scene, {}, 0);
     report.instances = {};
-    return build_anew(scene, origin, report, retained);
+    return rebuilt_world(scene, origin, report, retained);
 }
 
-BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, WorldReport& report,
-                                    const std::vector<bool>& retained) {
+BuiltWorld WorldBuilder::rebuilt_world(const Scene& scene, const Origin& origin,
+                                       WorldReport& report, const std::vector<bool>& retained) {
     origin_.reset();
     world_.pyramid = {};
     keeps_ = false;

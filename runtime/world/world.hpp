@@ -100,8 +100,8 @@ class WorldBuilder {
     };
 
     static Origin origin_of(const Scene& scene);
-    BuiltWorld build_anew(const Scene& scene, const Origin& origin, WorldReport& report,
-                          const std::vector<bool>& retained);
+    BuiltWorld rebuilt_world(const Scene& scene, const Origin& origin, WorldReport& report,
+                             const std::vector<bool>& retained);
     BuiltWorld kept_world(const Scene& scene, WorldReport& report);
     /// The parameters of building a world.
     struct Task {

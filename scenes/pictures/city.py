@@ -115,8 +115,8 @@ root = chunk(b"nTRN", struct.pack("<i", 0) + attributes() + struct.pack("<iiii",
 group = chunk(b"nGRP", struct.pack("<i", 1) + attributes() + struct.pack("<i", len(children)) +
               struct.pack(f"<{len(children)}i", *children))
 palette = b"".join(bytes((*c, 255)) for c in PALETTE) + bytes(4 * (256 - len(PALETTE)))
-lamps = b"".join(chunk(b"MATL", struct.pack("<i", m) + attributes(type="_emit", emit="0.5", flux=flux))
-                 for m, flux in ((WARM, "1"), (COLD, "1")))
+emissive = b"".join(chunk(b"MATL", struct.pack("<i", m) + attributes(type="_emit", emit="0.5", flux=flux))
+                    for m, flux in ((WARM, "1"), (COLD, "1")))
 def setting(**values):
     return chunk(b"rOBJ", attributes(**values))
 
@@ -126,7 +126,7 @@ light = (setting(type="_inf", i="2.2", k="255 140 84", angle="9 128", area="0.2"
          setting(type="_bg", color="48 54 98") + setting(type="_ground", enable="0"))
 camera = chunk(b"rCAM", struct.pack("<i", 0) + attributes(
     mode="pers", focus="0 0 34", angle="-17 33 0", radius="260", fov="50"))
-body = b"".join(chunks) + root + group + nodes + light + camera + chunk(b"RGBA", palette) + lamps
+body = b"".join(chunks) + root + group + nodes + light + camera + chunk(b"RGBA", palette) + emissive
 with open(sys.argv[1] if len(sys.argv) > 1 else "city.vox", "wb") as file:
     file.write(b"VOX " + struct.pack("<i", 150) + chunk(b"MAIN", b"", body))
 print(houses, "houses,", len(placed), "instances", file=sys.stderr)

@@ -151,7 +151,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
 
     DeviceCounters& counters = device.counters();
     counters.launches.clear();
-    // The kernels that list the lamp's surface are a program of their own: rays don't need them.
+    // The kernels that list the emissive surface are a program of their own: rays don't need them.
     const Program lists(device, "light_samples.cl",
                         features_of(scene, world.pyramid).defines(device));
     // So is the one that finds how bright its map is there.

@@ -67,13 +67,13 @@ TEST_F(PlacementChoices, GiveWhatGrowsVoxelsForItsLargestFrame) {
 
 TEST_F(PlacementChoices, ManyCopiesOfAnExactMeshAreInstances) {
     const std::string box = R"("mesh": "box.obj", "surface": "exact")";
-    Material glass, lamp;
+    Material glass, emissive;
     glass.opacity = 0.5f;
-    lamp.emission = glm::vec3(1);
+    emissive.emission = glm::vec3(1);
     EXPECT_TRUE(first_is_instanced(scene_of(box), 8, {}, false));
     EXPECT_FALSE(first_is_instanced(scene_of(box), 7, {}, false));
     EXPECT_FALSE(first_is_instanced(scene_of(box), 8, glass, false));
-    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, lamp, false));
+    EXPECT_FALSE(first_is_instanced(scene_of(box), 8, emissive, false));
     EXPECT_FALSE(first_is_instanced(scene_of(box), 8, {}, true));
     EXPECT_FALSE(
         first_is_instanced(scene_of(R"("mesh": "ring.obj", "surface": "smooth")"), 8, {}, false));

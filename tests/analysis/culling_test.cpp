@@ -150,7 +150,7 @@ TEST(Culling, GoesOnToEmissiveObjectsWhichAreAlwaysInIt) {
     expect_same_bits(scene);
 }
 
-TEST(Culling, HoldsWhatCoversPartOfALampAlsoWithoutShadows) {
+TEST(Culling, HoldsWhatCoversPartOfAnEmissiveObjectAlsoWithoutShadows) {
     for (const int cover : {1, 3}) {  // of cubes, smooth
         Scene scene = scene_of();
         scene.render.shadows = false;
@@ -164,7 +164,8 @@ TEST(Culling, HoldsWhatCoversPartOfALampAlsoWithoutShadows) {
         expect_same_bits(scene);
         Scene without = scene;
         without.objects[size_t(cover)].visible = false;
-        EXPECT_NE(hash_of_all(without), hash_of_all(scene)) << "the lamp's spots are others";
+        EXPECT_NE(hash_of_all(without), hash_of_all(scene))
+            << "the emissive object's spots are others";
     }
 }
 

@@ -95,11 +95,11 @@ TEST_F(SceneChoices, MakeOnlyThinPartsExact) {
 // Where the two surfaces overlap, they would be seen one behind the other.
 TEST_F(SceneChoices, MakeNoPartsExactWhereSurfacesCantOverlap) {
     const std::string blade = R"("mesh": "blade.obj", "fit": 0.8)";
-    Material glass, veil, lamp;
+    Material glass, veil, emissive;
     glass.transmission = 0.9f;
     veil.opacity = 0.5f;
-    lamp.emission = glm::vec3(3);
-    for (const Material& material : {glass, veil, lamp}) {
+    emissive.emission = glm::vec3(3);
+    for (const Material& material : {glass, veil, emissive}) {
         Scene scene = scene_of(blade + R"(, "surface": "auto")");
         scene.materials.push_back(material);
         scene.objects.push_back(scene.objects[0]);

@@ -167,7 +167,7 @@ TEST_F(SceneWarnings, NameASceneWithoutAnyLight) {
     json["materials"]["red"]["emission"] = {1, 1, 1};
     EXPECT_THAT(kinds(), IsEmpty());
     json["objects"][0]["visible"] = false;
-    EXPECT_THAT(kinds(), ElementsAre(Kind::no_light)) << "a hidden lamp";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::no_light)) << "a hidden emissive object";
 }
 
 TEST_F(SceneWarnings, TellWhatGlobalLightVolumesLeaveOut) {

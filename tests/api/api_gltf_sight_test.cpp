@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files in place of scenes, in other sizes, with lamps, and seen by their own cameras.
+// glTF files in place of scenes, in other sizes, with emissive objects, and seen by their own
+// cameras.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -53,14 +54,14 @@ TEST_F(ApiGltf, OfAnotherSizeMovesAndLooksTheSame) {
     }
 }
 
-TEST_F(ApiGltf, LampsShareTheRaysOfEachPoint) {
-    const auto scene_with = [&](int lamps) {
+TEST_F(ApiGltf, EmissiveObjectsShareTheRaysOfEachPoint) {
+    const auto scene_with = [&](int count) {
         GltfWriter writer = triangle_gltf();
         writer.json["materials"] = {{{"name", "m"}, {"emissiveFactor", {1, 1, 1}}}};
         writer.json["meshes"][0]["primitives"][0]["material"] = 0;
         writer.json["nodes"] = Json::array();
         writer.json["scenes"][0]["nodes"] = Json::array();
-        for (int i = 0; i < lamps; ++i) {
+        for (int i = 0; i < count; ++i) {
             writer.json["nodes"].push_back({{"mesh", 0}, {"translation", {9 * i, 0, 0}}});
             writer.json["scenes"][0]["nodes"].push_back(i);
         }

@@ -105,7 +105,7 @@ TEST_F(ApiGltf, UnlitMaterialsHaveTheirColourInAnyLight) {
     EXPECT_GT(shown, 50u);
 }
 
-TEST_F(ApiGltf, UnlitBlackIsNoLampWithoutSpots) {
+TEST_F(ApiGltf, UnlitBlackIsNotEmissiveWithoutSpots) {
     const Json black = {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
                         {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
     EXPECT_THAT(with_material(black), Not(HasSubstr("\"spots\": 0")));

@@ -8,21 +8,21 @@
 
 namespace voxelume {
 
-TEST(CubeMaterials, LampsHaveTheirLightAsColourAndPower) {
-    Material lamp;
-    lamp.emission = {9, 2.25F, 0};
-    const CubeMaterial cube = cube_materials({{lamp}}, 0.5).front();
+TEST(CubeMaterials, EmissiveOnesHaveTheirLightAsColourAndPower) {
+    Material emissive;
+    emissive.emission = {9, 2.25F, 0};
+    const CubeMaterial cube = cube_materials({{emissive}}, 0.5).front();
     EXPECT_EQ(cube.vox.kind, VoxMaterialKind::emit);
     EXPECT_FLOAT_EQ(cube.vox.weight, 1);
     EXPECT_FLOAT_EQ(cube.vox.flux, 2);  // (1 + 2)^2 = 9
     EXPECT_EQ(cube.color, 0x89FFu) << "linear 1 and 0.25 in sRGB";
     EXPECT_FALSE(cube.vox.is_flux_cut);
-    lamp.emission = {100, 50, 0};
-    const CubeMaterial bright = cube_materials({{lamp}}, 0.5).front();
+    emissive.emission = {100, 50, 0};
+    const CubeMaterial bright = cube_materials({{emissive}}, 0.5).front();
     EXPECT_FLOAT_EQ(bright.vox.flux, 8);
     EXPECT_TRUE(bright.vox.is_flux_cut);
-    lamp.emission = {0, 0.25F, 0};
-    const CubeMaterial dim = cube_materials({{lamp}}, 0.5).front();
+    emissive.emission = {0, 0.25F, 0};
+    const CubeMaterial dim = cube_materials({{emissive}}, 0.5).front();
     EXPECT_FLOAT_EQ(dim.vox.weight, 0.25F);
     EXPECT_FLOAT_EQ(dim.vox.flux, 0);
 }

@@ -163,7 +163,8 @@ TEST_F(CliBandsTest, SamplesAreNotAddedToAnImageInBands) {
     const ProgramResult result = run(
         std::string("render scene.json -q --float -o a.exr --continue a.exr --samples 2") + kLimit);
     EXPECT_EQ(result.exit_code, 8) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("samples are added to whole images: render it anew"));
+    EXPECT_THAT(result.err,
+                HasSubstr("samples are added to whole images: render it again from the start"));
     EXPECT_TRUE(bytes_of(folder / "a.exr") == before);
 }
 

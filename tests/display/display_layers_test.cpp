@@ -101,11 +101,12 @@ TEST(Layers, TheMediumGoesOnBehindTransparentSurfaces) {
     EXPECT_NEAR(both.at(7).color[2], 0.8 * before + 0.3 * (1 - before), 1e-5);
 }
 
-constexpr const char* kLamp = R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6})";
+constexpr const char* kPointLight =
+    R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6})";
 
 /// The scene of the fixture's ball and block; the ball's material lets light through.
 Scene clear_scene(const std::string& keys, const std::string& world, const std::string& material) {
-    std::string text = display_scene(keys, "smooth", world, kLamp);
+    std::string text = display_scene(keys, "smooth", world, kPointLight);
     const std::string red = R"("red": {"color": [0.8, 0.3, 0.2])";
     text.insert(text.find(red) + red.size(), material);
     return parsed(text);

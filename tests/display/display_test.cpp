@@ -128,7 +128,7 @@ std::vector<glm::dvec3> flattened(const Volume& volume, const glm::dvec3& behind
     return colors;
 }
 
-constexpr const char* kLamp =
+constexpr const char* kPointLight =
     R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6},
        {"type": "directional", "direction": [1, -1, 0.4], "color": [0.2, 0.3, 0.4]})";
 
@@ -154,7 +154,7 @@ TEST(Flattened, IsTheFlatImageInClearSpace) {
     for (const DisplayCase& shape : kDisplayCases)
         expect_flattens_to_the_image(
             parsed(display_scene(std::string(shape.keys) + R"(, "voxels": [64, 48, 100])", "smooth",
-                                 "", kLamp)),
+                                 "", kPointLight)),
             true);
 }
 
@@ -163,7 +163,8 @@ TEST(Flattened, IsTheFlatImageInAGreyMedium) {
         expect_flattens_to_the_image(
             parsed(display_scene(
                 std::string(shape.keys) + R"(, "voxels": [64, 48, 100])", "exact",
-                R"(, "medium": {"absorption": [0.4, 0.4, 0.4], "color": [0.3, 0.2, 0.1]})", kLamp)),
+                R"(, "medium": {"absorption": [0.4, 0.4, 0.4], "color": [0.3, 0.2, 0.1]})",
+                kPointLight)),
             true);
 }
 
@@ -174,7 +175,7 @@ TEST(Flattened, IsTheFlatImageOfSurfacesInAColouredMedium) {
           R"(, "medium": {"absorption": [0, 0.5, 0.9], "color": [0.1, 0.2, 0.3]})"})
         expect_flattens_to_the_image(parsed(display_scene(std::string(kDisplayCases[0].keys) +
                                                               R"(, "voxels": [64, 48, 100])",
-                                                          "exact", medium, kLamp)),
+                                                          "exact", medium, kPointLight)),
                                      false);
 }
 
@@ -204,7 +205,7 @@ TEST(Volume, HasTheSameBitsForEveryNumberOfLanes) {
             fmt::format(R"({}, "layout": "{}", "voxels": [40, 30, 36])", kDisplayCases[0].keys,
                         layout),
             "smooth", R"(, "medium": {"absorption": [0.3, 1, 2], "color": [0.4, 0.2, 0.6]})",
-            kLamp));
+            kPointLight));
         const std::string expected = bytes_of(volume_of(scene, 16));
         ASSERT_GT(expected.size(), 3000u);
         for (const int lanes : in_turn<int>({1, 4, 8}, layout == "rays" ? 0 : 1))

@@ -59,11 +59,11 @@ TEST(ViewTransform, AgxOfGreyIsItsCurveInStops) {
 }
 
 TEST(ViewTransform, BrightSaturatedLightFadesToWhiteInAgxAlone) {
-    const glm::vec3 lamp(40, 4, 1);
-    const Codes agx = ColorCodes(ViewTransform::agx, 8)(lamp);
+    const glm::vec3 bright(40, 4, 1);
+    const Codes agx = ColorCodes(ViewTransform::agx, 8)(bright);
     EXPECT_GT(agx[0], agx[1]);
     EXPECT_GT(agx[2], 150);
-    EXPECT_EQ(ColorCodes(ViewTransform::srgb, 8)(lamp), (Codes{255, 255, 255}));
+    EXPECT_EQ(ColorCodes(ViewTransform::srgb, 8)(bright), (Codes{255, 255, 255}));
     const glm::vec3 red(8, 0.01f, 0.01f);
     EXPECT_GT(ColorCodes(ViewTransform::agx, 8)(red)[1], 60);
     EXPECT_LT(ColorCodes(ViewTransform::srgb, 8)(red)[1], 30);

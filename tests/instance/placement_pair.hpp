@@ -27,8 +27,8 @@ enum class Cause {
     touch,     ///< two objects' surfaces pass through the point that it shows, so either is seen
     cut,       ///< the world's bounds cut the object: closed in the world, open in an instance
     lattice,   ///< the object's voxels lie otherwise in its own space, by no more than is promised
-    sampled,   ///< samples of lamps, of the sky and of paths, checkers at a border of their fields:
-               ///< it is the same without them
+    sampled,   ///< samples of emissive objects, of the sky and of paths, checkers at a border of
+               ///< their fields: it is the same without them
     others,    ///< light of objects with other voxels: it is the same if they stay in the world
     edge,      ///< the world's picture changes as much if its rays move by a ten-thousandth voxel
     far_edge,  ///< the same, for a hundredth: where light grazes a surface, or rays go on from
@@ -117,8 +117,8 @@ inline Scene with_placement(Scene scene, Placement placement, bool kept) {
     return scene;
 }
 
-/// The scene in local light of its own lights, or of one, without lamps' samples and checkers, and
-/// without the sky's directions, which the last bits of a place choose.
+/// The scene in local light of its own lights, or of one, without emissive objects' samples and
+/// checkers, and without the sky's directions, which the last bits of a place choose.
 inline Scene without_samples(Scene scene) {
     scene.render.light = LightMode::local;
     scene.world.ambient = glm::max(scene.world.ambient, glm::vec3(0.1f));

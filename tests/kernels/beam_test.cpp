@@ -119,7 +119,7 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
         for (uint32_t i = 0; i < batch.stride; ++i)
             for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
                 ASSERT_EQ(hits[c * batch.stride + i], expected[c * batch.stride + i])
-                    << "seed " << kBeamSeed << ", " << voxels << " voxels, halo " << int(of)
+                    << "seed " << kBeamSeed << ", " << voxels << " voxels, dilated " << int(of)
                     << ", ray " << i << ", component " << c;
         const std::vector<uint32_t> words = batch.beams.read();
         const auto axes = words.begin() + VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch.stride);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pieces of lamps that are instances, against formulas and against the same lamps in the world.
+// The pieces of emissive objects that are instances, against formulas and against the same objects
+// in the world.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -41,7 +42,7 @@ PieceSums sums_of(const std::vector<EmissivePiece>& pieces) {
     return sums;
 }
 
-Scene placed_lamp(const std::string& model, const std::string& place) {
+Scene placed_emissive(const std::string& model, const std::string& place) {
     return floor_scene(
         "\"lamp\": {" + model + "},",
         R"({"model": "lamp", "material": "glow", "placement": "instance", )" + place + "},", "");
@@ -55,7 +56,7 @@ const glm::dmat3 kLinear(0.5, 0, 0.1, 0.2, 0, 0.7, 0, -0.4, 0);
 // The ball x'x = r² becomes an ellipsoid whose points and normals the inverse map tells.
 TEST(EmissiveInstance, OfABallUnderAnyMapLiesOnTheEllipsoidAndFacesOutwards) {
     for (const char* surface : {"smooth", "exact"}) {
-        const Scene scene = placed_lamp(
+        const Scene scene = placed_emissive(
             std::string(R"("shape": "sphere", "radius": 0.3, "voxel_size": 0.02, "surface": ")") +
                 surface + "\"",
             kMap);
@@ -110,22 +111,22 @@ TEST(EmissiveInstance, ThatShowsAModelLikeAnotherAddsNoSearch) {
             EXPECT_EQ(pieces.size(), found.at(0).size()) << object;
         return counters.launches["list_emissive"] - before;
     };
-    const std::string lamp = R"({"model": "lamp", "material": "glow", "placement": "instance",)";
-    EXPECT_EQ(searches(lamp + R"("position": [0, 0.2, 0]},)"), 2u);
-    EXPECT_EQ(searches(lamp + R"("position": [0, 0.2, 0]},)" + lamp +
-                       R"("position": [0.2, 0.3, 0], "turn": [0, 20, 0]},)" + lamp +
+    const std::string start = R"({"model": "lamp", "material": "glow", "placement": "instance",)";
+    EXPECT_EQ(searches(start + R"("position": [0, 0.2, 0]},)"), 2u);
+    EXPECT_EQ(searches(start + R"("position": [0, 0.2, 0]},)" + start +
+                       R"("position": [0.2, 0.3, 0], "turn": [0, 20, 0]},)" + start +
                        R"("position": [-0.2, 0.3, 0.1]},)"),
               2u);
-    EXPECT_EQ(searches(lamp + R"("position": [0, 0.2, 0]},)" + lamp +
+    EXPECT_EQ(searches(start + R"("position": [0, 0.2, 0]},)" + start +
                        R"("position": [0.2, 0.3, 0], "spots": 20},)"),
               4u);
 }
 
 class EmissiveInstanceOfAMesh : public FileTest {};
 
-// Object 0 is a lamp in the world, and the mesh of object 1, which isn't one, stands behind it in
+// Object 0 is emissive in the world, and the mesh of object 1, which isn't, stands behind it in
 // the same tables.
-TEST_F(EmissiveInstanceOfAMesh, IsTheMeshPlacedAndAddsNothingToOtherLamps) {
+TEST_F(EmissiveInstanceOfAMesh, IsTheMeshPlacedAndAddsNothingToOtherEmissiveObjects) {
     write_obj(folder / "ball.obj", ball({0, 0, 0}, 0.3, 48, 24));
     const auto scene_of = [&](const char* materials) {
         return parse_scene(fmt::format(R"({{"voxelume": 1,

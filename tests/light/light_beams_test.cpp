@@ -189,7 +189,7 @@ TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
             world.aim(light);
             const std::vector<float> expected = world.reached();
             EXPECT_EQ(world.reached(beams), expected)
-                << "seed " << kSeed << ", " << voxels << " voxels, halo " << int(of)
+                << "seed " << kSeed << ", " << voxels << " voxels, dilated " << int(of)
                 << ", light at " << at.x << ' ' << at.y << ' ' << at.z;
             lit += count_of(expected, 1.0f);
             shadowed += count_of(expected, 0.0f);

@@ -19,15 +19,15 @@ using testing::Not;
 
 using std::numbers::pi;
 
-/// A surface, and where the lamp that has it is placed.
-struct LampCase {
+/// A surface, and where the emissive object that has it is placed.
+struct EmissiveCase {
     const char* surface;
     const char* placement = "world";
 };
 
 /// The case's place as keys of an object.
-std::string placement_of(const LampCase& lamp) {
-    return fmt::format(R"(, "placement": "{}")", lamp.placement);
+std::string placement_of(const EmissiveCase& emissive) {
+    return fmt::format(R"(, "placement": "{}")", emissive.placement);
 }
 
 std::string ball_model(const std::string& surface) {
@@ -45,7 +45,7 @@ Scene ball_scene(const std::string& surface, const std::string& more = "") {
         "");
 }
 
-class EmissiveObjects : public testing::TestWithParam<LampCase> {
+class EmissiveObjects : public testing::TestWithParam<EmissiveCase> {
   protected:
     static Scene scene_of_case() {
         return ball_scene(GetParam().surface, placement_of(GetParam()));
@@ -72,7 +72,7 @@ TEST_P(EmissiveObjects, AreSeenAsBrightAsTheyGlow) {
     ASSERT_GT(point_at(image, pixel_at(image, 0.05, 0.1)).y, 0.5);
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
         if (point_at(image, i).y < 0.4) continue;
-        ASSERT_EQ(image.planes.at("R")[i], 3.0f) << "a convex lamp does not light itself";
+        ASSERT_EQ(image.planes.at("R")[i], 3.0f) << "a convex object does not light itself";
         ASSERT_EQ(image.planes.at("B")[i], 1.0f);
     }
 }
@@ -88,9 +88,9 @@ TEST_P(EmissiveObjects, AreNotHiddenByTheirOwnSurface) {
 
 // Cubes are left out: the stairs of a ball light and shadow one another, and enlarge it.
 INSTANTIATE_TEST_SUITE_P(Surfaces, EmissiveObjects,
-                         testing::Values(LampCase{"smooth"}, LampCase{"exact"},
-                                         LampCase{"smooth", "instance"},
-                                         LampCase{"exact", "instance"}));
+                         testing::Values(EmissiveCase{"smooth"}, EmissiveCase{"exact"},
+                                         EmissiveCase{"smooth", "instance"},
+                                         EmissiveCase{"exact", "instance"}));
 
 TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
     const Scene scene = floor_scene(
@@ -130,7 +130,7 @@ TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
 }
 
 /// A box turned a little, or of cubes along the axes: flat faces, seen at all angles.
-class FlatEmissiveObjects : public testing::TestWithParam<LampCase> {};
+class FlatEmissiveObjects : public testing::TestWithParam<EmissiveCase> {};
 
 TEST_P(FlatEmissiveObjects, AreNotHiddenByTheirOwnSurface) {
     const std::string surface = GetParam().surface;
@@ -150,7 +150,7 @@ TEST_P(FlatEmissiveObjects, AreNotHiddenByTheirOwnSurface) {
         if (!is_floor(bare, i)) continue;
         const float whole = bare.planes.at("R")[i], seen = shadowed.planes.at("R")[i];
         dimmed += seen != whole;
-        // The lamp is 1.5 voxels thin. At its smooth edges a small part of one spot of 100 may be
+        // The object is 1.5 voxels thin. At its smooth edges a small part of one spot of 100 may be
         // hidden.
         ASSERT_NEAR(seen, whole, surface == "smooth" ? 1e-3 * whole : 0) << i;
         lit += bare.planes.at("R")[i] > 0;
@@ -162,10 +162,10 @@ TEST_P(FlatEmissiveObjects, AreNotHiddenByTheirOwnSurface) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, FlatEmissiveObjects,
-                         testing::Values(LampCase{"cubes"}, LampCase{"smooth"}, LampCase{"exact"},
-                                         LampCase{"cubes", "instance"},
-                                         LampCase{"smooth", "instance"},
-                                         LampCase{"exact", "instance"}));
+                         testing::Values(EmissiveCase{"cubes"}, EmissiveCase{"smooth"},
+                                         EmissiveCase{"exact"}, EmissiveCase{"cubes", "instance"},
+                                         EmissiveCase{"smooth", "instance"},
+                                         EmissiveCase{"exact", "instance"}));
 
 TEST(EmissiveObject, InsideAGlowingShellASurfaceReturnsItsColorTimesTheRadiance) {
     // A hollow ball surrounds the whole floor and is cut off at the world's bottom. Half of the sky

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kSeed = 20261122;
 
-/// A scene of a room inside a ball, with 40 balls and two lamps in it. With `veils` every fourth
+/// A scene of a room inside a ball, with 40 balls and two lights in it. With `veils` every fourth
 /// ball lets half of the light through. A ball of the material `hidden` is behind the observer,
 /// where nothing that it sees shows it.
 Scene room(bool veils, const std::string& hidden, const std::string& placement = "world") {
@@ -86,8 +86,8 @@ TEST_P(Veils, LanesDoNotChangeABit) {
         EXPECT_EQ(colors(scene, lanes), expected) << lanes;
 }
 
-/// The light on a wall that a far lamp lights through a row of `voxels` voxels, each of which takes
-/// a thousandth.
+/// The light on a wall that a far light throws through a row of `voxels` voxels, each of which
+/// takes a thousandth.
 double light_behind(int voxels) {
     const Scene scene = parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 1, "bounds": {{"min": [-4, -4, -4], "max": [{0}, 4, 4]}}}},

@@ -178,7 +178,7 @@ FramePlan largest_of_three(const Scene& scene) {
     return plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
 }
 
-TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
+TEST_F(FramePlans, ALightThatIsSwitchedOnTakesItsShadowRays) {
     Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
                            R"("animation": {"frames": 3, "tracks": [
     {"target": "lights.lamp.intensity", "interpolation": "step",
@@ -190,7 +190,7 @@ TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
     EXPECT_GT(maximum.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
 }
 
-TEST_F(FramePlans, AnObserverWhoMovesAndALampThatDimsChangeNothing) {
+TEST_F(FramePlans, AnObserverWhoMovesAndALightThatDimsChangeNothing) {
     Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
                            R"("animation": {"frames": 40, "tracks": [
     {"target": "observer.position", "keys": [{"frame": 1, "value": [0.5, 0.5, 3]},

@@ -156,18 +156,18 @@ Scene room(const char* ball, const char* wall, const char* space, double voxel,
     return parse_scene(text, "test.json", {});
 }
 
-TEST(BuiltScene, OfMirrorsGlassLampsAndMediaTakesWhatIsPromised) {
+TEST(BuiltScene, OfMirrorsGlassEmissionAndMediaTakesWhatIsPromised) {
     constexpr const char* kFog =
         R"("medium": {"absorption": [0.4, 0.4, 0.4], "density": {"kind": "height", "base": 0, "scale_height": 0.3}},)";
     expect_image_kept("mirror", room(R"("reflection": 0.8)", R"("reflection": 0.5)", "", 0.02));
     expect_image_kept("glass", room(R"("refraction": 0.9, "ior": 1.5)", "", "", 0.02));
     expect_image_kept("glass, exact",
                       room(R"("refraction": 0.9, "ior": 1.5)", "", "", 0.02, "exact"));
-    expect_image_kept("lamp", room(R"("emission": [3, 2, 1])", "", "", 0.02));
+    expect_image_kept("emissive", room(R"("emission": [3, 2, 1])", "", "", 0.02));
     expect_image_kept("fog", room("", "", kFog, 0.02));
     Scene global = room(R"("emission": [3, 2, 1])", "", "", 0.02);
     global.render.light = LightMode::global;
-    expect_image_kept("lamp, global", global);
+    expect_image_kept("emissive, global", global);
 }
 
 TEST(BuiltScene, OfSmoothSolidsOfSeveralPartsTakesWhatIsPromised) {
@@ -186,7 +186,7 @@ TEST(BuiltScene, OfSmoothSolidsOfSeveralPartsTakesWhatIsPromised) {
         }
 }
 
-TEST(BuiltScene, OfManyLampsThatShareAModelTakesWhatIsPromised) {
+TEST(BuiltScene, OfManyEmissiveObjectsThatShareAModelTakesWhatIsPromised) {
     nlohmann::json scene = nlohmann::json::parse(R"({"voxelume": 1,
         "world": {"voxel_size": 0.05, "bounds": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
         "materials": {"clay": {}, "lamp": {"emission": [6, 6, 6]}},
@@ -202,7 +202,7 @@ TEST(BuiltScene, OfManyLampsThatShareAModelTakesWhatIsPromised) {
                                     {"material", "lamp"},
                                     {"position", {0.7 * (i % 5) - 1.5, 0.6, 0.2 * (i / 5) - 1}},
                                     {"placement", "instance"}});
-    expect_image_kept("instanced lamps", parsed(scene.dump()));
+    expect_image_kept("instanced emissive objects", parsed(scene.dump()));
 }
 
 TEST(BuiltScene, OfALargeWorldTakesWhatIsPromised) {

@@ -56,7 +56,7 @@ Scene scene_of(const Room& room) {
     return parse_scene(text, "room.json", {});
 }
 
-constexpr const char* kLamp = R"([{"type": "point", "position": [0.3, 0.5, 0.2]}])";
+constexpr const char* kPointLight = R"([{"type": "point", "position": [0.3, 0.5, 0.2]}])";
 constexpr const char* kMirror = R"({"reflection": 0.9})";
 constexpr const char* kGlass = R"({"refraction": 0.9, "reflection": 0.1, "ior": 1.5})";
 
@@ -80,10 +80,11 @@ double taken(const Scene& scene) {
 TEST(RayArrays, ArePlannedAsLargeAsTheyAre) {
     const char* fog = R"({"opacity": 0.5})";
     for (const Room& room :
-         {Room{}, Room{.lights = kLamp}, Room{.lights = kLamp, .surface = "exact"},
-          Room{.ball = fog, .lights = kLamp}, Room{.wall = kMirror, .lights = kLamp, .depth = 8},
+         {Room{}, Room{.lights = kPointLight}, Room{.lights = kPointLight, .surface = "exact"},
+          Room{.ball = fog, .lights = kPointLight},
+          Room{.wall = kMirror, .lights = kPointLight, .depth = 8},
           Room{.wall = kMirror, .surface = "exact", .placement = "instance", .depth = 3},
-          Room{.wall = kGlass, .ball = kGlass, .lights = kLamp, .depth = 2}}) {
+          Room{.wall = kGlass, .ball = kGlass, .lights = kPointLight, .depth = 2}}) {
         const Scene scene = scene_of(room);
         const double bytes = taken(scene), plan = planned(scene).maximum();
         SCOPED_TRACE(fmt::format("{} {} {} {}", room.wall, room.ball, room.surface, room.depth));
@@ -134,7 +135,7 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     info.name = "Small One";
     info.memory = info.max_allocation = 20'000'000;
     AssetStore meshes;
-    Scene scene = scene_of({.wall = kMirror, .lights = kLamp, .size = {400, 300}});
+    Scene scene = scene_of({.wall = kMirror, .lights = kPointLight, .size = {400, 300}});
     const auto refusal = [&] {
         const ScenePlan plan = plan_scene(scene, meshes);
         const Error error = error_of([&] { check_memory(scene, plan, info); });
@@ -151,7 +152,7 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     // The arrays' allocation reports what the plan can't foresee.
     const Device device = device_with_memory(24);
     RenderReport report;
-    scene = scene_of({.wall = kMirror, .lights = kLamp, .depth = 16, .size = {256, 128}});
+    scene = scene_of({.wall = kMirror, .lights = kPointLight, .depth = 16, .size = {256, 128}});
     EXPECT_NO_THROW(check_memory(scene, plan_scene(scene, meshes), device.info()));
     EXPECT_THAT(error_of([&] { render(device, scene, report); }).what(),
                 testing::AllOf(testing::StartsWith("an image of 256x128 pixels: the "),

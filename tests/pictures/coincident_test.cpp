@@ -29,7 +29,7 @@ constexpr int kPixelsWide = 160, kPixelsHigh = 120;
 
 class Coincident : public FileTest {
   protected:
-    /// A picture of objects, from above and aside, in the light of a lamp behind the observer's
+    /// A picture of objects, from above and aside, in the light of a point behind the observer's
     /// shoulder. The boxes a and b, and the floor, are solids, or meshes where `shape` says so.
     Image picture_of(const std::string& objects, bool meshes = false, double turn = 0.7) {
         const auto shape = [&](const char* name, double x, double y, double z) {

@@ -188,7 +188,8 @@ struct VolumeCase {
 };
 
 TEST(Golden, Volumes) {
-    constexpr const char* kLamp = R"({"type": "point", "position": [2, 3, -2], "intensity": 20})";
+    constexpr const char* kPointLight =
+        R"({"type": "point", "position": [2, 3, -2], "intensity": 20})";
     constexpr const char* kFog =
         R"(, "medium": {"absorption": [0.2, 0.6, 1.1], "color": [0.3, 0.2, 0.1]})";
     const std::array<VolumeCase, 4> cases = {{{"lattice", "smooth", ""},
@@ -201,8 +202,8 @@ TEST(Golden, Volumes) {
                                              shape.keys, cases[i].layout);
         RenderReport report;
         const Volume volume = render_volume(
-            shared_device(), parsed(display_scene(keys, cases[i].surface, cases[i].world, kLamp)),
-            report);
+            shared_device(),
+            parsed(display_scene(keys, cases[i].surface, cases[i].world, kPointLight)), report);
         EXPECT_GT(volume.indices.size(), 100u);
         oracle::Fnv hash;
         hash.add(&volume.frame.size, sizeof volume.frame.size);

@@ -80,11 +80,11 @@ TEST(Render, AddsAmbientDiffuseAndHighlightByHand) {
 TEST(Render, AbsorbsLightOnTheWayToTheSurfaceAndToTheObserver) {
     // The medium fills the world, z -1..1. Sight rays go 0.9 m through it, and so does light from
     // (-0.05,-0.05,-2.1).
-    const char* lamp =
+    const char* light =
         R"({"type": "point", "position": [-0.05, -0.05, -2.1], "color": [1, 1, 1], "intensity": 4})";
-    const Rendered clear = rendered(scene_of(box_scene("exact", lamp)));
+    const Rendered clear = rendered(scene_of(box_scene("exact", light)));
     const Rendered foggy = rendered(scene_of(box_scene(
-        "exact", lamp, R"(, "medium": {"absorption": [0.5, 1, 2], "color": [0.1, 0.2, 0.3]})")));
+        "exact", light, R"(, "medium": {"absorption": [0.5, 1, 2], "color": [0.1, 0.2, 0.3]})")));
     const double absorption[3] = {0.5, 1, 2}, fog[3] = {0.1, 0.2, 0.3};
     const double ambient[3] = {0.8 * 0.5 * 0.5, 0.4 * 0.5 * 0.25, 0.2 * 0.5 * 0.125};
     const char* planes[3] = {"R", "G", "B"};

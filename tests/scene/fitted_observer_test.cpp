@@ -145,17 +145,17 @@ TEST(DefaultLight, IsThereOnlyWhereASceneSaysNothingOfLight) {
                 HasSubstr("the scene has no \"lights\" to change"));
 }
 
-/// The lamp of a scene whose other object is plain, and the tracks of their values.
-Scene lamp_scene(const std::string& lamp, const std::string& tracks) {
+/// The emissive object of a scene whose other object is plain, and the tracks of their values.
+Scene emissive_scene(const std::string& emissive, const std::string& tracks) {
     return parse_members(fmt::format(
         R"("materials": {{"plain": {{}}, "bright": {{"emission": [0, 1, 0]}}, "dark": {{}}}},
 "models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "smooth"}}}},
 "objects": [{{"model": "ball", "material": "plain"}}, {{"name": "lamp", "model": "ball", {}}}],
 "animation": {{"frames": 3, "tracks": [{}]}})",
-        lamp, tracks));
+        emissive, tracks));
 }
 
-TEST(DefaultLight, IsLeftOutForALampThatIsVisibleInSomeFrame) {
+TEST(DefaultLight, IsLeftOutForEmissionThatIsVisibleInSomeFrame) {
     const std::string bright = R"("material": "bright")", dark = R"("material": "dark")",
                       hidden = R"(, "visible": false)";
     const auto track = [](const char* target, const char* first, const char* second) {
@@ -163,8 +163,8 @@ TEST(DefaultLight, IsLeftOutForALampThatIsVisibleInSomeFrame) {
                                                        {{"frame": 2, "value": {}}}]}})",
                            target, first, second);
     };
-    const auto has_light = [](const std::string& lamp, const std::string& tracks) {
-        return lamp_scene(lamp, tracks).has_default_light;
+    const auto has_light = [](const std::string& emissive, const std::string& tracks) {
+        return emissive_scene(emissive, tracks).has_default_light;
     };
     EXPECT_FALSE(has_light(bright, ""));
     EXPECT_TRUE(has_light(bright + hidden, ""));

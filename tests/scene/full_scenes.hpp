@@ -51,7 +51,7 @@ inline std::vector<nlohmann::json> full_scenes() {
                          "display": {"shape": "pyramid", "angles": [40, 30], "near": 0.5, "far": 10,
                                      "voxels": [64, 48, 32]}},
             "animation": {"frames": 5, "fps": 24, "tracks": []},
-            "render": {"size": [64, 48], "samples": 4, "adaptive": 0.1, "depth": 3, "light": "global", "bounces": 4, "lamps": "paths", "shadows": false, "filter": "tent", "filter_width": 1.5,
+            "render": {"size": [64, 48], "samples": 4, "adaptive": 0.1, "depth": 3, "light": "global", "bounces": 4, "emitters": "paths", "shadows": false, "filter": "tent", "filter_width": 1.5,
                        "shadow": "filtered", "least_weight": 0.001, "transparent": true}})",
         R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
             "models": {"u": {"shape": "union", "parts": [{"shape": "sphere", "radius": 1}], "surface": "smooth"},

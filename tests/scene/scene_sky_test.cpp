@@ -100,9 +100,9 @@ TEST(SceneSky, GlobalLightIsASetting) {
     const RenderSettings render = scene_with_sky("", R"("light": "global", "bounces": 3)").render;
     EXPECT_EQ(render.light, LightMode::global);
     EXPECT_EQ(render.bounces, 3);
-    EXPECT_EQ(render.lamps, LampSearch::both);
-    EXPECT_EQ(scene_with_sky("", R"("lamps": "rays")").render.lamps, LampSearch::rays);
-    EXPECT_THAT(objection("", R"("lamps": "all")"), HasSubstr("\"all\""));
+    EXPECT_EQ(render.emitters, EmitterSearch::both);
+    EXPECT_EQ(scene_with_sky("", R"("emitters": "rays")").render.emitters, EmitterSearch::rays);
+    EXPECT_THAT(objection("", R"("emitters": "all")"), HasSubstr("\"all\""));
     EXPECT_THAT(objection("", R"("light": "dim")"), HasSubstr("\"dim\""));
     EXPECT_THAT(objection("", R"("bounces": 65)"), HasSubstr("bounces"));
 }

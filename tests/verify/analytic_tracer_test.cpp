@@ -24,14 +24,14 @@ double seen(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& dire
 /// The height at which a falling ray of the plane z = 0 meets the line x = 4, found by the edge of
 /// an emissive object that is just visible.
 double height_at_4(Scene scene, const glm::dvec3& origin, const glm::dvec3& direction) {
-    const int lamp = add_box(scene, {4, 0, -1}, {5, 1, 1}, emitter(glm::vec3(1)));
+    const int emissive = add_box(scene, {4, 0, -1}, {5, 1, 1}, emitter(glm::vec3(1)));
     const glm::dmat4 around_origin(1);
     double low = -9, high = 9;
     for (int step = 0; step < 60; ++step) {
         const double middle = (low + high) / 2;
         // The emissive object is at x 4..5 and extends upwards from `middle`.
-        scene.models[size_t(lamp)].solid->size = {1, 20, 2};
-        scene.objects[size_t(lamp)].world_from_object =
+        scene.models[size_t(emissive)].solid->size = {1, 20, 2};
+        scene.objects[size_t(emissive)].world_from_object =
             glm::translate(around_origin, {4.5, middle + 10, 0});
         (seen(scene, origin, direction) > 0 ? low : high) = middle;
     }

@@ -46,7 +46,7 @@ constexpr const char* kFloor = R"({"voxelume": 1,
 "render": {"size": [48, 36], "depth": 2}})";
 
 /// A scene of an emissive object above the floor.
-constexpr const char* kLamp = R"({"voxelume": 1,
+constexpr const char* kEmissive = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]}},
 "materials": {"clay": {"color": [0.8, 0.6, 0.4]}, "glow": {"emission": [3, 2, 1]}},
 "models": {"floor": {"shape": "box", "size": [1.8, 0.1, 2], "surface": "cubes"},
@@ -153,8 +153,8 @@ const Row kRows[] = {
      "[0.1, -0.2, 0.2]",
      "[0.1, -9, 0.2]",
      {"kernel scatter_rays", "kernel gather_light"}},
-    {"a lamp outside the world",
-     kLamp,
+    {"an emissive object outside the world",
+     kEmissive,
      "[0, 0.2, 0]",
      "[0, 9, 0]",
      {"kernel find_surface", "kernel list_emissive", "kernel add_light", "kernel trace_shadows",
@@ -188,7 +188,8 @@ const Row kRows[] = {
 
 TEST_F(SkippingFiles, WhatAChangeMakesNeedlessIsNotDone) {
     std::map<const char*, Counters> all;
-    for (const char* scene : {kSkippingScene, kFloor, kLamp}) all[scene] = show(scene_of(scene));
+    for (const char* scene : {kSkippingScene, kFloor, kEmissive})
+        all[scene] = show(scene_of(scene));
     for (const Row& row : kRows) {
         const Counters& before = all.at(row.scene);
         Counters after = show(scene_of(replaced(row.scene, row.from, row.to)));
@@ -210,12 +211,12 @@ TEST_F(SkippingFiles, WhateverItsMaterialAnObjectOutsideTheWorldIsNotInThePictur
             m.checker = {glm::vec3(0, 1, 0), glm::dvec3(0.2), glm::dvec3(0)};
         },
     });
-    Scene scene = scene_of(kLamp);
+    Scene scene = scene_of(kEmissive);
     scene.objects[1].visible = false;
     Image without;
     show(scene, &without);
     for (const auto& change : changes) {
-        scene = scene_of(replaced(kLamp, "[0, 0.2, 0]", "[0, 9, 0]"));
+        scene = scene_of(replaced(kEmissive, "[0, 0.2, 0]", "[0, 9, 0]"));
         Material& material = scene.materials[size_t(scene.objects[1].material)];
         material.emission = glm::vec3(0);
         change(material);

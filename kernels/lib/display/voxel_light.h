@@ -58,8 +58,9 @@ static inline SeenLight seen_light(PyramidShape shape, const SpaceMedium* medium
     for (uint channel = 0; channel < 3; ++channel) {
         lane_float value = LANES_LOAD(nodes->radiance, channel * nodes->stride + first);
         if (VXL_MEDIUM) {
-            const lane_float passed = fmax(veil.passed[channel], VXL_MIN_TRANSMITTANCE);
-            value = fmax(exact_divide(value - veil.emitted[channel], passed), 0.0f);
+            const lane_float transmittance =
+                fmax(veil.transmittance[channel], VXL_MIN_TRANSMITTANCE);
+            value = fmax(exact_divide(value - veil.emitted[channel], transmittance), 0.0f);
         }
         if (VXL_TRANSMISSION) value = exact_divide(value, s.opacity);
         s.color[channel] = LANES_SELECT(s.hit, value, (lane_float)0.0f);

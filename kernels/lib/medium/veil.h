@@ -18,9 +18,9 @@ static inline lane_float density_along(PyramidShape shape, const DensityView* de
 
 /// What a medium whose colour differs from voxel to voxel does to light, channel by channel.
 typedef struct {
-    lane_float depth, lost;  // sum of density times metres, as add_exactly has it
-    lane_float passed[3];    // share of the light behind that comes through
-    lane_float emitted[3];   // radiance that the medium adds
+    lane_float depth, lost;       // sum of density times metres, as add_exactly has it
+    lane_float transmittance[3];  // share of the light behind that comes through
+    lane_float emitted[3];        // radiance that the medium adds
 } Veil;
 
 /// Adds a stretch of a voxel, whose density and colour are the means over it, behind all others.
@@ -30,9 +30,10 @@ static inline void add_stretch(const DensityCell* cell, global const float* rest
     add_exactly(&veil->depth, &veil->lost, depth, adding);
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color = LANES_GATHER_FLOAT(colors, cell->place * 3u + (uint)channel);
-        const lane_float shown = veil->passed[channel] * exact_rise(absorption[channel] * depth);
+        const lane_float shown =
+            veil->transmittance[channel] * exact_rise(absorption[channel] * depth);
         veil->emitted[channel] = fma(shown, color, veil->emitted[channel]);
-        veil->passed[channel] = exact_exp(-absorption[channel] * (veil->depth - veil->lost));
+        veil->transmittance[channel] = exact_exp(-absorption[channel] * (veil->depth - veil->lost));
     }
 }
 
@@ -43,7 +44,7 @@ static inline Veil veil_of(PyramidShape shape, const DensityView* density,
     Veil veil;
     veil.depth = veil.lost = (lane_float)0.0f;
     for (int channel = 0; channel < 3; ++channel) {
-        veil.passed[channel] = (lane_float)1.0f;
+        veil.transmittance[channel] = (lane_float)1.0f;
         veil.emitted[channel] = (lane_float)0.0f;
     }
     const PyramidView p = grid_view(shape);
@@ -81,7 +82,7 @@ static inline Veil veil_before(PyramidShape shape, Environment environment,
     veil.lost = (lane_float)0.0f;
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float tau = absorption[channel] * veil.depth;
-        veil.passed[channel] = exact_exp(-tau);
+        veil.transmittance[channel] = exact_exp(-tau);
         veil.emitted[channel] = color[channel] * exact_rise(tau);
     }
     return veil;

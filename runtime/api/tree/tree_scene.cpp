@@ -174,13 +174,13 @@ JsonValue tree(const v1::Animation& animation) {
     return object.put("tracks", list_of(std::move(tracks))).take();
 }
 
-const char* name_of(v1::LampSearch lamps) {
-    switch (lamps) {
-        case v1::LampSearch::paths:
+const char* name_of(v1::EmitterSearch emitters) {
+    switch (emitters) {
+        case v1::EmitterSearch::paths:
             return "paths";
-        case v1::LampSearch::rays:
+        case v1::EmitterSearch::rays:
             return "rays";
-        case v1::LampSearch::both:
+        case v1::EmitterSearch::both:
             break;
     }
     return "both";
@@ -194,7 +194,7 @@ JsonValue tree(const v1::RenderSettings& render) {
     object.add("shadows", render.shadows);
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
     object.add("light", render.light == v1::LightMode::global ? "global" : "local");
-    object.add("bounces", render.bounces).add("lamps", name_of(render.lamps));
+    object.add("bounces", render.bounces).add("emitters", name_of(render.emitters));
     object.add("filter", kFilters.at(size_t(render.filter)));
     object.add("filter_width", render.filter_width).add("transparent", render.transparent);
     return object.add("least_weight", render.min_weight).take();

@@ -103,9 +103,9 @@ struct Walk {
     }
 };
 
-/// The least width around an edge of this turn in which the surface turns by kSharpAngle, in the
+/// The smallest width around an edge of this turn in which the surface turns by kSharpAngle, in the
 /// sense of the edge.
-double least_width(const Arm& a, const Arm& b, double turn) {
+double min_width(const Arm& a, const Arm& b, double turn) {
     double min_way = std::numeric_limits<double>::infinity();
     const double sense = turn < 0 ? -1 : 1;
     for (size_t i = 0; i < a.count && a.way[i] < min_way; ++i)
@@ -137,7 +137,7 @@ EdgeTurn turn_around(const MeshEdges& edges, const MeshEdge& edge, double reach)
     const Arm a = walk.go(edge.a, 1, -1, turn, reach);
     // Where that bends back too far, all that is as wide is too rough.
     const Arm b = walk.go(edge.b, sense, 1, turn, std::min(reach, a.end));
-    const double width = least_width(a, b, turn);
+    const double width = min_width(a, b, turn);
     if (!(width < std::numeric_limits<double>::infinity())) return {};
     const double largest = largest_turn(a, b, turn, kRightAngle * width);
     const double bent =

@@ -76,7 +76,7 @@ class DisplayCounter {
           medium_(medium),
           frame_(display_frame(scene)),
           features_(volume_features(scene, world)),
-          is_least_(estimate == Estimate::minimum) {}
+          is_minimum_(estimate == Estimate::minimum) {}
 
     /// Returns the number of voxels that are shown.
     double run() { return frame_.layout == VolumeLayout::rays ? rays() : lattice(); }
@@ -96,7 +96,7 @@ class DisplayCounter {
         const Buffer<float> mean = count_mean(in_batch);
         // In a medium, each of a ray's steps in the world may show some of it.
         const double steps = features_.medium ? steps_in_world() : 1;
-        const double shown = is_least_ ? 1 : steps * all;
+        const double shown = is_minimum_ ? 1 : steps * all;
         if (features_.transmission || features_.medium_grid) {
             const Buffer<float> seen(device_, "display layers",
                                      features_.transmission ? size_t(in_batch) * 4 : 1);
@@ -147,9 +147,9 @@ class DisplayCounter {
             features.transmission ? allocate_surfaces(device_, scanned_lines(batch), kFirstSlots)
                                   : Buffer<uint32_t>();
         const Buffer<uint32_t> lines(device_, "probe counts", scanned_lines(batch));
-        const double found = is_least_ ? 16 : probe_points(frame_, world_);
+        const double found = is_minimum_ ? 16 : probe_points(frame_, world_);
         const double shown =
-            is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
+            is_minimum_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
         const ProbePoints points = allocate_points(device_, numbered(found));
         choose(numbered(shown), batch);
         return shown;
@@ -166,7 +166,7 @@ class DisplayCounter {
     void measure_medium() const {
         const Buffer<float> means = allocate_medium_means(device_, features_, frame_.size);
         const ProbePoints middles =
-            allocate_points(device_, is_least_ ? 16 : medium_rows(frame_.size) * frame_.size.x);
+            allocate_points(device_, is_minimum_ ? 16 : medium_rows(frame_.size) * frame_.size.x);
     }
 
     /// Counts the voxels that are shown, and their points.
@@ -191,7 +191,7 @@ class DisplayCounter {
     RayCounts counts_of(uint32_t rays) const {
         RayCounts counts = ray_counts(device_, scene_, features_);
         counts.rays = rays;
-        if (is_least_) counts.depth = std::min<size_t>(counts.depth, 1);
+        if (is_minimum_) counts.depth = std::min<size_t>(counts.depth, 1);
         return counts;
     }
 
@@ -209,7 +209,7 @@ class DisplayCounter {
     const DensityPlan& medium_;
     VolumeFrame frame_;
     Features features_;
-    bool is_least_;
+    bool is_minimum_;
 };
 
 }  // namespace

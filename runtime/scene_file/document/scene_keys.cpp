@@ -83,7 +83,7 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"key", {"frame", "time", "value", "in", "out"}});
     tables.push_back({"render",
                       {"size", "samples", "adaptive", "depth", "shadows", "shadow", "least_weight",
-                       "light", "bounces", "lamps", "filter", "filter_width", "transparent"}});
+                       "light", "bounces", "emitters", "filter", "filter_width", "transparent"}});
     return tables;
 }
 

@@ -200,12 +200,12 @@ double emitter_host_bytes(size_t voxels, size_t listed) {
 
 int emitter_feature(const RenderSettings& render) {
     if (render.light != LightMode::global || render.bounces == 0) return VXL_EMITTERS_NONE;
-    switch (render.lamps) {
-        case LampSearch::both:
+    switch (render.emitters) {
+        case EmitterSearch::both:
             return VXL_EMITTERS_BOTH;
-        case LampSearch::rays:
+        case EmitterSearch::rays:
             return VXL_EMITTERS_RAYS;
-        case LampSearch::paths:
+        case EmitterSearch::paths:
             break;
     }
     return VXL_EMITTERS_NONE;

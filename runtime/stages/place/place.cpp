@@ -106,9 +106,9 @@ class Placer::State {
     /// Makes the world store what the objects now need, and nothing else. A part that no object has
     /// had before has one value in every brick, so no brick is painted for it.
     void follow(const WorldParts& parts) {
-        const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
+        const bool is_stored_otherwise = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
-        if (!is_stored_anew) return;
+        if (!is_stored_otherwise) return;
         bricks_->store_like(parts);
         for (auto& [number, painter] : painters_) painter.follow(device_, parts);
     }

@@ -44,7 +44,7 @@ void check_exact(const Image& earlier, const char* name) {
     if (std::ranges::any_of(plane->second, is_subnormal))
         throw Error(ErrorKind::input,
                     "the image to which samples are added has values in channel {} that are too "
-                    "small to be exact: render it anew",
+                    "small to be exact: render it again from the start",
                     name);
 }
 

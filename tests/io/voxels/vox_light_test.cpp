@@ -38,16 +38,16 @@ class VoxLightTest : public VoxFileTest {
     }
 };
 
-// In local light each point would send rays to each lamp.
-TEST_F(VoxLightTest, ManyLampsShineInGlobalLight) {
-    for (const int lamps : {1, 16, 17}) {
+// In local light each point would send rays to each emissive object.
+TEST_F(VoxLightTest, ManyEmissiveObjectsShineInGlobalLight) {
+    for (const int visible : {1, 16, 17}) {
         VoxWriter writer;
         writer.model({1, 1, 1}, {{0, 0, 0, 3}});
         writer.material(3, {{"_type", "_emit"}, {"_emit", "1"}});
         std::vector<int> children;
         writer.transform(0, 1, 0, {}, {{}});
         for (int i = 0; i < 20; ++i) {
-            const VoxPairs hidden = {{"_hidden", i < lamps ? "0" : "1"}};
+            const VoxPairs hidden = {{"_hidden", i < visible ? "0" : "1"}};
             const VoxPairs at = {{"_t", std::to_string(3 * i) + " 0 0"}};
             writer.transform(2 + 2 * i, 3 + 2 * i, 0, hidden, {at});
             writer.shape(3 + 2 * i, {{0, {}}});
@@ -55,8 +55,9 @@ TEST_F(VoxLightTest, ManyLampsShineInGlobalLight) {
         }
         writer.group(1, children);
         const Scene scene = scene_of_writer(writer);
-        EXPECT_EQ(scene.render.light, lamps > 16 ? LightMode::global : LightMode::local) << lamps;
-        EXPECT_EQ(scene.render.samples, lamps > 16 ? 64 : 4) << lamps;
+        EXPECT_EQ(scene.render.light, visible > 16 ? LightMode::global : LightMode::local)
+            << visible;
+        EXPECT_EQ(scene.render.samples, visible > 16 ? 64 : 4) << visible;
         EXPECT_THAT(text_of_scene(writer, {.is_lattice = true}), Not(HasSubstr("global")));
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways in which light paths find lamps agree: by rays to them, by running into them, by both.
+// The ways in which light paths find emissive objects agree: by rays to them, by running into them,
+// by both.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -11,16 +12,16 @@
 namespace voxelume {
 namespace {
 
-struct LampRoom {
+struct EmitterRoom {
     const char* name;
     std::function<void(Json&)> furnish;
 };
 
-void PrintTo(const LampRoom& room, std::ostream* out) {
+void PrintTo(const EmitterRoom& room, std::ostream* out) {
     *out << room.name;
 }
 
-/// A room with a floor, a back wall and a ball, lit by lamps alone, seen from its front.
+/// A room with a floor, a back wall and a ball, lit by emissive objects alone, seen from its front.
 Json dark_room(int samples) {
     Json scene = open_furnace(samples);
     scene["world"]["background"] = {0, 0, 0};
@@ -45,7 +46,7 @@ Json small_box(const char* surface) {
     return box;
 }
 
-const std::vector<LampRoom> kRooms = {
+const std::vector<EmitterRoom> kRooms = {
     {"cubes",
      [](Json& s) {
          add_thing(s, small_box("cubes"), "lamp", {0.15, 0.2, 0.1});
@@ -75,13 +76,13 @@ const std::vector<LampRoom> kRooms = {
                        {{"placement", "instance"}, {"turn", {20, 30, 10}}, {"scale", 1.25}});
          }
      }},
-    {"bright and dim lamps that reflect",
+    {"bright and dim emitters that reflect",
      [](Json& s) {
          add_thing(s, small_box("cubes"), "lamp", {0.3, 0.3, 0.2});
          add_thing(s, {{"shape", "sphere"}, {"radius", 0.2}, {"surface", "exact"}}, "lit",
                    {0.25, -0.15, 0.15});
      }},
-    {"lamps behind a veil and glass",
+    {"emitters behind a veil and glass",
      [](Json& s) {
          add_thing(s, small_box("exact"), "lamp", {0.2, 0.3, 0.1});
          add_thing(s, {{"shape", "box"}, {"size", {0.6, 0.02, 0.6}}, {"surface", "exact"}}, "veil",
@@ -89,28 +90,28 @@ const std::vector<LampRoom> kRooms = {
          add_thing(s, {{"shape", "sphere"}, {"radius", 0.1}, {"surface", "exact"}}, "glass",
                    {0.2, -0.2, 0});
      }},
-    {"a lamp behind an instanced veil",
+    {"an emitter behind an instanced veil",
      [](Json& s) {
          add_thing(s, small_box("exact"), "lamp", {0.15, 0, 0.1});
          add_thing(s, {{"shape", "box"}, {"size", {0.6, 0.02, 0.6}}, {"surface", "exact"}}, "veil",
                    {0.15, -0.06, 0.1}, {{"placement", "instance"}});
      }},
-    {"a lamp in a coloured medium", [](Json& s) {
+    {"an emitter in a coloured medium", [](Json& s) {
          s["world"]["medium"] = {{"absorption", {0.5, 1, 2}}, {"color", {0.1, 0.2, 0.3}}};
          add_thing(s, small_box("exact"), "lamp", {0.15, 0.2, 0.1});
      }}};
 
 /// By default those of instances, and of glass and veils, which have the features of most others.
-std::vector<LampRoom> rooms_to_try() {
+std::vector<EmitterRoom> rooms_to_try() {
     if (is_exhaustive()) return kRooms;
     return {kRooms[4], kRooms[6]};
 }
 
-class LampRooms : public testing::TestWithParam<LampRoom> {};
-INSTANTIATE_TEST_SUITE_P(Emitters, LampRooms, testing::ValuesIn(rooms_to_try()));
+class EmitterRooms : public testing::TestWithParam<EmitterRoom> {};
+INSTANTIATE_TEST_SUITE_P(Emitters, EmitterRooms, testing::ValuesIn(rooms_to_try()));
 
-std::vector<SensedRay> sensed_by(Json scene, const char* lamps) {
-    scene["render"]["lamps"] = lamps;
+std::vector<SensedRay> sensed_by(Json scene, const char* search) {
+    scene["render"]["emitters"] = search;
     return sense(scene);
 }
 
@@ -131,7 +132,7 @@ void expect_agreement(const std::vector<SensedRay>& a, const std::vector<SensedR
         }
 }
 
-TEST_P(LampRooms, LookTheSameHoweverLampsAreFound) {
+TEST_P(EmitterRooms, LookTheSameHoweverEmittersAreFound) {
     Json scene = dark_room(is_exhaustive() ? 256 : 96);
     GetParam().furnish(scene);
     const std::vector<SensedRay> both = sensed_by(scene, "both");
@@ -145,13 +146,14 @@ TEST_P(LampRooms, LookTheSameHoweverLampsAreFound) {
 }
 
 /// The root mean square of a region's pixels around their means, over that mean.
-double noise_of(const Json& scene, const char* lamps) {
-    const Estimate e = estimate_of(channel_of(sensed_by(scene, lamps), 1));
+double noise_of(const Json& scene, const char* search) {
+    const Estimate e = estimate_of(channel_of(sensed_by(scene, search), 1));
     return e.error / e.mean;
 }
 
-TEST(Emitters, RaysToASmallLampTakeItsNoiseAway) {
-    // A plane seen from the lamp's side, evenly lit: what is left of a pixel's difference is noise.
+TEST(Emitters, RaysToASmallEmitterTakeItsNoiseAway) {
+    // A plane seen from the emitter's side, evenly lit: what is left of a pixel's difference is
+    // noise.
     Json scene = dark_room(16);
     add_thing(scene, small_box("cubes"), "lamp", {0, 0.3, -0.3});
     send_rays(scene, {0, 0.2, -0.55}, {0, 0, 1}, 0.05, 32);
@@ -162,9 +164,9 @@ TEST(Emitters, RaysToASmallLampTakeItsNoiseAway) {
 
 TEST(Emitters, HaveTheSameBitsOnAnyNumberOfLanes) {
     Json json = dark_room(4);
-    for (const LampRoom& room : kRooms) room.furnish(json);
+    for (const EmitterRoom& room : kRooms) room.furnish(json);
     json["render"]["size"] = {15, 10};
-    const Scene scene = parse_scene(json.dump(), "lamps", {});
+    const Scene scene = parse_scene(json.dump(), "emitters", {});
     for (const int lanes : lanes_with_all()) {
         RenderReport report;
         const Image image = render(test_device(lanes), scene, report);

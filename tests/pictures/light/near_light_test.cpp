@@ -12,7 +12,7 @@ namespace {
 
 constexpr glm::dvec3 kLine{0.0625, 0.1875, 0};  // and along z, from 1 to -1
 
-struct Lamp {
+struct PlacedLight {
     glm::dvec3 position, direction{0};  ///< none: it shines all around
     double inner = 0, outer = 0;        ///< degrees, from edge to edge
     const char* name = "";
@@ -50,15 +50,15 @@ double length_in_cube(const glm::dvec3& from, const glm::dvec3& to) {
     return part * glm::length(way);
 }
 
-class NearLight : public testing::TestWithParam<Lamp> {};
+class NearLight : public testing::TestWithParam<PlacedLight> {};
 
 TEST_P(NearLight, FollowsTheIntegralAlongTheLineOfSight) {
-    const Lamp& lamp = GetParam();
+    const PlacedLight& light = GetParam();
     const glm::dvec3 scattering(1.5, 0.7, 3), absorption(0.4, 0.2, 0);
     constexpr double kG = 0.4;
     const Image image = image_of_medium(cube_of_medium(
         {{"scattering", {1.5, 0.7, 3}}, {"absorption", {0.4, 0.2, 0}}, {"anisotropy", kG}},
-        Json::array({lamp.json()}), 0, 64));
+        Json::array({light.json()}), 0, 64));
     constexpr const char* kChannels[] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
         const double extinction = scattering[c] + absorption[c];
@@ -66,32 +66,32 @@ TEST_P(NearLight, FollowsTheIntegralAlongTheLineOfSight) {
         double sum = 0;
         for (int i = 0; i < kSteps; ++i) {
             const double z = 1 - 2 * (i + 0.5) / kSteps;
-            const glm::dvec3 at(kLine.x, kLine.y, z), way = at - lamp.position;
-            const double metres = 1 - z + length_in_cube(at, lamp.position);
+            const glm::dvec3 at(kLine.x, kLine.y, z), way = at - light.position;
+            const double metres = 1 - z + length_in_cube(at, light.position);
             sum += std::exp(-extinction * metres) * phase(kG, way.z / glm::length(way)) *
-                   lamp.light_along(way);
+                   light.light_along(way);
         }
         const double expected = scattering[c] * sum * 2 / kSteps * std::numbers::pi;
         const Estimate found = estimate_of_channel(image, kChannels[c]);
-        expect_mean(found, expected, std::string(lamp.name) + kChannels[c], 1e-5 * expected);
+        expect_mean(found, expected, std::string(light.name) + kChannels[c], 1e-5 * expected);
         // Paths that the medium scatters by chance alone are off by 2 to 30 times as much.
-        EXPECT_LE(found.error, 0.006 * expected) << lamp.name;
+        EXPECT_LE(found.error, 0.006 * expected) << light.name;
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Lamps, NearLight,
-    testing::Values(Lamp{.position = {0.0625, 0.3, 0.2}, .name = "close by, "},
-                    Lamp{.position = {0.0725, 0.1875, -0.5}, .name = "almost on the line, "},
-                    Lamp{.position = {0.5, 3, -1}, .name = "outside, "},
-                    Lamp{{0.0625, 0.9, 0.3}, {0, -1, 0}, 20, 40, "across, "},
-                    Lamp{{0.4, 0.8, 1.4}, {-0.2, -0.5, -0.9}, 10, 60, "obliquely, "},
-                    Lamp{{0.1, 0.15, 1.5}, {0, 0, -1}, 10, 30, "along, "},
-                    Lamp{{0.1, 0.25, -1.4}, {0, 0, 1}, 10, 30, "against, "},
-                    Lamp{{0.0625, 0.5, 0}, {0, -1, 0}, 150, 178, "wide, "}));
+    Lights, NearLight,
+    testing::Values(PlacedLight{.position = {0.0625, 0.3, 0.2}, .name = "close by, "},
+                    PlacedLight{.position = {0.0725, 0.1875, -0.5}, .name = "almost on the line, "},
+                    PlacedLight{.position = {0.5, 3, -1}, .name = "outside, "},
+                    PlacedLight{{0.0625, 0.9, 0.3}, {0, -1, 0}, 20, 40, "across, "},
+                    PlacedLight{{0.4, 0.8, 1.4}, {-0.2, -0.5, -0.9}, 10, 60, "obliquely, "},
+                    PlacedLight{{0.1, 0.15, 1.5}, {0, 0, -1}, 10, 30, "along, "},
+                    PlacedLight{{0.1, 0.25, -1.4}, {0, 0, 1}, 10, 30, "against, "},
+                    PlacedLight{{0.0625, 0.5, 0}, {0, -1, 0}, 150, 178, "wide, "}));
 
 TEST(NearLightAlone, DarkConesBringNothing) {
-    const Lamp away{{0.0625, 0.5, 0}, {0, 1, 0}, 20, 60};
+    const PlacedLight away{{0.0625, 0.5, 0}, {0, 1, 0}, 20, 60};
     const Image image = image_of_medium(
         cube_of_medium({{"scattering", {1, 1, 1}}}, Json::array({away.json()}), 0, 16));
     EXPECT_EQ(estimate_of_channel(image, "G").mean, 0);
@@ -99,13 +99,13 @@ TEST(NearLightAlone, DarkConesBringNothing) {
 
 /// Where the density differs from voxel to voxel.
 TEST(NearLightAlone, FollowsTheDensityOfEachVoxel) {
-    const Lamp lamp{.position = {0.1, 0.45, -0.3}};
+    const PlacedLight light{.position = {0.1, 0.45, -0.3}};
     const Image image = image_of_medium(cube_of_medium(
         {{"scattering", {2, 2, 2}},
          {"absorption", {0.5, 0.5, 0.5}},
          {"anisotropy", 0.25},
          {"density", {{"kind", "ball"}, {"center", {0, 0, 0}}, {"radius", 0.8}, {"falloff", 0.5}}}},
-        Json::array({lamp.json()}), 0, 256));
+        Json::array({light.json()}), 0, 256));
     constexpr double kEdge = 0.125;
     const auto density = [](const glm::dvec3& p) {
         const glm::dvec3 middle = (glm::floor(p / kEdge) + 0.5) * kEdge;
@@ -116,14 +116,14 @@ TEST(NearLightAlone, FollowsTheDensityOfEachVoxel) {
     double sum = 0, depth = 0;
     for (int i = 0; i < kSteps; ++i) {
         const glm::dvec3 at(kLine.x, kLine.y, 1 - 2 * (i + 0.5) / kSteps);
-        const glm::dvec3 way = at - lamp.position;
+        const glm::dvec3 way = at - light.position;
         const double here = density(at), before = depth + here / kSteps;
         depth += here * 2 / kSteps;
         double between = 0;
         for (int k = 0; k < kParts; ++k)
-            between += density(lamp.position + way * ((k + 0.5) / kParts));
+            between += density(light.position + way * ((k + 0.5) / kParts));
         sum += here * std::exp(-2.5 * (before + between * glm::length(way) / kParts)) *
-               phase(0.25, way.z / glm::length(way)) * lamp.light_along(way);
+               phase(0.25, way.z / glm::length(way)) * light.light_along(way);
     }
     const double expected = 2 * sum * 2 / kSteps * std::numbers::pi;
     expect_mean(estimate_of_channel(image, "R"), expected, "ball", 3e-4 * expected);
@@ -149,10 +149,10 @@ TEST(NearLightAlone, AgreesWithChanceWhereLightIsScatteredOften) {
     }
 }
 
-/// Behind the ball, whose shadow the lamp throws into the medium, the line of sight ends.
+/// Behind the ball, whose shadow the light throws into the medium, the line of sight ends.
 TEST(NearLightAlone, StopsAtSurfacesAndInShadows) {
-    const Lamp lamp{.position = {0.0625, 0.9, 0.1}};
-    Json scene = cube_of_medium({{"scattering", {1, 1, 1}}}, Json::array({lamp.json()}), 0, 64);
+    const PlacedLight light{.position = {0.0625, 0.9, 0.1}};
+    Json scene = cube_of_medium({{"scattering", {1, 1, 1}}}, Json::array({light.json()}), 0, 64);
     scene["materials"] = {{"black", {{"color", {0, 0, 0}}}}};
     scene["models"] = {{"ball", {{"shape", "sphere"}, {"radius", 0.1875}, {"surface", "exact"}}},
                        {"wall", {{"shape", "box"}, {"size", {2, 2, 0.25}}, {"surface", "exact"}}}};
@@ -163,22 +163,22 @@ TEST(NearLightAlone, StopsAtSurfacesAndInShadows) {
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
         const glm::dvec3 at(kLine.x, kLine.y, 1 - 1.625 * (i + 0.5) / kSteps);
-        const glm::dvec3 way = at - lamp.position, to_ball = glm::dvec3(0, -0.35, 0);
+        const glm::dvec3 way = at - light.position, to_ball = glm::dvec3(0, -0.35, 0);
         const double length = glm::length(way), along = glm::dot(to_ball, way) / length;
         if (glm::dot(to_ball, to_ball) - along * along < 0.1875 * 0.1875) continue;
-        sum += std::exp(-(1 - at.z + length)) * phase(0, 0) * lamp.light_along(way);
+        sum += std::exp(-(1 - at.z + length)) * phase(0, 0) * light.light_along(way);
     }
     const double expected = sum * 1.625 / kSteps * std::numbers::pi;
     expect_mean(estimate_of_channel(image_of_medium(scene), "G"), expected, "behind a ball",
                 1e-4 * expected);
 }
 
-/// What an observer with a lamp sees has an infinite mean, and yet the picture is finite.
-TEST(NearLightAlone, ALampAtTheObserversPlaceLeavesAPicture) {
+/// What an observer with a light sees has an infinite mean, and yet the picture is finite.
+TEST(NearLightAlone, ALightAtTheObserversPlaceLeavesAPicture) {
     const auto median_with = [](double aside) {
         Json scene =
             cube_of_medium({{"scattering", {1, 1, 1}}},
-                           Json::array({Lamp{.position = {aside, 0.1, 0.9}}.json()}), 1, 64);
+                           Json::array({PlacedLight{.position = {aside, 0.1, 0.9}}.json()}), 1, 64);
         scene["observer"] = {{"position", {0, 0.1, 0.9}},
                              {"look_at", {0, 0.1, 0}},
                              {"display", {{"shape", "pyramid"}, {"angle", 40}}}};
@@ -190,7 +190,7 @@ TEST(NearLightAlone, ALampAtTheObserversPlaceLeavesAPicture) {
     };
     const float aside = median_with(0.05);
     EXPECT_GT(median_with(0), aside);
-    // By chance it is 11 times as much, and 600,000 times by points that crowd at the lamp.
+    // By chance it is 11 times as much, and 600,000 times by points that crowd at the light.
     EXPECT_LT(median_with(0), 50 * aside);
 }
 
@@ -200,14 +200,14 @@ TEST(NearLightAlone, CostsNothingWhereThereIsNone) {
         return features_of(scene, Pyramid()).near_light;
     };
     const Json medium = {{"scattering", {1, 1, 1}}};
-    const Json lamp = Lamp{.position = {0, 0.5, 0}}.json();
-    Json scene = cube_of_medium(medium, Json::array({lamp}), 2, 4);
+    const Json light = PlacedLight{.position = {0, 0.5, 0}}.json();
+    Json scene = cube_of_medium(medium, Json::array({light}), 2, 4);
     EXPECT_TRUE(has_near_light(scene));
     scene["lights"][0]["intensity"] = 0;
     EXPECT_FALSE(has_near_light(scene));
     scene["lights"][0] = {{"type", "directional"}, {"direction", {0, -1, 0}}};
     EXPECT_FALSE(has_near_light(scene));
-    scene["lights"][0] = lamp;
+    scene["lights"][0] = light;
     scene["render"]["light"] = "local";
     EXPECT_FALSE(has_near_light(scene));
     scene["render"]["light"] = "global";
@@ -216,11 +216,11 @@ TEST(NearLightAlone, CostsNothingWhereThereIsNone) {
 }
 
 TEST(NearLightAlone, HasTheSameBitsForAllLanes) {
-    Json scene =
-        cube_of_medium({{"scattering", {1.5, 0.7, 3}}, {"anisotropy", 0.4}},
-                       Json::array({Lamp{.position = {0.0625, 0.3, 0.2}}.json(),
-                                    Lamp{{0.4, 0.8, 1.4}, {-0.2, -0.5, -0.9}, 10, 60}.json()}),
-                       3, 4);
+    Json scene = cube_of_medium(
+        {{"scattering", {1.5, 0.7, 3}}, {"anisotropy", 0.4}},
+        Json::array({PlacedLight{.position = {0.0625, 0.3, 0.2}}.json(),
+                     PlacedLight{{0.4, 0.8, 1.4}, {-0.2, -0.5, -0.9}, 10, 60}.json()}),
+        3, 4);
     scene["observer"]["width"] = 2.4;
     const Image image = image_of_medium(scene);
     for (const int lanes : {1, 4, 16})

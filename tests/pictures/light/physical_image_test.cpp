@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Physically based materials in global light: furnaces, lights and lamps of one form, and bits.
+// Physically based materials in global light: furnaces, lights and emissive objects of one form,
+// and bits.
 #include <gmock/gmock.h>
 
 #include "tests/oracles/image_hash.hpp"
@@ -65,13 +66,13 @@ TEST_P(PhysicalOnEverySurface, WhiteOnesUnderACoatAreInvisibleUnderAWhiteSky) {
 }
 
 /// A floor of a material at y = 0, seen from above and aside, and a square above it that shines.
-Json shone_on(const Json& material, bool by_light, const char* lamps) {
+Json shone_on(const Json& material, bool by_light, const char* search) {
     Json scene = open_furnace(256);
     scene["world"]["background"] = {0, 0, 0};
     scene["materials"]["floor"] = material;
     scene["materials"]["lamp"] = {{"color", {0, 0, 0}}, {"emission", {3, 2, 1}}};
     scene["render"]["bounces"] = 1;
-    scene["render"]["lamps"] = lamps;
+    scene["render"]["emitters"] = search;
     add_thing(scene, {{"shape", "box"}, {"size", {1.1, 0.1, 1.1}}, {"surface", "exact"}}, "floor",
               {0, -0.3, 0});
     if (!by_light)
@@ -90,7 +91,7 @@ Json shone_on(const Json& material, bool by_light, const char* lamps) {
     return scene;
 }
 
-TEST(PhysicalMaterials, ShowALampAndALightOfItsFormAlike) {
+TEST(PhysicalMaterials, ShowAnEmissiveObjectAndALightOfItsFormAlike) {
     Json brass = {{"base_color", {0.9, 0.7, 0.3}}, {"metallic", 1}, {"roughness", 0.35}};
     Json lacquer = {{"base_color", {0.1, 0.5, 0.9}}, {"roughness", 0.25}, {"ior", 1.8}};
     Json paint = coated(0.7, 0.5, 1, 0.15);
@@ -98,8 +99,8 @@ TEST(PhysicalMaterials, ShowALampAndALightOfItsFormAlike) {
     size_t turn = 0;
     for (const Json& material : {brass, lacquer, paint}) {
         const std::vector<SensedRay> expected = sense(shone_on(material, true, "both"));
-        for (const char* lamps : in_turn<const char*>({"both", "paths", "rays"}, turn++)) {
-            const std::vector<SensedRay> found = sense(shone_on(material, false, lamps));
+        for (const char* search : in_turn<const char*>({"both", "paths", "rays"}, turn++)) {
+            const std::vector<SensedRay> found = sense(shone_on(material, false, search));
             for (size_t quarter = 0; quarter < 4; ++quarter) {
                 std::vector<double> differences, light;
                 for (size_t i = quarter * found.size() / 4; i < (quarter + 1) * found.size() / 4;
@@ -110,14 +111,14 @@ TEST(PhysicalMaterials, ShowALampAndALightOfItsFormAlike) {
                 const Estimate e = estimate_of(differences);
                 const double mean = estimate_of(light).mean;
                 EXPECT_LE(std::abs(e.mean), 3.5 * e.error + 1e-3 * mean)
-                    << lamps << ", part " << quarter << ": " << e.mean << " of " << mean;
-                EXPECT_LT(e.error, 0.04 * mean) << lamps << quarter;
+                    << search << ", part " << quarter << ": " << e.mean << " of " << mean;
+                EXPECT_LT(e.error, 0.04 * mean) << search << quarter;
             }
         }
     }
 }
 
-/// A floor, a lamp, a point light and two balls.
+/// A floor, an emissive object, a point light and two balls.
 Json still_life(const Json& floor, const Json& balls) {
     Json json = shone_on(floor, false, "both");
     json["materials"]["plastic"] = balls;

@@ -149,15 +149,16 @@ TEST(Scattering, WeighsTheMediumsOwnLight) {
         expect_mean(estimate_of_channel(image, channel), 1, channel);
 }
 
-/// Lamps in mist, found by rays that are sent to them, by paths that run into them, or by both.
-TEST(Scattering, FindsLampsByAllWays) {
+/// Emissive objects in mist, found by rays that are sent to them, by paths that run into them, or
+/// by both.
+TEST(Scattering, FindsEmittersByAllWays) {
     std::array<Estimate, 3> found;
     constexpr const char* kWays[] = {"both", "rays", "paths"};
     for (size_t i = 0; i < 3; ++i) {
         Json scene =
             cube_of_medium({{"scattering", {1, 1, 1}}, {"anisotropy", 0.4}}, Json::array(), 4, 256);
         scene["materials"] = {{"lamp", {{"diffuse", 0}, {"emission", {5, 5, 5}}}}};
-        scene["render"]["lamps"] = kWays[i];
+        scene["render"]["emitters"] = kWays[i];
         add_thing(scene, {{"shape", "sphere"}, {"radius", 0.4}, {"surface", "cubes"}}, "lamp",
                   {0, -0.5, 0});
         found[i] = estimate_of_channel(image_of_medium(scene), "R");

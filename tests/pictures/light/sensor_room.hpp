@@ -21,7 +21,7 @@ namespace voxelume {
 using Json = nlohmann::json;
 
 inline constexpr double kWall = 0.5;  ///< the walls' distance from the middle, metres
-inline const std::array<glm::dvec3, 3> kLamps{
+inline const std::array<glm::dvec3, 3> kSensorLights{
     {{-0.3, 0.2, 0.1}, {0.25, 0.3, -0.2}, {0.1, -0.35, 0.3}}};  ///< red, green, blue; 1 at 1 m
 
 /// The empty room as a scene file. Shadows are off, so lights shine through everything.
@@ -38,10 +38,10 @@ inline Json sensor_room(double voxel_size = 0.02) {
 "render": {"depth": 8, "shadows": false, "least_weight": 0}})");
     scene["world"]["voxel_size"] = voxel_size;
     for (size_t i = 0; i < 3; ++i) {
-        Json lamp = {{"type", "point"}, {"color", {0, 0, 0}}};
-        lamp["position"] = {kLamps[i].x, kLamps[i].y, kLamps[i].z};
-        lamp["color"][i] = 1;
-        scene["lights"].push_back(lamp);
+        Json light = {{"type", "point"}, {"color", {0, 0, 0}}};
+        light["position"] = {kSensorLights[i].x, kSensorLights[i].y, kSensorLights[i].z};
+        light["color"][i] = 1;
+        scene["lights"].push_back(light);
     }
     return scene;
 }
@@ -124,13 +124,13 @@ inline Reading read_color(const glm::dvec3& color, const WallPoint& wall) {
     const int a = wall.axis, u = (a + 1) % 3, v = (a + 2) % 3;
     glm::dvec3 squared;  // squared distances: a light's share is height / distance^3
     for (int i = 0; i < 3; ++i) {
-        const double height = std::abs(kLamps[size_t(i)][a] - wall.position[a]);
+        const double height = std::abs(kSensorLights[size_t(i)][a] - wall.position[a]);
         squared[i] = std::pow(height / color[i], 2.0 / 3);
     }
     // Differences of squared distances are linear in the point.
     double m[2][2], r[2];
     for (size_t i = 0; i < 2; ++i) {
-        const glm::dvec3 &p = kLamps[i + 1], &q = kLamps[0];
+        const glm::dvec3 &p = kSensorLights[i + 1], &q = kSensorLights[0];
         m[i][0] = 2 * (p[u] - q[u]), m[i][1] = 2 * (p[v] - q[v]);
         r[i] = squared[0] - squared[int(i) + 1] + glm::dot(p, p) - glm::dot(q, q) -
                2 * (p[a] - q[a]) * wall.position[a];
@@ -139,7 +139,7 @@ inline Reading read_color(const glm::dvec3& color, const WallPoint& wall) {
     glm::dvec3 place = wall.position;
     place[u] = (r[0] * m[1][1] - r[1] * m[0][1]) / determinant;
     place[v] = (m[0][0] * r[1] - m[1][0] * r[0]) / determinant;
-    const glm::dvec3 away = place - kLamps[0];
+    const glm::dvec3 away = place - kSensorLights[0];
     return {place, squared[0] / glm::dot(away, away)};
 }
 

@@ -131,7 +131,7 @@ TEST_F(SkyMapImage, AWhiteOneHidesAllThatReturnsAllLight) {
 }
 
 TEST_F(SkyMapImage, IsFoundByEveryWayAlike) {
-    for (const bool has_lamp : in_turn<char>({false, true}, 1)) {
+    for (const bool has_emitter : in_turn<char>({false, true}, 1)) {
         Json scene = open_furnace(is_exhaustive() ? 256 : 96);
         scene["world"]["sky"] = painted(sunny, 64, 32);
         scene["materials"]["clay"] = {{"color", {0.7, 0.6, 0.5}}};
@@ -146,13 +146,13 @@ TEST_F(SkyMapImage, IsFoundByEveryWayAlike) {
         add_thing(scene, ball, "glass", {0.2, -0.2, 0});
         add_thing(scene, {{"shape", "box"}, {"size", {0.4, 0.02, 0.4}}, {"surface", "exact"}},
                   "veil", {0.2, 0.15, 0.1});
-        if (has_lamp)
+        if (has_emitter)
             add_thing(scene, {{"shape", "box"}, {"size", {0.1, 0.1, 0.1}}, {"surface", "exact"}},
                       "lamp", {0.4, 0, 0.3});
         send_rays(scene, {0, 0.1, -0.55}, {0, -0.2, 1}, 0.9, 24);
         std::vector<std::vector<double>> found;
-        for (const char* lamps : {"both", "paths", "rays"}) {
-            scene["render"]["lamps"] = lamps;
+        for (const char* search : {"both", "paths", "rays"}) {
+            scene["render"]["emitters"] = search;
             found.push_back(values_of(shown(scene), "G"));
         }
         for (size_t other : {1, 2})
@@ -163,7 +163,7 @@ TEST_F(SkyMapImage, IsFoundByEveryWayAlike) {
                     differences.push_back(found[0][i] - found[other][i]);
                 const Estimate e = estimate_of(differences);
                 EXPECT_NEAR(e.mean, 0, 3.5 * e.error + 1e-6)
-                    << other << " part " << part << " lamp " << has_lamp;
+                    << other << " part " << part << " emitter " << has_emitter;
             }
     }
 }

@@ -171,11 +171,11 @@ TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
                          {"display", {{"shape", "pyramid"}, {"angles", {40, 40}}}}}},
                        {"render", {{"size", {24, 24}}, {"samples", 64}, {"bounces", 1}}}};
     for (const char* light : {"local", "global"})
-        for (const char* lamps : {"both", "paths"}) {
-            if (light == std::string("local") && lamps != std::string("both")) continue;
+        for (const char* search : {"both", "paths"}) {
+            if (light == std::string("local") && search != std::string("both")) continue;
             Json changes = room;
             if (light == std::string("global"))
-                changes["render"]["lamps"] = lamps;
+                changes["render"]["emitters"] = search;
             else
                 changes["render"]["samples"] = 1;
             const double half =
@@ -183,8 +183,8 @@ TEST_F(TextureMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
             const double part =
                 light_on_floor(image_of_scene(scene_of("part.gltf", material, light, changes)));
             EXPECT_GT(half, 0.02) << light;
-            EXPECT_NEAR(part / half, 1, lamps == std::string("both") ? 0.02 : 0.06)
-                << light << lamps << half;
+            EXPECT_NEAR(part / half, 1, search == std::string("both") ? 0.02 : 0.06)
+                << light << search << half;
         }
 }
 
