@@ -101,7 +101,7 @@ bool has_scattering(const Scene& scene) {
 
 bool has_placed_light(const Scene& scene) {
     return std::ranges::any_of(scene.lights, [](const Light& light) {
-        return shines(light) && light.kind != LightKind::directional;
+        return shines(light) && type_of(light).has_position;
     });
 }
 

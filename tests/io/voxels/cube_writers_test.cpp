@@ -6,8 +6,8 @@
 #include <set>
 
 #include "runtime/assets/voxel_model_file.hpp"
-#include "runtime/io/voxel_art/cube_list.hpp"
 #include "runtime/io/voxel_art/median_cut.hpp"
+#include "runtime/io/voxel_output_table.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/voxel_cells.hpp"
 
@@ -36,7 +36,7 @@ class CubeWritersTest : public FileTest {
         return cells;
     }
     std::string write(const CubeList& cubes, const std::string& name) {
-        const WriterNotes notes = cube_writer(folder / name)(folder / name, cubes);
+        const WriterNotes notes = check_voxel_output(folder / name).write(folder / name, cubes);
         std::string all;
         for (const std::string& note : notes) all += note + "\n";
         return all;
