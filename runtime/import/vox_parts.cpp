@@ -123,10 +123,11 @@ std::string VoxParts::group_members(int model) {
 
 bool VoxParts::is_emissive(int model) {
     const std::vector<std::string>& groups = file_.assets.groups_of(vox_model(file_, model + 1));
-    return std::any_of(groups.begin() + 1, groups.end(), [&](const std::string& group) {
-        const VoxMaterial& material = vox_.materials[size_t(entry_of(group))];
-        return material.kind == VoxMaterialKind::emit && material.weight > 0;
-    });
+    for (size_t i = 1; i < groups.size(); ++i) {
+        const VoxMaterial& material = vox_.materials[size_t(entry_of(groups[i]))];
+        if (material.kind == VoxMaterialKind::emit && material.weight > 0) return true;
+    }
+    return false;
 }
 
 Bounds VoxParts::box_of(int model) {

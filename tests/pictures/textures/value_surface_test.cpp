@@ -109,8 +109,9 @@ TEST_F(ValueSurfaceTest, SteepAndClampedValuesLeaveASurfaceWithoutHoles) {
     EXPECT_GT(distance(5, 1, 6), 0);
     EXPECT_LT(distance(5, 2, 6), 0);
     const auto refusal = [&](const VoxelValues& values) {
-        return error_of([&] { read_voxel_model(folder / "b.nrrd", Surface::smooth, 0, values); })
-            .what();
+        const Error error =
+            error_of([&] { read_voxel_model(folder / "b.nrrd", Surface::smooth, 0, values); });
+        return std::string(error.what());
     };
     EXPECT_THAT(refusal({.iso = 2000.0}), HasSubstr("its values go from -1000 to 1000"));
     EXPECT_THAT(refusal({.each_label = true}), HasSubstr("give it \"cubes\" for each"));
