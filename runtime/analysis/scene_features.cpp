@@ -176,10 +176,9 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
 /// what lies behind them.
 bool needs_radiance(const RenderSettings& render, const Features& features) {
     const ImageChannels& channels = render.channels;
-    const bool has_matte = channels.object_matte || channels.material_matte;
-    const bool shows_noise = render.noise.is_given() && (channels.samples || channels.noise);
-    return channels.color || channels.variance || shows_noise ||
-           (has_matte && features.transmission);
+    const bool mattes = channels.object_matte || channels.material_matte;
+    const bool has_noise = render.noise.is_given() && (channels.samples || channels.noise);
+    return channels.color || channels.variance || has_noise || (mattes && features.transmission);
 }
 
 /// Adds the values of hit points that the image asks for, or that are a step to values it asks for.

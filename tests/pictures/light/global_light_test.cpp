@@ -107,7 +107,8 @@ TEST(GlobalLight, AGlowingDiskLightsTheFloorBelowByItsFormFactor) {
               "lamp", {0, 0.35, 0});
     expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 0.04 / (0.04 + 0.09), "emission",
                 kWidth);
-    // A disk light of the same power that isn't seen, at the height of the emissive box's underside.
+    // A disk light of the same power that isn't seen, at the height of the emissive box's
+    // underside.
     scene["materials"]["lamp"]["emission"] = {0, 0, 0};
     scene["objects"][1]["visible"] = false;
     const double area = std::numbers::pi * 0.04;
@@ -138,7 +139,8 @@ TEST(GlobalLight, ARectangleLightsTheFloorBelowByItsFormFactor) {
                 kWidth);
 }
 
-/// The error of a pixel with `samples` of a floor that a big emissive box lights, as a root mean square.
+/// The error of a pixel with `samples` of a floor that a big emissive box lights, as a root mean
+/// square.
 double floor_error(int samples) {
     Json scene = lit_floor(samples);
     scene["materials"]["lamp"] = {{"color", {0, 0, 0}}, {"emission", {3, 3, 3}}};
