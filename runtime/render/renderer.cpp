@@ -75,6 +75,14 @@ void note_counts(const Illumination& illumination, const std::optional<BeamStage
     report.world_bytes = bytes_of(world);
 }
 
+/// The camera of the image that tiles make: where pixels are chosen, these stand in a row of tiles.
+Camera shown_camera(Camera observer, const Renderer::Tiles& tiles) {
+    if (tiles.pixels.empty()) return observer;
+    observer.width = 4 * int(tiles.share.tiles());
+    observer.height = 4;
+    return observer;
+}
+
 /// Each sample shows what of a texture lies in its part of the pixel, which all samples share.
 [[noreturn]] void refuse_textures() {
     throw Error(ErrorKind::usage,
@@ -236,12 +244,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         dilation_that_pays(features, world, rays, pixel);
     build_programs(device_, features, scene, world, true, dilated_occupancy.has_value());
     SightStage sight(device_, features, observer, scene.render.filter);
-    Camera shown = observer;
-    if (!tiles.pixels.empty()) {
-        sight.choose(device_, tiles.pixels);
-        shown.width = 4 * int(tiles.share.tiles());
-        shown.height = 4;
-    }
+    if (!tiles.pixels.empty()) sight.choose(device_, tiles.pixels);
+    const Camera shown = shown_camera(observer, tiles);
     std::optional<BeamStage> beams;
     if (!hits.are_known && dilated_occupancy)
         beams.emplace(device_, features, world,

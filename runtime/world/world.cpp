@@ -115,6 +115,17 @@ BuiltWorld WorldBuilder::build(const Scene& scene, WorldReport& report,
     return rebuilt_world(scene, origin, report, retained);
 }
 
+/// Decides whether the world is kept for the next frame. Returns the bytes that may be retained of
+/// models.
+uint64_t WorldBuilder::room_to_retain(const ScenePlan& plan, WorldReport& report) {
+    const double memory = double(device_.info().memory);
+    keeps_ = follows_ && plan.min_with_next < memory;
+    report.lacks_room = follows_ && !keeps_;
+    if (!keeps_ || !retains_) return 0;
+    const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
+    return std::min(uint64_t(spare), device_.info().memory / kRetainedPart);
+}
+
 BuiltWorld WorldBuilder::rebuilt_world(const Scene& scene, const Origin& origin,
                                        WorldReport& report, const std::vector<bool>& retained) {
     origin_.reset();
@@ -130,12 +141,7 @@ BuiltWorld WorldBuilder::rebuilt_world(const Scene& scene, const Origin& origin,
     report.load_seconds = meshes_.load_seconds() - load_seconds_;
     report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
-    const double memory = double(device_.info().memory);
-    keeps_ = follows_ && plan.min_with_next < memory;
-    report.lacks_room = follows_ && !keeps_;
-    const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
-    const uint64_t room =
-        keeps_ && retains_ ? std::min(uint64_t(spare), device_.info().memory / kRetainedPart) : 0;
+    const uint64_t room = room_to_retain(plan, report);
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
     SourceMeshes sources;

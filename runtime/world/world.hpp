@@ -17,6 +17,8 @@
 
 namespace voxelume {
 
+struct ScenePlan;
+
 /// The relation of a frame's world to that of the frame before.
 enum class WorldChange : uint8_t {
     none,       ///< the same world
@@ -102,6 +104,7 @@ class WorldBuilder {
     static Origin origin_of(const Scene& scene);
     BuiltWorld rebuilt_world(const Scene& scene, const Origin& origin, WorldReport& report,
                              const std::vector<bool>& retained);
+    uint64_t room_to_retain(const ScenePlan& plan, WorldReport& report);
     BuiltWorld kept_world(const Scene& scene, WorldReport& report);
     /// The parameters of building a world.
     struct Task {
