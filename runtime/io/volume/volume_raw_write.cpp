@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "runtime/base/files/atomic_file.hpp"
 #include "runtime/base/text.hpp"
@@ -23,18 +24,18 @@ VolumeJson write_array(AtomicFile& file, const Volume& volume, const char* name,
     const uint64_t offset = file.position();
     const glm::ivec3& size = volume.frame.size;
     std::vector<Value> row(components * size_t(size.x));
-    XXH3_state_t* state = XXH3_createState();
-    XXH3_64bits_reset(state);
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         XXH3_freeState);
+    XXH3_64bits_reset(state.get());
     VolumeRows rows(volume);
     for (uint64_t r = 0; r < uint64_t(size.y) * uint64_t(size.z); ++r) {
         std::ranges::fill(row, Value(0));
         const auto [first, last] = rows.next();
         for (size_t i = first; i < last; ++i) fill(&row[components * rows.column(i)], i);
-        XXH3_64bits_update(state, row.data(), row.size() * sizeof(Value));
+        XXH3_64bits_update(state.get(), row.data(), row.size() * sizeof(Value));
         file.write(row.data(), row.size() * sizeof(Value));
     }
-    const std::string checksum = fmt::format("{:016x}", XXH3_64bits_digest(state));
-    XXH3_freeState(state);
+    const std::string checksum = fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
     return {{"name", name},
             {"type", type},
             {"components", components},
