@@ -18,7 +18,7 @@ Usage: ./bootstrap.sh COMMAND
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
   coverage  run the tests with clang's counters and tell which share of the lines ran; half an hour
   sanitize  run the tests with clang's sanitizers of addresses and undefined behaviour, or of threads:
-          sanitize thread; an hour
+          sanitize thread; hours
   trust   kill the program, break its disk, damage its files and tire it, for hours or for a share of
           them: trust 0.01
   drivers hold what Intel's OpenCL driver for CPUs computes against the golden bits; half an hour
@@ -255,7 +255,7 @@ debian_package() {
 
 case "$*" in
     demo | build | test | 'test --slow' | 'test --all' | lint) install_packages packages.txt ;;
-    fuzz | 'fuzz '[1-9]* | coverage | sanitize | 'sanitize thread')
+    fuzz | 'fuzz '[1-9]* | coverage | sanitize | 'sanitize address' | 'sanitize thread')
         install_packages packages.txt .ci/packages.txt
         ;;
     trust | 'trust '[0-9]*) install_packages packages.txt ;;

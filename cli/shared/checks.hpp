@@ -36,7 +36,7 @@ void check_output(const std::string& path, const std::vector<std::string>& exten
 /// Throws as check_output does, for the endings of images.
 void check_image_output(const std::string& path, const char* command);
 
-/// Throws likewise when the name has none of the endings of files of voxels.
+/// Throws as check_output does, for the endings of files of voxels.
 void check_voxels_output(const std::string& path, const char* command);
 
 /// The endings of files of voxels that hold surfaces, or of those that hold cubes alone, with

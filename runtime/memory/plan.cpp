@@ -9,6 +9,7 @@
 #include "runtime/memory/following_memory.hpp"
 #include "runtime/memory/frame_memory.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/scene/rendered_channels.hpp"
 
 namespace voxelume {
 namespace {
@@ -71,7 +72,7 @@ double pixel_bytes(const ImageChannels& channels) {
 
 double image_bytes(const RenderSettings& render) {
     const double pixels = double(render.size.x) * double(render.size.y);
-    const ImageChannels& channels = render.channels;
+    const ImageChannels channels = rendered_channels(render);
     const int ids = int(channels.object) + int(channels.material);
     const int mattes = int(channels.object_matte) + int(channels.material_matte);
     return (pixel_bytes(channels) + 4.0 * ids + 8.0 * VXL_MATTE_RANKS * mattes) * pixels;

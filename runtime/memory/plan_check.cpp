@@ -7,6 +7,7 @@
 #include "runtime/base/main_memory.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
+#include "runtime/scene/rendered_channels.hpp"
 
 namespace voxelume {
 namespace {
@@ -90,7 +91,7 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
                     bytes_text(plan.rays.minimum()), bytes_text(there),
                     smaller_image(scene.render, plan.rays));
     const glm::dvec2 size(scene.render.size);
-    const double planes = pixel_bytes(scene.render.channels) * size.x * size.y;
+    const double planes = pixel_bytes(rendered_channels(scene.render)) * size.x * size.y;
     const double piece = double(device.max_allocation);
     if (planes > piece)
         throw Error(ErrorKind::limit,

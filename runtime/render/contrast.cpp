@@ -181,7 +181,7 @@ void add_samples(const std::vector<uint32_t>& pixels, const Image& more, int sam
                                      double(part.planes.at(variance->first)[at])};
             };
             variance->second[to] =
-                float(joined_variance(of(samples, image, to), of(more_samples, more, from)));
+                joined_variance(of(samples, image, to), of(more_samples, more, from));
         });
     }
     for (auto& entry : image.planes) {

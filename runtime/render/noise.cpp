@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 namespace voxelume {
@@ -25,16 +26,15 @@ void for_each_pixel(uint32_t tile, const Image& image, See&& see) {
             see(size_t(y) * size_t(image.width) + size_t(x));
 }
 
-/// Makes the variance of a pixel's colour that of two images' samples, before they are averaged.
+/// Gives a pixel of `image` the variance of both images' samples. Its mean isn't changed yet.
 void join_variance(const std::string& color, size_t at, int samples, const Image& other,
                    Image& image) {
-    const auto plane = image.planes.find("variance." + color);
-    if (plane == image.planes.end()) return;
+    const std::string name = "variance." + color;
     const auto of = [&](const Image& half) {
         return MeanOfSamples{samples, double(half.planes.at(color)[at]),
-                             double(half.planes.at(plane->first)[at])};
+                             double(half.planes.at(name)[at])};
     };
-    plane->second[at] = float(joined_variance(of(image), of(other)));
+    image.planes.at(name)[at] = joined_variance(of(image), of(other));
 }
 
 }  // namespace
@@ -49,25 +49,27 @@ bool is_dark_tile(uint32_t tile, const Image& image) {
     return sum == 0 && covered > 0;
 }
 
-double joined_variance(const MeanOfSamples& a, const MeanOfSamples& b) {
+float joined_variance(const MeanOfSamples& a, const MeanOfSamples& b) {
     const auto squares = [](const MeanOfSamples& part) {
         return part.samples < 2 ? 0 : double(part.samples) * (part.samples - 1) * part.variance;
     };
     const double apart = a.mean - b.mean, all = double(a.samples) + b.samples;
     const double between = double(a.samples) * b.samples / all * apart * apart;
-    return (squares(a) + squares(b) + between) / (all * (all - 1));
+    const double variance = (squares(a) + squares(b) + between) / (all * (all - 1));
+    return float(std::min(variance, double(std::numeric_limits<float>::max())));
 }
 
 double average_tile(uint32_t tile, int samples, const Image& other, Image& image) {
     std::array<double, 16> half{};
     double sum = 0, squares = 0;
     int pixels = 0;
+    const bool has_variance = image.planes.contains("variance.R");
     for_each_pixel(tile, image, [&](size_t at) {
         double& difference = half[size_t(pixels++)];
         for (const auto& [name, luminance] : kLight) {
             float& value = image.planes.at(name)[at];
             const float more = other.planes.at(name)[at];
-            join_variance(name, at, samples, other, image);
+            if (has_variance && luminance > 0) join_variance(name, at, samples, other, image);
             difference += 0.5 * luminance * (double(value) - double(more));
             value = 0.5f * (value + more);
             sum += luminance * double(value);

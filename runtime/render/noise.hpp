@@ -36,17 +36,14 @@ class NoiseReached {
     Wide squares_ = 0;  ///< in units of 2^-64
 };
 
-/// Whether an image has colour for its variance or for a target of noise alone.
-bool adds_color(const Scene& scene);
-
 /// Whether it is known of an image of a scene, once it is rendered.
 bool measures_noise(const Scene& scene);
 
 /// Whether a tile shows surfaces of which no light came.
 bool is_dark_tile(uint32_t tile, const Image& image);
 
-/// Averages a tile's light over two images with `samples` samples each, in `image`, and makes of
-/// their variances that of the average, if they have them. Returns the standard error of the light
+/// Averages a tile's light over two images with `samples` samples each, in `image`, whose
+/// variance, if it has one, becomes that of the average. Returns the standard error of the light
 /// of its pixels over their mean, 0 where there is none. A pixel's error is half of the difference
 /// of its two values.
 double average_tile(uint32_t tile, int samples, const Image& other, Image& image);
@@ -57,7 +54,7 @@ struct MeanOfSamples {
     double mean = 0, variance = 0;
 };
 
-/// The variance of the mean of both pixels' samples (Chan, Golub and LeVeque 1983).
-double joined_variance(const MeanOfSamples& a, const MeanOfSamples& b);
+/// The variance of the mean of both pixels' samples, finite (Chan, Golub and LeVeque 1983).
+float joined_variance(const MeanOfSamples& a, const MeanOfSamples& b);
 
 }  // namespace voxelume

@@ -12,6 +12,7 @@
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/light_passes.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/scene/rendered_channels.hpp"
 #include "runtime/stages/resolve/matte.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 #include "runtime/stages/trace/sight.hpp"
@@ -157,7 +158,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
         Scene shown = scene;
         // Passes have as many samples as all light needs, and variance is that of colour.
-        const bool drops_color = adds_color(scene);
+        const bool drops_color = adds_color(scene.render);
         if (drops_color) shown.render.channels.color = true;
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());

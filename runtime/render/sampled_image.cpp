@@ -12,6 +12,7 @@
 #include "runtime/render/light_passes.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
+#include "runtime/scene/rendered_channels.hpp"
 
 namespace voxelume {
 namespace {
@@ -164,16 +165,9 @@ void take_all(const Renderer::Tiles& tiles) {
 
 }  // namespace
 
-bool adds_color(const Scene& scene) {
-    const ImageChannels& channels = scene.render.channels;
-    if (channels.color) return false;
-    const bool shows_noise = channels.samples || channels.noise || !light_passes(scene).empty();
-    return channels.variance || (scene.render.noise.is_given() && shows_noise);
-}
-
 bool measures_noise(const Scene& scene) {
     const RenderSettings& render = scene.render;
-    return render.noise.is_given() && (render.channels.color || adds_color(scene)) &&
+    return render.noise.is_given() && (render.channels.color || adds_color(render)) &&
            render.samples >= 2 * std::min(kFirstSamples, render.samples);
 }
 

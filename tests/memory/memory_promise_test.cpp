@@ -126,6 +126,14 @@ TEST(BuiltScene, WithPassesOfItsLightTakesWhatIsPromised) {
     }
 }
 
+TEST(BuiltScene, WhoseColorIsAddedForItsVarianceTakesWhatIsPromised) {
+    Scene scene = small_scene("solids", {640, 480}, 64);
+    scene.render.samples = 2;
+    scene.render.channels = {false, false, false, false, false};
+    scene.render.channels.variance = true;
+    expect_image_kept("solids, variance", scene);
+}
+
 TEST(BuiltScene, WithMoreSamplesWherePixelsContrastTakesWhatIsPromised) {
     Scene scene = small_scene("cornell", {320, 240}, 64);
     scene.render.samples = 4;

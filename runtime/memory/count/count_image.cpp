@@ -8,6 +8,7 @@
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/scene/rendered_channels.hpp"
 #include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
@@ -103,8 +104,9 @@ void count_first_samples(const Device& device, const Scene& scene, ImageMemory& 
 
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth) {
-    if (scene.render.channels.has_passes() && !scene.render.channels.color) {
-        Scene lit = scene;  // as its passes are
+    if (!scene.render.channels.color &&
+        (scene.render.channels.has_passes() || adds_color(scene.render))) {
+        Scene lit = scene;  // as it is rendered, or as its passes are
         lit.render.channels.color = true;
         return count_image(device, lit, world, medium, depth);
     }
