@@ -176,12 +176,8 @@ void add_samples(const std::vector<uint32_t>& pixels, const Image& more, int sam
         const auto variance = image.planes.find(std::string("variance.") + color);
         if (variance == image.planes.end()) continue;
         each([&](size_t, size_t to, size_t from) {
-            const auto of = [&](int count, const Image& part, size_t at) {
-                return MeanOfSamples{count, double(part.planes.at(color)[at]),
-                                     double(part.planes.at(variance->first)[at])};
-            };
             variance->second[to] =
-                joined_variance(of(samples, image, to), of(more_samples, more, from));
+                joined_variance(color, {image, to, samples}, {more, from, more_samples});
         });
     }
     for (auto& entry : image.planes) {

@@ -26,17 +26,6 @@ void for_each_pixel(uint32_t tile, const Image& image, See&& see) {
             see(size_t(y) * size_t(image.width) + size_t(x));
 }
 
-/// Gives a pixel of `image` the variance of both images' samples. Its mean isn't changed yet.
-void join_variance(const std::string& color, size_t at, int samples, const Image& other,
-                   Image& image) {
-    const std::string name = "variance." + color;
-    const auto of = [&](const Image& half) {
-        return MeanOfSamples{samples, double(half.planes.at(color)[at]),
-                             double(half.planes.at(name)[at])};
-    };
-    image.planes.at(name)[at] = joined_variance(of(image), of(other));
-}
-
 }  // namespace
 
 bool is_dark_tile(uint32_t tile, const Image& image) {
@@ -49,11 +38,16 @@ bool is_dark_tile(uint32_t tile, const Image& image) {
     return sum == 0 && covered > 0;
 }
 
-float joined_variance(const MeanOfSamples& a, const MeanOfSamples& b) {
-    const auto squares = [](const MeanOfSamples& part) {
-        return part.samples < 2 ? 0 : double(part.samples) * (part.samples - 1) * part.variance;
+float joined_variance(const std::string& color, const SampledPixel& a, const SampledPixel& b) {
+    const auto mean = [&](const SampledPixel& of) {
+        return double(of.image.planes.at(color)[of.at]);
     };
-    const double apart = a.mean - b.mean, all = double(a.samples) + b.samples;
+    const auto squares = [&](const SampledPixel& of) {
+        if (of.samples < 2) return 0.0;
+        const float variance = of.image.planes.at("variance." + color)[of.at];
+        return double(of.samples) * (of.samples - 1) * double(variance);
+    };
+    const double apart = mean(a) - mean(b), all = double(a.samples) + b.samples;
     const double between = double(a.samples) * b.samples / all * apart * apart;
     const double variance = (squares(a) + squares(b) + between) / (all * (all - 1));
     return float(std::min(variance, double(std::numeric_limits<float>::max())));
@@ -69,7 +63,9 @@ double average_tile(uint32_t tile, int samples, const Image& other, Image& image
         for (const auto& [name, luminance] : kLight) {
             float& value = image.planes.at(name)[at];
             const float more = other.planes.at(name)[at];
-            if (has_variance && luminance > 0) join_variance(name, at, samples, other, image);
+            if (has_variance && luminance > 0)
+                image.planes.at(std::string("variance.") + name)[at] =
+                    joined_variance(name, {image, at, samples}, {other, at, samples});
             difference += 0.5 * luminance * (double(value) - double(more));
             value = 0.5f * (value + more);
             sum += luminance * double(value);

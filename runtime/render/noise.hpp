@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include "runtime/image/image.hpp"
 #include "runtime/scene/scene.hpp"
@@ -48,13 +49,15 @@ bool is_dark_tile(uint32_t tile, const Image& image);
 /// of its two values.
 double average_tile(uint32_t tile, int samples, const Image& other, Image& image);
 
-/// A pixel's mean and the variance of that mean, infinite for one sample.
-struct MeanOfSamples {
-    int samples = 1;
-    double mean = 0, variance = 0;
+/// A pixel of an image that has variances, which are infinite for one sample.
+struct SampledPixel {
+    const Image& image;
+    size_t at;
+    int samples;
 };
 
-/// The variance of the mean of both pixels' samples, finite (Chan, Golub and LeVeque 1983).
-float joined_variance(const MeanOfSamples& a, const MeanOfSamples& b);
+/// The variance of the mean of both pixels' samples of a colour ("R", "G" or "B"), finite (Chan,
+/// Golub and LeVeque 1983).
+float joined_variance(const std::string& color, const SampledPixel& a, const SampledPixel& b);
 
 }  // namespace voxelume

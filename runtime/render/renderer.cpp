@@ -158,8 +158,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
         Scene shown = scene;
         // Passes have as many samples as all light needs, and variance is that of colour.
-        const bool drops_color = adds_color(scene.render);
-        if (drops_color) shown.render.channels.color = true;
+        shown.render.channels = rendered_channels(scene.render);
         const std::vector<LightPass> passes = light_passes(shown);
         shown.render.noise.seconds /= double(1 + passes.size());
         Sampled sampled;
@@ -171,7 +170,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         share_compiled_kernels(device_);
         if (!follows_) hits_.clear();
         if (!passes.empty()) finish_passes(shown, image);
-        if (drops_color)
+        if (adds_color(scene.render))
             for (const char* channel : {"R", "G", "B", "A"}) image.planes.erase(channel);
         return image;
     });

@@ -17,7 +17,7 @@ namespace {
 constexpr int kSize = 20;
 constexpr const char* kLightColors[] = {"R", "G", "B"};
 
-/// A ball on a floor, half below a roof, under a sky of one colour.
+/// A ball on a floor, under a sky and a point light.
 Scene varied_scene(const char* light, int samples) {
     Json json = open_furnace(samples);
     json["materials"]["clay"] = {{"color", {0.6, 0.5, 0.4}}};
