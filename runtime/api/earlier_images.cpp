@@ -24,20 +24,15 @@ const char* by_noise(const RenderSettings& render) {
     return render.noise.is_given() ? "by noise or time" : "by their number";
 }
 
-/// The channels whose pixels are a mean, or the first of their samples that shows something.
-constexpr bool v1::Channels::*kContinued[] = {
-    &v1::Channels::color,    &v1::Channels::depth,   &v1::Channels::distance,
-    &v1::Channels::position, &v1::Channels::normal,  &v1::Channels::object,
-    &v1::Channels::material, &v1::Channels::samples, &v1::Channels::noise};
-
 void check_channels(const RenderSettings& render, const v1::Channels& channels) {
-    for (const v1::ChannelRow& row : v1::channel_table())
-        if (channels.*row.member &&
-            std::ranges::find(kContinued, row.member) == std::end(kContinued))
-            throw Error(ErrorKind::usage,
-                        "samples can't be added to channels {}: leave them out, or render the "
-                        "image again from the start",
-                        row.name);
+    if (channels.variance && !render.noise.is_given())
+        throw Error(ErrorKind::usage,
+                    "samples can't be added by their number where the image has channels variance: "
+                    "ask for noise or time in both runs, or render it again from the start");
+    if (channels.motion && !(channels.position && channels.object))
+        throw Error(ErrorKind::usage,
+                    "samples are added to channels motion only where P and objectId tell what "
+                    "pixels show: ask for these, too");
     if (render.noise.is_given()) {
         if (channels.color && channels.samples && channels.noise) return;
         throw Error(ErrorKind::usage,

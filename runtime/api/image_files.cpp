@@ -10,6 +10,7 @@
 #include "runtime/base/files/input_file.hpp"
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/image/cryptomatte.hpp"
 #include "runtime/image/image.hpp"
 
 namespace voxelume {
@@ -72,7 +73,7 @@ PngOptions png_options(const v1::Image::Implementation& image, const api::Attrib
 void forget_mattes(Image& image) {
     std::vector<std::string> gone;
     for (const auto& [key, layer] : image.attributes)
-        if (key.starts_with("cryptomatte/") && key.ends_with("/name") &&
+        if (key.starts_with(kMatteKey) && key.ends_with("/name") &&
             !image.planes.contains(layer + "00.R"))
             gone.push_back(key.substr(0, key.rfind('/') + 1));
     for (const std::string& start : gone)

@@ -84,7 +84,7 @@ void add_cryptomatte(const std::string& layer, const std::vector<std::string>& n
         image.planes[start + kChannels[rank % 2 * 2 + 1]] = std::move(share);
     }
     const std::string key =
-        fmt::format("cryptomatte/{}/", fmt::format("{:08x}", murmur_hash(layer)).substr(0, 7));
+        fmt::format("{}{}/", kMatteKey, fmt::format("{:08x}", murmur_hash(layer)).substr(0, 7));
     image.attributes[key + "name"] = layer;
     image.attributes[key + "hash"] = "MurmurHash3_32";
     image.attributes[key + "conversion"] = "uint32_to_float32";

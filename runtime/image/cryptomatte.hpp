@@ -13,6 +13,9 @@
 
 namespace voxelume {
 
+/// The start of the names of Cryptomatte's attributes.
+constexpr std::string_view kMatteKey = "cryptomatte/";
+
 /// MurmurHash3_x86_32 of a text, with the seed 0.
 uint32_t murmur_hash(std::string_view text);
 

@@ -9,6 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/image/cryptomatte.hpp"
 
 namespace voxelume {
 
@@ -106,7 +107,7 @@ bool has_ids(const Image& image, const std::string& plane) {
     constexpr size_t kEnd = 4;  // as "00.R" of "CryptoObject00.R"
     return std::ranges::any_of(image.attributes, [&](const auto& attribute) {
         const auto& [key, layer] = attribute;
-        return key.starts_with("cryptomatte/") && key.ends_with("/name") &&
+        return key.starts_with(kMatteKey) && key.ends_with("/name") &&
                plane.size() == layer.size() + kEnd && plane.starts_with(layer) &&
                std::isdigit(static_cast<unsigned char>(plane[layer.size()])) &&
                std::isdigit(static_cast<unsigned char>(plane[layer.size() + 1]));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace voxelume {
 namespace {
@@ -74,6 +75,12 @@ void make_matt(Scene& scene) {
     scene.render.depth = 0;
 }
 
+/// Lets an image begin with its first sample, though others go on from an earlier image.
+void restart(RenderSettings& render) {
+    render.earlier = {};
+    render.samples += std::exchange(render.first_sample, 0);
+}
+
 /// Each surface's own colour: what it shows in even white light.
 Scene albedo_of(const Scene& scene) {
     Scene result = colors_of(scene);
@@ -104,6 +111,44 @@ Scene direct_light_of(const Scene& scene) {
     return result;
 }
 
+/// What an image shows of a pass, as an image of its own, which goes on from there; null where the
+/// image's channels don't have the pass.
+std::shared_ptr<const Image> shown_of(const Image& image, std::string_view pass) {
+    auto shown = std::make_shared<Image>();
+    shown->width = image.width;
+    shown->height = image.height;
+    for (const char* color : kColorNames) {
+        const auto plane = image.planes.find(plane_name(pass, color));
+        if (plane == image.planes.end()) return nullptr;
+        shown->planes[color] = plane->second;
+    }
+    shown->planes["A"] = std::vector<float>(shown->planes["R"].size());  // no pass shows it
+    for (const char* of_tiles : {"samples", "noise"})
+        if (const auto plane = image.planes.find(of_tiles); plane != image.planes.end())
+            shown->planes[of_tiles] = plane->second;
+    return shown;
+}
+
+/// Lets a pass go on from the samples that the scene's earlier image has of it. Where that shows it
+/// only within others, the pass gets all samples.
+void go_on(LightPass& pass) {
+    RenderSettings& render = pass.scene.render;
+    if (!render.earlier) return;
+    render.earlier = shown_of(*render.earlier, pass.name);
+    if (!render.earlier && !render.noise.is_given()) restart(render);
+}
+
+/// What covers pixels, of all samples.
+LightPass mattes_of(const Scene& scene) {
+    LightPass pass{"", scene};
+    ImageChannels& channels = pass.scene.render.channels;
+    channels = {false, false, false, false, false};
+    channels.object_matte = scene.render.channels.object_matte;
+    channels.material_matte = scene.render.channels.material_matte;
+    restart(pass.scene.render);
+    return pass;
+}
+
 /// The names of the groups of lights, and the empty one for the rest.
 std::set<std::string> groups_of(const Scene& scene) {
     std::set<std::string> groups{""};
@@ -112,6 +157,12 @@ std::set<std::string> groups_of(const Scene& scene) {
 }
 
 }  // namespace
+
+bool ranks_mattes_anew(const RenderSettings& render) {
+    const ImageChannels& channels = render.channels;
+    return (channels.object_matte || channels.material_matte) && render.earlier &&
+           !render.noise.is_given();
+}
 
 std::vector<LightPass> light_passes(const Scene& scene) {
     const ImageChannels& channels = scene.render.channels;
@@ -127,6 +178,8 @@ std::vector<LightPass> light_passes(const Scene& scene) {
         for (const std::string& group : groups_of(scene))
             passes.push_back(
                 {group.empty() ? "light_rest" : "light_" + group, group_alone(scene, group)});
+    for (LightPass& pass : passes) go_on(pass);
+    if (ranks_mattes_anew(scene.render)) passes.push_back(mattes_of(scene));
     return passes;
 }
 

@@ -11,7 +11,8 @@
 
 namespace voxelume {
 
-/// A scene in the same world, whose colours become the channels NAME.R, NAME.G and NAME.B.
+/// A scene in the same world, whose colours become the channels NAME.R, NAME.G and NAME.B. One
+/// without a name has no colours, and its channels are the image's own.
 struct LightPass {
     std::string name;
     Scene scene;
@@ -19,8 +20,13 @@ struct LightPass {
 };
 
 /// The passes that the channels of a scene ask for. Light adds up, so that a pass is the scene with
-/// a part of what shines; no kernel knows of passes.
+/// a part of what shines; no kernel knows of passes. Where the scene has an earlier image, passes
+/// go on from what it shows of them, and others get all samples.
 std::vector<LightPass> light_passes(const Scene& scene);
+
+/// Whether mattes are a pass of their own: an earlier image has only the ranks that its samples
+/// gave, to which no others can be added.
+bool ranks_mattes_anew(const RenderSettings& render);
 
 /// Makes of an image with the planes of all passes the one that was asked for: what is left of the
 /// colour without the direct light, and what shadows take away.

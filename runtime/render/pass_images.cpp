@@ -72,9 +72,14 @@ void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld
         Image light = renderer.sampled_image(pass.scene, world, of_pass,
                                              {share, taken, tiles.weight}, sampled);
         of_pass.noise = {};
-        for (const char* color : {"R", "G", "B"})
-            image.planes[fmt::format("{}.{}", pass.name, color)] =
-                std::move(light.planes.at(color));
+        if (pass.name.empty()) {
+            image.planes.merge(light.planes);
+            image.attributes.merge(light.attributes);
+        } else {
+            for (const char* color : {"R", "G", "B"})
+                image.planes[fmt::format("{}.{}", pass.name, color)] =
+                    std::move(light.planes.at(color));
+        }
         add_counts(of_pass, report);
         report.image_seconds += of_pass.image_seconds;
     }

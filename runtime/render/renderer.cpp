@@ -160,6 +160,8 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         // Passes have as many samples as all light needs, and variance is that of colour.
         shown.render.channels = rendered_channels(scene.render);
         const std::vector<LightPass> passes = light_passes(shown);
+        if (ranks_mattes_anew(shown.render))
+            shown.render.channels.object_matte = shown.render.channels.material_matte = false;
         shown.render.noise.seconds /= double(1 + passes.size());
         Sampled sampled;
         const Tiles weighted{tiles.share, tiles.taken, 1.0 / double(1 + passes.size())};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/base/error.hpp"
+#include "runtime/image/cryptomatte.hpp"
 #include "runtime/render/light_passes.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene/first_samples.hpp"
@@ -147,7 +148,8 @@ Image planes_of(const Image& earlier, const ImageChannels& channels) {
     std::erase_if(image.planes, [](const auto& plane) {
         return plane.first == "samples" || plane.first == "noise";
     });
-    image.attributes.clear();
+    std::erase_if(image.attributes,
+                  [](const auto& text) { return !text.first.starts_with(kMatteKey); });
     for (const char* name : {"R", "G", "B", "A"})
         if (channels.color && !image.planes.contains(name))
             throw Error(ErrorKind::input, "the image to which samples are added has no channel {}",

@@ -50,6 +50,51 @@ TEST_F(CliContinueTest, HasTheBytesOfOneRun) {
     expect_continued("--channels objectId,P --device all/2");
 }
 
+TEST_F(CliContinueTest, GoesOnWithPartsOfTheLight) {
+    write_scene([](Json& scene) {
+        scene["objects"][0]["turn"] = {20, 30, 10};
+        scene["lights"][0]["group"] = "key";
+    });
+    const std::string all = "RGBA,albedo,direct,indirect,shadow,lights";
+    expect_continued("--channels " + all);
+    expect_continued("--light global --channels " + all);
+    expect_continued("--light global --channels indirect,shadow,albedo,samples --device all/2");
+    expect_continued("--channels direct,lights --crop 3,2,13,9 --multi-part");
+    expect_continued("--channels P,objectId,motion");
+}
+
+TEST_F(CliContinueTest, RanksMattesAnew) {
+    expect_continued("--channels RGBA,CryptoObject,CryptoMaterial");
+    expect_continued("--channels CryptoMaterial --multi-part");
+    expect_continued("--channels CryptoObject,albedo,Z --device all/2");
+}
+
+TEST_F(CliContinueTest, TracesPartsOfTheLightThatAreMissing) {
+    const auto sight_rays = [this](const std::string& options) {
+        render(options + " --stats-json stats.json");
+        return Json::parse(bytes_of(folder / "stats.json")).at("sight_rays").get<int>();
+    };
+    // The colour and its parts share sight rays.
+    render("--samples 4 -o four.exr --channels RGBA,albedo,direct");
+    EXPECT_EQ(sight_rays("--samples 6 -o six.exr --channels RGBA,albedo,direct "
+                         "--continue four.exr"),
+              20 * 12 * 2);
+}
+
+TEST_F(CliContinueTest, GoesOnWithAllChannelsByNoise) {
+    write_scene([](Json& scene) { scene["lights"][0]["group"] = "key"; });
+    const std::string line =
+        "--light global --channels RGBA,samples,noise,variance,albedo,direct,indirect,shadow,"
+        "lights,CryptoObject,P,objectId,motion ";
+    for (const char* layout : {"", "--multi-part ", "--device all/2 "}) {
+        SCOPED_TRACE(layout);
+        render(line + layout + "-o much.exr --samples 64 --noise 0.2");
+        render(line + layout + "-o little.exr --samples 256 --noise 0.05");
+        render(line + layout + "-o more.exr --samples 256 --noise 0.05 --continue much.exr");
+        expect_same_files("little.exr", "more.exr");
+    }
+}
+
 TEST_F(CliContinueTest, GoesOnFromFilesThatWereContinued) {
     render("--samples 1 -o image.exr");
     for (const int samples : {2, 8, 24})
@@ -139,8 +184,10 @@ TEST_F(CliContinueTest, RefusesWhatHasNotTheBitsOfOneRun) {
     EXPECT_THAT(expect_failure(2, line + "--samples 8 --volume v.vdb --continue four.exr"),
                 HasSubstr("flat images alone"));
     EXPECT_THAT(
-        expect_failure(2, line + "--samples 8 --channels RGBA,CryptoObject --continue four.exr"),
-        HasSubstr("channels CryptoObject"));
+        expect_failure(2, line + "--samples 8 --channels RGBA,variance --continue four.exr"),
+        HasSubstr("channels variance"));
+    EXPECT_THAT(expect_failure(2, line + "--samples 8 --channels RGBA,motion --continue four.exr"),
+                HasSubstr("channels motion only where P and objectId"));
     EXPECT_THAT(expect_failure(2, line + "--samples 8 --channels P --continue four.exr"),
                 HasSubstr("channels P only where"));
 }

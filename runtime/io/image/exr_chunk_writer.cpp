@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/image/cryptomatte.hpp"
+
 namespace voxelume {
 namespace {
-
-constexpr std::string_view kMatteKey = "cryptomatte/";
 
 /// The texts that belong to the matte whose channels are in a layer.
 ExrChunkWriter::Attributes matte_texts(const ExrChunkWriter::Attributes& texts,
