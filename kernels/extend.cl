@@ -151,6 +151,10 @@ static inline void send_on(PyramidShape shape, const Surroundings* around, const
         ray.emitter =
             LANES_SELECT(scattered, ray.emitter,
                          LANES_LOAD(batch->paths, VXL_PATH_EMITTER * batch->stride + first));
+    if (VXL_AREA_SHARES)
+        ray.density =
+            LANES_SELECT(scattered, ray.density,
+                         path_float(batch->paths, VXL_PATH_DENSITY, batch->stride, first));
     const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_CHILDREN);
     put_rays(queue, &ray, &slots);
 }

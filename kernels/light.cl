@@ -14,5 +14,5 @@ kernel void add_light(VXL_WORLD_PARAMETERS, LightRecord light,
     const ShadowQueue queue = VXL_SHADOW_QUEUE;
     const Vector from = {(lane_float)light.position.x, (lane_float)light.position.y,
                          (lane_float)light.position.z};
-    shine_from(&world, light, from, materials, &queue, &batch, first);
+    shine_from(&world, light, from, (lane_float)0.0f, materials, &queue, &batch, first);
 }

@@ -47,6 +47,8 @@ kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict so
     if (VXL_LOOKS) LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_EMITTER * batch.stride + first);
     if (VXL_TRAVELS)
         LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_TRAVELLED * batch.stride + first);
+    if (VXL_AREA_SHARES)
+        LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_DENSITY * batch.stride + first);
     if (!VXL_TRANSMISSION) return;
     LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_CELL * batch.stride + first);
     LANES_STORE((lane_uint)0, batch.paths, VXL_PATH_CELL_Z * batch.stride + first);

@@ -66,6 +66,13 @@ constexpr const char* kMist = R"("medium": {"scattering": [0.5, 0.6, 0.7], "anis
 constexpr const char* kPoint =
     R"("lights": [{"type": "point", "position": [0.3, 0.9, 0.2], "intensity": 0.5}, )";
 
+// Metal, and a light with an area that it shows, in place of their first words.
+constexpr const char* kBrass =
+    R"("materials": {"brass": {"base_color": [0.9, 0.7, 0.3], "metallic": 1, "roughness": 0.2}, )";
+constexpr const char* kBrassBox = R"({"model": "box", "material": "brass", )";
+constexpr const char* kDisk = R"("lights": [{"type": "disk", "position": [0.4, 0.8, -0.2],
+            "direction": [-0.2, -1, 0.3], "radius": 0.2}, )";
+
 // What a display of voxels shows from all around.
 constexpr const char* kLattice = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
@@ -232,7 +239,10 @@ std::vector<KnownPicture> known_pictures() {
         {"veiled voxels", lattice("veil", "lattice", "observer", ""), true, "2de843ba4414102e"},
         {"voxels in global light",
          with(lattice("veil", "lattice", "observer", ""),
-              {{"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
+              {{"\"materials\": {", kBrass},
+               {"{\"model\": \"box\", ", kBrassBox},
+               {"\"lights\": [", kDisk},
+               {"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
          true, "e31c03cd8bbabb18"},
     };
 }

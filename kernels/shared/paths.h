@@ -26,7 +26,7 @@ VXL_SIZE_IS(PathSampling, 28);
 // position + a * axis_x + b * axis_y.
 typedef struct LightAreaRecord {
     float4 axis_x;  // w: 1 for a disk, where a^2 + b^2 <= 1; 0 for a rectangle, |a|, |b| <= 1
-    float4 axis_y;  // w unused
+    float4 axis_y;  // w: the area in square metres, 0 for the sun, which rays don't run into
 } LightAreaRecord;
 VXL_SIZE_IS(LightAreaRecord, 32);
 
@@ -52,6 +52,8 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 //   of rays that look for an emitter, its number, or VXL_EMITTER_IS_SKY
 //   of other rays, float: the probability of their direction, per solid angle; 0 if no ray to an
 //   emitter could have had it, as behind mirrors
+// VXL_PATH_DENSITY: float: the same for lights with an area, but as if physically based surfaces
+// scattered all light; 0 for rays that other surfaces sent.
 // VXL_PATH_TRAVELLED: float, as the ray's t: how far before its origin the path was scattered last.
 // Rays that go straight on restart behind surfaces of instances.
 

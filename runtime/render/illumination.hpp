@@ -96,6 +96,7 @@ class Illumination {
     void send_to_points(const PathLight& light, uint32_t count, PathDepth& depth);
     void light_near_points(RayBatch& entries, uint32_t count, bool is_first, PathDepth& depth);
     NextRays light_medium(uint32_t count, uint32_t taken, PathDepth& depth);
+    void meet_lights(RayBatch& entries, uint32_t count, PathDepth& depth);
     void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});

@@ -64,6 +64,14 @@ NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& d
                                 depth.next, taken, depth.next_to_emitters);
 }
 
+/// Adds the light of lights with an area that paths run into before they meet anything else.
+void Illumination::meet_lights(RayBatch& entries, uint32_t count, PathDepth& depth) {
+    if (!features_.area_shares) return;
+    for (const PathLight& light : lights_)
+        if (light.area && light.area->axis_y.w > 0)
+            area_lighting_->meet(world_, light.record, *light.area, entries, count, depth.nodes);
+}
+
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills
 /// their radiance and coverage.
 void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known) {
@@ -72,6 +80,7 @@ void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_kn
     RayBatch* entries = &batch;
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
+        if (!is_first) meet_lights(*entries, count, depth);
         if (!is_first) light_near_points(*entries, count, false, depth);
         const uint32_t scattered = scatter_in_medium(*entries, count, depth);
         direct(*entries, count, is_first);

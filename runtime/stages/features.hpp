@@ -53,6 +53,7 @@ struct Features {
     bool rough_glass = false;        ///< ... and lets light through
     bool coat = false;               ///< ... or has a coat
     bool weak_facets = false;        ///< ... or reflects less than its index says
+    bool area_shares = false;        ///< ... and paths may run into a light with an area
     bool lens = false;               ///< sight rays start all over a lens
     bool blades = false;             ///< ... that is a polygon
     int emitters = 0;                ///< VXL_EMITTERS_*: how paths find emissive surfaces
@@ -131,6 +132,7 @@ struct Features {
                 {"VXL_ROUGH_GLASS", rough_glass},
                 {"VXL_COAT", coat},
                 {"VXL_WEAK_FACETS", weak_facets},
+                {"VXL_AREA_SHARES", area_shares},
                 {"VXL_LENS", lens},
                 {"VXL_BLADES", blades},
                 {"VXL_EMITTERS", emitters},

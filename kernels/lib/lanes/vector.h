@@ -9,6 +9,12 @@ typedef struct {
     lane_float x, y, z;
 } Vector;
 
+/// The same vector in all lanes.
+static inline Vector vector_of(float4 v) {
+    const Vector result = {(lane_float)v.x, (lane_float)v.y, (lane_float)v.z};
+    return result;
+}
+
 static inline lane_float dot_product(Vector a, Vector b) {
     return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
 }
@@ -53,6 +59,12 @@ static inline void store_vector(Vector v, global float* restrict p, uint stride,
 
 static inline Vector difference(Vector a, Vector b) {
     const Vector result = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return result;
+}
+
+/// a + b * s.
+static inline Vector add_scaled(Vector a, Vector b, lane_float s) {
+    const Vector result = {fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)};
     return result;
 }
 

@@ -24,4 +24,37 @@ static inline Vector area_point(LightRecord light, LightAreaRecord area, const P
     return from;
 }
 
+/// Where rays run into a light.
+typedef struct {
+    lane_int met;        // mask: rays that do, on the side that shines
+    lane_float t;        // of the rays
+    lane_float falloff;  // of the light from there where they were scattered: cosine / d^2
+} AreaMeeting;
+
+/// Where rays, which were scattered `travelled` before their origins, would run into a light.
+static inline AreaMeeting meet_area(LightRecord light, LightAreaRecord area, float4 edge,
+                                    Vector origin, Vector direction, lane_float travelled) {
+    const lane_float one = (lane_float)1.0f;
+    const Vector off = {origin.x - light.position.x, origin.y - light.position.y,
+                        origin.z - light.position.z};
+    const Vector from = scaled(off, edge), way = scaled(direction, edge);
+    const Vector axis_x = scaled(vector_of(area.axis_x), edge);
+    const Vector axis_y = scaled(vector_of(area.axis_y), edge);
+    const Vector normal = vector_of(light.direction);
+    const lane_float before = dot_product(normal, from), towards = -dot_product(normal, way);
+    AreaMeeting m;
+    m.met = LANE_MASK(before > 0.0f) & LANE_MASK(towards > 0.0f);
+    m.t = exact_divide(before, LANES_SELECT(m.met, towards, one));
+    const Vector at = add_scaled(from, way, m.t);
+    const lane_float x = exact_divide(dot_product(at, axis_x), dot_product(axis_x, axis_x));
+    const lane_float y = exact_divide(dot_product(at, axis_y), dot_product(axis_y, axis_y));
+    const lane_float radius = area.axis_x.w != 0.0f ? fma(x, x, y * y) : fmax(fabs(x), fabs(y));
+    m.met &= LANE_MASK(radius <= 1.0f);
+    const lane_float squared = dot_product(way, way), t = m.t + travelled;
+    const lane_float length = t * t * squared * exact_sqrt(squared);
+    m.met &= LANE_MASK(length > 0.0f);
+    m.falloff = exact_divide(towards, LANES_SELECT(m.met, length, one));
+    return m;
+}
+
 #endif

@@ -15,9 +15,7 @@
 /// The part of a spot light's intensity along the unit vector `to_surface`: smoothstep of the
 /// cosine.
 static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
-    const Vector along = {(lane_float)light.direction.x, (lane_float)light.direction.y,
-                          (lane_float)light.direction.z};
-    const lane_float cosine = dot_product(along, to_surface);
+    const lane_float cosine = dot_product(vector_of(light.direction), to_surface);
     const float width = fmax(light.inner_cosine - light.outer_cosine, 1.17549435e-38f);
     const lane_float s =
         clamp(exact_divide(cosine - light.outer_cosine, (lane_float)width), 0.0f, 1.0f);
@@ -30,9 +28,7 @@ static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
 /// can receive (Wallace, Elmquist and Haines 1989).
 static inline lane_float area_sample_falloff(LightRecord light, Vector to_surface,
                                              lane_float squared) {
-    const Vector normal = {(lane_float)light.direction.x, (lane_float)light.direction.y,
-                           (lane_float)light.direction.z};
-    const lane_float cosine = dot_product(normal, to_surface);
+    const lane_float cosine = dot_product(vector_of(light.direction), to_surface);
     const lane_int faces = LANE_MASK(cosine > 0.0f);
     const lane_float sum = LANES_SELECT(faces, squared + light.spread, (lane_float)1.0f);
     return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
@@ -239,10 +235,11 @@ static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_
 
 /// Adds a light that shines from the points `from`: every surface point that faces it and to which
 /// it contributes gets a slot in the queue of shadow rays with the light's contribution. If neither
-/// an object nor the medium can come between, the contribution is added at once.
+/// an object nor the medium can come between, the contribution is added at once. Paths that
+/// physically based surfaces scatter may run into `area` square metres of the light, too.
 static inline void shine_from(const WorldView* world, LightRecord light, Vector from,
-                              global const float* restrict materials, const ShadowQueue* queue,
-                              const RayBatch* batch, uint first) {
+                              lane_float area, global const float* restrict materials,
+                              const ShadowQueue* queue, const RayBatch* batch, uint first) {
     const float4 edge = world->shape.edge;
     LitPoints p;
     if (!load_lit_points(world, batch, first, &p)) return;
@@ -258,8 +255,8 @@ static inline void shine_from(const WorldView* world, LightRecord light, Vector 
     lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.colors,
                                 materials, r.contribution);
     if (VXL_PHYSICAL)
-        some =
-            find_physical_shares(light, &incidence, &p, d, edge, materials, some, r.contribution);
+        some = find_physical_shares(light, &incidence, area, &p, d, edge, materials, some,
+                                    r.contribution);
     send_or_add(queue, &r, p.lit & some, behind, batch, first);
 }
 

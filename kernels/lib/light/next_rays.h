@@ -7,12 +7,11 @@
 #include "lib/light/lobes.h"
 #include "lib/sampling/directions.h"
 
-/// The least cosine with its surface of a way on which a matt one scatters light: where normals
-/// are smoothed, ways that come closer to the surface are moved up to there.
+/// The least cosine with its surface of a way on which it scatters light.
 static inline lane_float min_cosine(const ScatterPoint* p) {
     const lane_float zero = (lane_float)0.0f;
     if (!VXL_SHADING_NORMALS) return zero;
-    return LANES_SELECT(p->curved, (lane_float)(1.0f / 4096.0f), zero);
+    return LANES_SELECT(p->curved, (lane_float)VXL_MIN_COSINE, zero);
 }
 
 /// The cosine of directions from surfaces, of which mask `above` tells those on the surfaces' side.
@@ -121,6 +120,9 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
     if (VXL_LOOKS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
+    if (VXL_AREA_SHARES)
+        r->density = LANES_SELECT(way->diffuse & scattered->is & ~scattered->moved,
+                                  scattered->density, (lane_float)0.0f);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and

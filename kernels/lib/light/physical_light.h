@@ -8,9 +8,27 @@
 #include "lib/surface/shading_normal.h"
 #include "shared/scene.h"
 
+/// How much of a light with an area that a ray was sent to counts, where the rays that surfaces
+/// scatter find the same light with this density of their directions: the balance heuristic
+/// (Veach & Guibas 1995), for points of the `area` that are equally probable.
+static inline lane_float sent_share(lane_float density, lane_float falloff, lane_float area) {
+    const lane_float likelier = fmin(density * falloff * area, 1e30f);
+    return exact_reciprocal(likelier + 1.0f);
+}
+
+/// Mask: directions in which the points' surfaces scatter paths.
+static inline lane_int scatters_to(const LitPoints* p, Vector direction) {
+    lane_float lowest = (lane_float)0.0f;
+    if (VXL_SHADING_NORMALS)
+        lowest = LANES_SELECT(are_different(p->shading_normal, p->normal),
+                              (lane_float)VXL_MIN_COSINE, lowest);
+    return LANE_MASK(dot_product(p->normal, direction) >= lowest);
+}
+
 /// Sets the light that physically based ones of the points return towards the viewer. Returns the
-/// mask of points, of all kinds, that return any.
-static inline lane_int find_physical_shares(LightRecord light, const Incidence* i,
+/// mask of points, of all kinds, that return any. Paths may run into `area` square metres of the
+/// light, too.
+static inline lane_int find_physical_shares(LightRecord light, const Incidence* i, lane_float area,
                                             const LitPoints* p, Vector d, float4 edge,
                                             global const float* restrict materials, lane_int some,
                                             lane_float* contribution) {
@@ -26,7 +44,10 @@ static inline lane_int find_physical_shares(LightRecord light, const Incidence* 
     if (!lanes_any(view.is)) return some;
     lane_float value[3], density;
     const lane_int above = physical_value(&view, i->l, value, &density);
-    const lane_float falloff = i->falloff * surface_opacity(materials, p->material, p->colors);
+    lane_float falloff = i->falloff * surface_opacity(materials, p->material, p->colors);
+    if (VXL_AREA_SHARES)
+        falloff *= sent_share(LANES_SELECT(scatters_to(p, i->l), density, (lane_float)0.0f),
+                              i->falloff, area);
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     lane_int any_contribution = (lane_int)0;
     for (int c = 0; c < 3; ++c) {

@@ -26,11 +26,6 @@ typedef struct {
     lane_float width;    // of a square of the same area
 } RaySpan;
 
-static inline Vector vector_of(float4 v) {
-    const Vector result = {(lane_float)v.x, (lane_float)v.y, (lane_float)v.z};
-    return result;
-}
-
 /// Two vectors of a length across the unit vectors `way`, one of them along the surface of this
 /// normal.
 static inline void span_square(Vector way, Vector normal, lane_float width, RaySpan* s) {

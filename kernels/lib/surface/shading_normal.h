@@ -32,12 +32,6 @@ static inline Vector cross_of(Vector a, Vector b) {
     return result;
 }
 
-/// a + b * s.
-static inline Vector add_scaled(Vector a, Vector b, lane_float s) {
-    const Vector result = {fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)};
-    return result;
-}
-
 /// The shares of a triangle's corners in a point of it, each at least 0; their sum is 1. `from` is
 /// the point seen from each corner.
 static inline void corner_shares(const Vector* from, lane_float* share) {
@@ -68,6 +62,10 @@ typedef struct {
 // The batch's `shading` holds six values for each ray, those of ShadingPoint: from 0 on the normal,
 // from here on the offset.
 #define VXL_SHADING_OFFSET 3u
+
+/// The least cosine with their surfaces of ways on which those with smoothed normals scatter light
+/// in all directions: ways that come closer to the surface are moved up to there.
+#define VXL_MIN_COSINE (1.0f / 4096.0f)
 
 /// Mask: lanes whose vectors differ.
 static inline lane_int are_different(Vector a, Vector b) {

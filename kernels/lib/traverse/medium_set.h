@@ -16,10 +16,12 @@
 /// The place of VXL_PATH_EMITTER among the components of paths.
 #define VXL_PATH_EMITTER (VXL_PATH_INSIDE + (VXL_TRANSMISSION ? VXL_MEDIUM_SET_SIZE : 0))
 /// That of VXL_PATH_TRAVELLED, and whether there is one.
-#define VXL_PATH_TRAVELLED (VXL_PATH_EMITTER + 1)
-#define VXL_TRAVELS (VXL_EMITTERS && VXL_INSTANCES && VXL_TRANSMISSION)
+#define VXL_PATH_TRAVELLED (VXL_PATH_EMITTER + (VXL_LOOKS ? 1 : 0))
+#define VXL_TRAVELS ((VXL_EMITTERS || VXL_AREA_SHARES) && VXL_INSTANCES && VXL_TRANSMISSION)
+/// That of VXL_PATH_DENSITY, which there is with VXL_AREA_SHARES.
+#define VXL_PATH_DENSITY (VXL_PATH_TRAVELLED + (VXL_TRAVELS ? 1 : 0))
 /// That of VXL_PATH_WIDTH, behind those that there are, and whether there is one.
-#define VXL_PATH_WIDTH (VXL_PATH_EMITTER + (VXL_LOOKS ? 1 : 0) + (VXL_TRAVELS ? 1 : 0))
+#define VXL_PATH_WIDTH (VXL_PATH_DENSITY + (VXL_AREA_SHARES ? 1 : 0))
 #define VXL_WIDENS (VXL_TEXTURES && VXL_PATHS && VXL_RADIANCE)
 
 /// Packed attributes of the objects, VXL_NO_MEDIUM for none.

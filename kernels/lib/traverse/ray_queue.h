@@ -20,6 +20,7 @@ typedef struct {
     lane_float throughput[3];
     lane_uint emitter;     // where paths look for emitters: VXL_PATH_EMITTER
     lane_float travelled;  // where there is one: VXL_PATH_TRAVELLED
+    lane_float density;    // where there is one: VXL_PATH_DENSITY
     lane_float width;      // where there is one: VXL_PATH_WIDTH
     // of scenes with transmitting objects
     lane_uint cell_xy, cell_z, medium;  // medium: RayBatch::inside
@@ -102,6 +103,8 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, const Slots* sl
     if (VXL_LOOKS) put_uint(q->paths + VXL_PATH_EMITTER * n, r->emitter, slots);
     if (VXL_TRAVELS)
         put_uint(q->paths + VXL_PATH_TRAVELLED * n, LANES_AS_UINT(r->travelled), slots);
+    if (VXL_AREA_SHARES)
+        put_uint(q->paths + VXL_PATH_DENSITY * n, LANES_AS_UINT(r->density), slots);
     if (!VXL_TRANSMISSION) return;
     put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, slots);
     put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, slots);

@@ -9,7 +9,9 @@ AreaLightStage::AreaLightStage(const Device& device, const Features& features,
                                const Buffer<MaterialRecord>& materials)
     : materials_(materials),
       program_(device, "area_light.cl", features.defines(device)),
-      add_(program_.kernel("add_area_light")) {}
+      add_(program_.kernel("add_area_light")) {
+    if (features.area_shares) meet_.emplace(program_.kernel("meet_area_light"));
+}
 
 void AreaLightStage::add(const Pyramid& pyramid, const LightRecord& light,
                          const LightAreaRecord& area, const PathSampling& sampling, uint32_t number,
@@ -17,6 +19,12 @@ void AreaLightStage::add(const Pyramid& pyramid, const LightRecord& light,
     if (!queue.count.empty()) queue.count.fill(0);
     add_.launch_packets(count, pyramid, light, area, sampling, number, materials_, queue, batch,
                         count);
+}
+
+void AreaLightStage::meet(const Pyramid& pyramid, const LightRecord& light,
+                          const LightAreaRecord& area, RayBatch& batch, uint32_t count,
+                          NodeLight& nodes) {
+    meet_->launch_packets(count, shape_of(pyramid), light, area, batch, count, nodes);
 }
 
 }  // namespace voxelume

@@ -2,16 +2,19 @@
 // surface points of light paths + a light with an area -> radiance, through a queue of shadow rays.
 #pragma once
 
+#include <optional>
+
 #include "kernels/shared/paths.h"
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/trace/scatter.hpp"
 
 namespace voxelume {
 
-/// The kernel of area_light.cl for one feature set: global light of disks and rectangles.
+/// The kernels of area_light.cl for one feature set: global light of disks and rectangles.
 class AreaLightStage {
   public:
     AreaLightStage(const Device& device, const Features& features,
@@ -23,10 +26,16 @@ class AreaLightStage {
              const PathSampling& sampling, uint32_t number, RayBatch& batch, uint32_t count,
              ShadowQueue& queue);
 
+    /// Adds the light of those of rays 0 .. count-1 that run into it before their hits to their
+    /// nodes. Only for features with `area_shares`.
+    void meet(const Pyramid& pyramid, const LightRecord& light, const LightAreaRecord& area,
+              RayBatch& batch, uint32_t count, NodeLight& nodes);
+
   private:
     Buffer<MaterialRecord> materials_;
     Program program_;
     Kernel add_;
+    std::optional<Kernel> meet_;
 };
 
 }  // namespace voxelume

@@ -84,6 +84,7 @@ LightAreaRecord light_area_record(const Light& light, const GridFrame& world) {
     record.axis_y =
         to_float4(glm::cross(light.direction, light.axis_x) * half.y / world.voxel_edge);
     record.axis_x.w = shape.is_round ? 1.0f : 0.0f;
+    record.axis_y.w = float(half.x * half.y * (shape.is_round ? std::numbers::pi : 4.0));
     return record;
 }
 

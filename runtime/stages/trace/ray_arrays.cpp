@@ -34,12 +34,15 @@ class ArrayMaker {
 
 size_t path_components(const Features& features) {
     const size_t emitter = features.looks() ? 1 : 0;
-    const size_t travelled = features.instances && features.emitters != 0 ? 1 : 0;
+    const bool finds_light = features.emitters != 0 || features.area_shares;
+    const size_t travelled = features.instances && finds_light ? 1 : 0;
+    const size_t density = features.area_shares ? 1 : 0;
     const size_t width = features.textures() && features.radiance ? 1 : 0;
     if (features.transmission)
-        return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter + travelled + width;
+        return VXL_PATH_INSIDE + size_t(std::max(features.media, 1)) + emitter + travelled +
+               density + width;
     const bool has_all = features.instances || features.global || width > 0;
-    return (has_all ? VXL_PATH_INSIDE : VXL_PATH_CELL) + emitter + width;
+    return (has_all ? VXL_PATH_INSIDE : VXL_PATH_CELL) + emitter + density + width;
 }
 
 size_t hit_components(const Features& features) {
