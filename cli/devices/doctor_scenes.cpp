@@ -243,7 +243,7 @@ std::vector<KnownPicture> known_pictures() {
                {"{\"model\": \"box\", ", kBrassBox},
                {"\"lights\": [", kDisk},
                {"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
-         true, "e31c03cd8bbabb18"},
+         true, "34f84ebeb68749bd"},
     };
 }
 
