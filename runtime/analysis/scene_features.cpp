@@ -122,13 +122,19 @@ bool shows_mixed_mesh(const Scene& scene, const Pyramid& world) {
 }
 
 /// Whether paths may run into lights, whose light they share with rays that are sent to these. They
-/// don't where rays to lights pass what paths don't, or what would have to dim these paths, too.
-bool runs_into_lights(const Scene& scene, const Features& features) {
+/// don't where rays to lights pass what paths don't, or what would have to dim these paths, too:
+/// they share no light inside of glass.
+bool runs_into_lights(const Scene& scene, const Pyramid& world, const Features& features) {
+    const bool has_veils =
+        features.voxel_opacity || features.texture_alpha ||
+        std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
+            return (effects_of(*m) & kIsSeenThrough) != 0;
+        });
     return features.global && features.physical && features.area_samples &&
            scene.render.bounces > 0 && features.shadows && !features.filtered_refraction &&
-           !features.absorbs && std::ranges::any_of(scene.lights, [](const Light& light) {
-               return shines(light) && has_area(light);
-           });
+           !features.medium && !(features.absorbs && has_veils) &&
+           std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return shines(light) && has_area(light); });
 }
 
 /// Adds the features of a sky.
@@ -158,7 +164,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
-    features.area_shares = runs_into_lights(scene, features);
+    features.area_shares = runs_into_lights(scene, world, features);
     const bool sends_on = features.shadows || features.paths;
     features.mixed = sends_on && features.triangles && shows_mixed_mesh(scene, world);
     const auto sky = outside_of(scene).sky;

@@ -121,8 +121,9 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
                   ahead);
     if (VXL_LOOKS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
     if (VXL_AREA_SHARES)
-        r->density = LANES_SELECT(way->diffuse & scattered->is & ~scattered->moved,
-                                  scattered->density, (lane_float)0.0f);
+        r->density = LANES_SELECT(
+            way->diffuse & scattered->is & ~scattered->moved & outside_of_objects(batch, first),
+            scattered->density, (lane_float)0.0f);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and

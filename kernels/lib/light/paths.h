@@ -73,6 +73,12 @@ static inline lane_float medium_ior(global const float* restrict materials, lane
                         (lane_float)1.0f);
 }
 
+/// Mask: rays that aren't inside of any object that lets light through.
+static inline lane_int outside_of_objects(const RayBatch* batch, uint first) {
+    if (!VXL_TRANSMISSION) return LANE_MASK((lane_uint)0u == 0u);
+    return LANE_MASK(LANES_LOAD(batch->inside, first) == 0u);
+}
+
 /// Adds a channel's light to the nodes that the `valid` lanes name, each at most one lane; `begins`
 /// their sums.
 static inline void add_to_nodes(const NodeLight* nodes, uint channel, lane_int valid,

@@ -86,9 +86,14 @@ const std::vector<ShinyRoom> kShinyRooms = {
      [](Json& s) {
          add_pane(s, {{"placement", "instance"}});
      }},
-    {"frosted glass",
+    {"frosted glass, and metal in coloured glass",
      [](Json& s) {
-         add_thing(s, ball("exact"), "frosted", {0, -0.2, 0});
+         s["materials"]["frosted"]["absorption"] = {0.5, 1, 2};
+         s["materials"]["glass"]["absorption"] = {3, 1, 2};
+         add_thing(s, ball("exact"), "frosted", {-0.15, -0.2, 0});
+         add_thing(s, ball("exact"), "glass", {0.2, -0.2, 0}, {{"priority", 0}});
+         add_thing(s, {{"shape", "sphere"}, {"radius", 0.08}, {"surface", "exact"}}, "metal",
+                   {0.2, -0.2, 0}, {{"priority", 1}});
      }},
     {"emissive objects and a sky",
      [](Json& s) {
