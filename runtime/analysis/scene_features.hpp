@@ -2,10 +2,6 @@
 // scene and world -> the features its kernels are compiled for, and the memory its rays take
 #pragma once
 
-#include <optional>
-#include <vector>
-
-#include "kernels/shared/paths.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"
@@ -23,19 +19,6 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
 /// True if surfaces in local light look to the sky in some directions.
 bool has_sky_samples(const Scene& scene);
-
-/// The lights that a scene lists, those with an area by their samples, and its sun.
-std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
-
-/// A light that a scene lists, and its area if it has one.
-struct PathLight {
-    LightRecord record;
-    std::optional<LightAreaRecord> area;
-    uint32_t number = 0;  ///< of its random samples: the same whichever other lights shine
-};
-
-/// The lights that a scene lists and its sun, as global light samples them.
-std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
 
 /// True if some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);

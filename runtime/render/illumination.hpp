@@ -9,6 +9,7 @@
 
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/analysis/scene_lights.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene.hpp"

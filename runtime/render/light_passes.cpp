@@ -149,6 +149,13 @@ LightPass mattes_of(const Scene& scene) {
     return pass;
 }
 
+/// Whether mattes are a pass.
+bool ranks_mattes_anew(const RenderSettings& render) {
+    const ImageChannels& channels = render.channels;
+    return (channels.object_matte || channels.material_matte) && render.earlier &&
+           !render.noise.is_given();
+}
+
 /// The names of the groups of lights, and the empty one for the rest.
 std::set<std::string> groups_of(const Scene& scene) {
     std::set<std::string> groups{""};
@@ -157,12 +164,6 @@ std::set<std::string> groups_of(const Scene& scene) {
 }
 
 }  // namespace
-
-bool ranks_mattes_anew(const RenderSettings& render) {
-    const ImageChannels& channels = render.channels;
-    return (channels.object_matte || channels.material_matte) && render.earlier &&
-           !render.noise.is_given();
-}
 
 std::vector<LightPass> light_passes(const Scene& scene) {
     const ImageChannels& channels = scene.render.channels;
@@ -181,6 +182,11 @@ std::vector<LightPass> light_passes(const Scene& scene) {
     for (LightPass& pass : passes) go_on(pass);
     if (ranks_mattes_anew(scene.render)) passes.push_back(mattes_of(scene));
     return passes;
+}
+
+void leave_mattes_to_passes(RenderSettings& render) {
+    if (ranks_mattes_anew(render))
+        render.channels.object_matte = render.channels.material_matte = false;
 }
 
 void finish_passes(const Scene& scene, Image& image) {

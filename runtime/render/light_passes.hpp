@@ -24,9 +24,9 @@ struct LightPass {
 /// go on from what it shows of them, and others get all samples.
 std::vector<LightPass> light_passes(const Scene& scene);
 
-/// Whether mattes are a pass of their own: an earlier image has only the ranks that its samples
-/// gave, to which no others can be added.
-bool ranks_mattes_anew(const RenderSettings& render);
+/// Leaves mattes out of an image of which they are a pass: an earlier image has only the ranks that
+/// its samples gave, to which no others can be added.
+void leave_mattes_to_passes(RenderSettings& render);
 
 /// Makes of an image with the planes of all passes the one that was asked for: what is left of the
 /// colour without the direct light, and what shadows take away.

@@ -87,9 +87,8 @@ Camera shown_camera(Camera observer, const Renderer::Tiles& tiles) {
 /// Each sample shows what of a texture lies in its part of the pixel, which all samples share.
 [[noreturn]] void refuse_textures() {
     throw Error(ErrorKind::usage,
-                "samples can't be added by their number where surfaces wear textures, which are "
-                "blurred by it: use --noise in both runs, or render the image again "
-                "from the start");
+                "samples can't be added by their number where surfaces wear textures: use --noise "
+                "in both runs, or render the image again from the start");
 }
 
 }  // namespace
@@ -160,8 +159,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         // Passes have as many samples as all light needs, and variance is that of colour.
         shown.render.channels = rendered_channels(scene.render);
         const std::vector<LightPass> passes = light_passes(shown);
-        if (ranks_mattes_anew(shown.render))
-            shown.render.channels.object_matte = shown.render.channels.material_matte = false;
+        leave_mattes_to_passes(shown.render);
         shown.render.noise.seconds /= double(1 + passes.size());
         Sampled sampled;
         const Tiles weighted{tiles.share, tiles.taken, 1.0 / double(1 + passes.size())};

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/analysis/scene_lights.hpp"
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/scene/first_samples.hpp"
 #include "runtime/scene/predicates.hpp"

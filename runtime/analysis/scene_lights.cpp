@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/analysis/scene_lights.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "runtime/scene/predicates.hpp"
+#include "runtime/stages/light/light.hpp"
+#include "runtime/stages/light/light_samples.hpp"
+#include "runtime/stages/light/sky_light.hpp"
+
+namespace voxelume {
+
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<LightRecord> records;
+    if (has_sun(scene.world)) records.push_back(sun_light_record(*scene.world.sky, world));
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_light_samples(light, world), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world));
+    }
+    return records;
+}
+
+std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<PathLight> lights;
+    if (has_sun(scene.world)) {
+        const Sky& sky = *scene.world.sky;
+        lights.push_back({sun_light_record(sky, world), sun_area_record(sky, world), 0});
+    }
+    uint32_t number = scene.world.sky && scene.world.sky->kind == SkyKind::sun ? 1 : 0;
+    for (const Light& light : scene.lights) {
+        const uint32_t own_number = number++;
+        if (!shines(light)) continue;
+        PathLight& added =
+            lights.emplace_back(PathLight{light_record(light, world), {}, own_number});
+        if (has_area(light)) added.area = light_area_record(light, world);
+    }
+    return lights;
+}
+
+}  // namespace voxelume
