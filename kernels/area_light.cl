@@ -22,7 +22,7 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
     const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     const lane_int goes_on = LANE_MASK(bounces < sampling.bounces);
-    const lane_float met_too = LANES_SELECT(goes_on & outside_of_objects(&batch, first),
+    const lane_float met_too = LANES_SELECT(goes_on & shares_light(&batch, first),
                                             (lane_float)area.axis_y.w, (lane_float)0.0f);
     shine_from(&world, light, from, met_too, materials, &queue, &batch, first);
 }

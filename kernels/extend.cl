@@ -3,7 +3,8 @@
 //
 // Global light: an unbiased estimate of the light along each sight ray (Kajiya 1986). Lights are
 // sampled at every surface that a path meets; the sky and the background are what its rays run
-// into. Emission is found in both ways, which share it: lib/light/emission_share.h.
+// into. Emission is found in both ways, which share it: lib/light/emission_share.h. So are lights
+// with an area by physically based surfaces: area_light.cl.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/layer.h"
@@ -180,9 +181,10 @@ kernel void extend_paths(
     lane_float throughput[3];
     for (uint c = 0; c < 3; ++c)
         throughput[c] = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
-    add_path_light(&batch, first, valid, is_first, &nodes, target, throughput);
-
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
+    const lane_int adds = VXL_DIRECT_ALONE ? valid & LANE_MASK(bounces == 0u) : valid;
+    add_path_light(&batch, first, adds, is_first, &nodes, target, throughput);
+
     ScatterPoint p = load_point(&batch, shape.edge, first, count);
     const lane_int in_medium = VXL_SCATTERING ? scatters_before(&batch, first) : (lane_int)0;
     p.hit &= ~in_medium;
@@ -211,7 +213,8 @@ kernel void extend_paths(
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyMap sky = VXL_SOUGHT_SKY;
     const bool finds_light = VXL_SKY_RAYS ? true : table.count > 0u;
-    if (VXL_LOOKS && finds_light && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
+    if (VXL_LOOKS && !VXL_DIRECT_ALONE && finds_light &&
+        lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
         const lane_int wanted =

@@ -53,7 +53,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 //   of other rays, float: the probability of their direction, per solid angle; 0 if no ray to an
 //   emitter could have had it, as behind mirrors
 // VXL_PATH_DENSITY: float: the same for lights with an area, but as if physically based surfaces
-// scattered all light; 0 for rays that other surfaces sent, or that begin inside of objects.
+// scattered all light; 0 for rays that no ray to a light could be.
 // VXL_PATH_TRAVELLED: float, as the ray's t: how far before its origin the path was scattered last.
 // Rays that go straight on restart behind surfaces of instances.
 

@@ -95,7 +95,9 @@
 // The last exist where paths look for emitters or the sky, see shared/paths.h; behind all others:
 //   VXL_PATH_EMITTER
 //   VXL_PATH_TRAVELLED  in scenes with instances and transmitting objects only
-//   VXL_PATH_DENSITY    where physically based surfaces see lights with an area
+// This one exists where physically based surfaces see lights with an area, as VXL_PATH_TRAVELLED
+// does then, behind those:
+//   VXL_PATH_DENSITY
 // This one exists where surfaces wear textures, behind those:
 //   VXL_PATH_WIDTH  float: how wide the ray is at its origin, in metres; 0 from an observer
 // This one exists in scenes with instances only:

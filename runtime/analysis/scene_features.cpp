@@ -165,6 +165,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
     features.area_shares = runs_into_lights(scene, world, features);
+    features.direct_alone = features.global && scene.render.direct_alone;
     const bool sends_on = features.shadows || features.paths;
     features.mixed = sends_on && features.triangles && shows_mixed_mesh(scene, world);
     const auto sky = outside_of(scene).sky;

@@ -7,6 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "runtime/scene/parts/material.hpp"
+#include "runtime/scene/predicates.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -104,10 +107,20 @@ Scene white_surfaces(const Scene& scene, bool with_shadows) {
     return result;
 }
 
-/// The light that comes to the first surface without another one on its way.
+/// The light that comes to the first surface without another one on its way. Where paths may run
+/// into lights, they are followed until then, as those of all light are, so that the two differ by
+/// the rest of the light alone.
 Scene direct_light_of(const Scene& scene) {
     Scene result = colors_of(scene);
-    result.render.depth = result.render.bounces = 0;
+    const RenderSettings& render = scene.render;
+    const bool may_meet_lights =
+        render.light == LightMode::global && render.shadows && !render.filtered_shadows &&
+        !has_scattering(scene) && scene.world.medium.absorption == glm::vec3(0) &&
+        std::ranges::any_of(scene.lights, [](const Light& light) { return has_area(light); }) &&
+        std::ranges::any_of(scene.materials, is_physical);
+    result.render.direct_alone = may_meet_lights;
+    result.render.bounces = std::min(render.bounces, int(may_meet_lights));
+    result.render.depth = 0;
     return result;
 }
 

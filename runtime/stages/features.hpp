@@ -54,6 +54,7 @@ struct Features {
     bool coat = false;               ///< ... or has a coat
     bool weak_facets = false;        ///< ... or reflects less than its index says
     bool area_shares = false;        ///< ... and paths may run into a light with an area
+    bool direct_alone = false;       ///< ... whose light is asked for alone, as they come to it
     bool lens = false;               ///< sight rays start all over a lens
     bool blades = false;             ///< ... that is a polygon
     int emitters = 0;                ///< VXL_EMITTERS_*: how paths find emissive surfaces
@@ -133,6 +134,7 @@ struct Features {
                 {"VXL_COAT", coat},
                 {"VXL_WEAK_FACETS", weak_facets},
                 {"VXL_AREA_SHARES", area_shares},
+                {"VXL_DIRECT_ALONE", direct_alone},
                 {"VXL_LENS", lens},
                 {"VXL_BLADES", blades},
                 {"VXL_EMITTERS", emitters},

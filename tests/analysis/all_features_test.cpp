@@ -145,7 +145,8 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
             is_global ? name == std::string("VXL_TINTED") : of_global.contains(name);
         // Displays alone ask for the own light of surfaces, and in a medium paths run into no
         // lights.
-        const std::set<std::string> of_others = {"VXL_OWN_LIGHT", "VXL_AREA_SHARES"};
+        const std::set<std::string> of_others = {"VXL_OWN_LIGHT", "VXL_AREA_SHARES",
+                                                 "VXL_DIRECT_ALONE"};
         EXPECT_TRUE(value != 0 || is_absent || name == "VXL_NATIVE_DIVIDE" ||
                     of_others.contains(name))
             << name;

@@ -7,7 +7,7 @@
 #include "lib/light/lobes.h"
 #include "lib/sampling/directions.h"
 
-/// The least cosine with its surface of a way on which it scatters light.
+/// The least cosine with a surface of a way on which it scatters light in all directions.
 static inline lane_float min_cosine(const ScatterPoint* p) {
     const lane_float zero = (lane_float)0.0f;
     if (!VXL_SHADING_NORMALS) return zero;
@@ -103,6 +103,18 @@ static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch,
     return LANES_SELECT(way->diffuse & ~scattered->moved, LANES_AS_UINT(density), (lane_uint)0);
 }
 
+/// VXL_PATH_DENSITY of rays that surfaces have scattered: 0 for those that no ray to a light could
+/// be, since these go by the shading normal.
+static inline lane_float shared_density(const ScatterPoint* p, const RayBatch* batch, uint first,
+                                        const Choice* way, const ScatteredWay* scattered) {
+    lane_int shared = way->diffuse & scattered->is & ~scattered->moved & shares_light(batch, first);
+    if (VXL_SHADING_NORMALS) {
+        const Vector normal = load_vector(batch->shading, batch->stride, first);
+        shared &= LANE_MASK(dot_product(normal, scattered->ahead) > 0.0f);
+    }
+    return LANES_SELECT(shared, scattered->density, (lane_float)0.0f);
+}
+
 /// Directions and sides of the rays that leave surfaces: where these scatter light in all
 /// directions, where mirrors reflect and glass refracts it.
 static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const RayBatch* batch,
@@ -120,10 +132,7 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
     if (VXL_LOOKS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
-    if (VXL_AREA_SHARES)
-        r->density = LANES_SELECT(
-            way->diffuse & scattered->is & ~scattered->moved & outside_of_objects(batch, first),
-            scattered->density, (lane_float)0.0f);
+    if (VXL_AREA_SHARES) r->density = shared_density(p, batch, first, way, scattered);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and

@@ -4,7 +4,9 @@
 #define VXL_PATHS_H
 
 #include "lib/surface/cube_body.h"
+#include "lib/surface/shading_normal.h"
 #include "lib/traverse/medium_set.h"
+#include "lib/traverse/ray_batch.h"
 #include "lib/traverse/surroundings.h"
 
 /// No node: an entry that sends no ray.
@@ -73,10 +75,19 @@ static inline lane_float medium_ior(global const float* restrict materials, lane
                         (lane_float)1.0f);
 }
 
-/// Mask: rays that aren't inside of any object that lets light through.
-static inline lane_int outside_of_objects(const RayBatch* batch, uint first) {
-    if (!VXL_TRANSMISSION) return LANE_MASK((lane_uint)0u == 0u);
-    return LANE_MASK(LANES_LOAD(batch->inside, first) == 0u);
+/// Mask: hits whose paths may share light with rays that are sent to lights with an area: those
+/// that aren't met inside of objects that let light through, and not on cubes with normals, above
+/// whose steps rays to lights begin, but paths don't.
+static inline lane_int shares_light(const RayBatch* batch, uint first) {
+    lane_int shares = LANE_MASK(LANES_NUMBERS >= 0);
+    if (VXL_TRANSMISSION) shares &= LANE_MASK(LANES_LOAD(batch->inside, first) == 0u);
+    if (VXL_VOXEL_NORMALS) {
+        const Vector offset =
+            load_vector(batch->shading + VXL_SHADING_OFFSET * batch->stride, batch->stride, first);
+        const lane_uint packed = LANES_LOAD(batch->hit_attributes, first);
+        shares &= ~(has_length(offset) & LANE_MASK((packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES));
+    }
+    return shares;
 }
 
 /// Adds a channel's light to the nodes that the `valid` lanes name, each at most one lane; `begins`

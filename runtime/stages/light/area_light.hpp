@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points of light paths + a light with an area -> radiance, through a queue of shadow rays.
+// surface points of light paths + a light with an area -> radiance, through a queue of shadow rays;
+// and of paths that run into the light.
 #pragma once
 
 #include <optional>
