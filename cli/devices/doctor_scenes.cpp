@@ -243,7 +243,7 @@ std::vector<KnownPicture> known_pictures() {
                {"{\"model\": \"box\", ", kBrassBox},
                {"\"lights\": [", kDisk},
                {"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
-         true, "34f84ebeb68749bd"},
+         true, "ad914753b801c46b"},
     };
 }
 

@@ -4,9 +4,10 @@
 
 Usage: mitsuba_gloss.py VOXELUME [SAMPLES]
 
-Renders a white metal ball of small roughness, under a rectangular lamp and a dim even sky, in global
-light here, with an emissive object and with one of `lights` as the lamp, and by Mitsuba's path integrator (roughconductor with GGX, reflectance 1), and compares
-squares of 4 x 4 pixels on the ball. Mitsuba's surface loses what facets reflect several times: it is
+Renders a white metal ball of small roughness, under a rectangular lamp and a dim even sky. Here it
+is in global light, once with an emissive object as the lamp and once with one of `lights`; there by
+Mitsuba's path integrator (roughconductor with GGX, reflectance 1). Compares squares of 4 x 4 pixels
+on the ball. Mitsuba's surface loses what facets reflect several times: it is
 added by Kulla and Conty's formula, with the albedos that Mitsuba's own ball shows in even light.
 Fails where the mean differs by 0.2 % or squares by 2 % (RMS). Where Mitsuba isn't installed (pip install
 mitsuba) it says so and ends with 77, as tests do that are skipped.
