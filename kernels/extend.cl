@@ -212,9 +212,9 @@ kernel void extend_paths(
     // Misses, last bounces and the rays sent themselves scatter nothing.
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyMap sky = VXL_SOUGHT_SKY;
-    const bool finds_light = VXL_SKY_RAYS ? true : table.count > 0u;
-    if (VXL_LOOKS && !VXL_DIRECT_ALONE && finds_light &&
-        lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
+    const bool knows_light = VXL_SKY_RAYS ? true : table.count > 0u;
+    const bool finds_light = VXL_DIRECT_ALONE ? false : knows_light;
+    if (VXL_LOOKS && finds_light && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
         const lane_int wanted =

@@ -105,8 +105,8 @@ static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch,
 
 /// VXL_PATH_DENSITY of rays that surfaces have scattered: 0 for those that no ray to a light could
 /// be, since these go by the shading normal.
-static inline lane_float shared_density(const ScatterPoint* p, const RayBatch* batch, uint first,
-                                        const Choice* way, const ScatteredWay* scattered) {
+static inline lane_float shared_density(const RayBatch* batch, uint first, const Choice* way,
+                                        const ScatteredWay* scattered) {
     lane_int shared = way->diffuse & scattered->is & ~scattered->moved & shares_light(batch, first);
     if (VXL_SHADING_NORMALS) {
         const Vector normal = load_vector(batch->shading, batch->stride, first);
@@ -132,7 +132,7 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
                   offset_origin(shape, p->position, side, batch->hits, batch->stride, first), side,
                   ahead);
     if (VXL_LOOKS) r->emitter = density_of(p, batch, first, way, scattered, r, shape.edge);
-    if (VXL_AREA_SHARES) r->density = shared_density(p, batch, first, way, scattered);
+    if (VXL_AREA_SHARES) r->density = shared_density(batch, first, way, scattered);
 }
 
 /// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
