@@ -9,7 +9,7 @@ typedef struct {
     lane_float x, y, z;
 } Vector;
 
-/// The same vector in all lanes.
+/// Repeats a vector in all lanes.
 static inline Vector vector_of(float4 v) {
     const Vector result = {(lane_float)v.x, (lane_float)v.y, (lane_float)v.z};
     return result;
