@@ -88,14 +88,19 @@ const std::vector<ShinyRoom> kShinyRooms = {
      }},
     {"soft cubes in grazing light",
      [](Json& s) {
+         s["objects"] = Json::array();
          add_thing(s,
                    {{"shape", "box"},
-                    {"size", {0.9, 0.1, 0.9}},
+                    {"size", {0.6, 0.1, 0.5}},
                     {"surface", "cubes"},
                     {"normals", "surface"}},
-                   "metal", {0, -0.25, 0}, {{"turn", {0, 0, 15}}});
-         s["lights"][0]["position"] = {0.4, 0.1, 0.4};
-         s["lights"][0]["direction"] = {-1, -0.3, -0.6};
+                   "metal", {0, -0.1, 0}, {{"turn", {0, 0, 15}}});
+         s["lights"] = {{{"type", "rectangle"},
+                         {"position", {1.25, 0.45, 0}},
+                         {"look_at", {0, -0.1, 0}},
+                         {"size", {0.75, 0.4}},
+                         {"intensity", 1.5}}};
+         send_rays(s, {-0.55, 0.03, 0}, {1, -0.23, 0}, 0.2, 24);
      }},
     {"frosted glass, and metal in coloured glass",
      [](Json& s) {
