@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // surface points of paths + a light with an area -> a queue of shadow rays to points of it, and the
-// light that paths which physically based surfaces scatter find where they run into it.
+// light that paths find where they run into it: those that come from mirrors, through glass and
+// from physically based surfaces.
 #include "lib/lanes/work_item.h"
 #include "lib/light/area_points.h"
 #include "lib/light/direct_light.h"
 #include "lib/light/paths.h"
+#include "lib/medium/sight_loss.h"
 
 /// Adds light number `number`: each surface point sends a shadow ray to a point of the light that
 /// the path's sample chooses, all of which are equally probable.
@@ -27,34 +29,54 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
     shine_from(&world, light, from, met_too, materials, &queue, &batch, first);
 }
 
+/// The share of a light that rays sent to it leave to paths that run into it, over its `area`: all
+/// where mirrors and glass scattered these last.
+static inline lane_float met_share(const RayBatch* batch, uint first, lane_uint state,
+                                   lane_float falloff, float area) {
+    const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
+    const lane_int alone = LANE_MASK(bounces > 0u) & LANE_MASK((state & VXL_STATE_DIFFUSE) == 0u);
+    lane_float share = (lane_float)0.0f;
+    if (VXL_AREA_SHARES) {
+        const lane_float density = path_float(batch->paths, VXL_PATH_DENSITY, batch->stride, first);
+        const lane_float likelier = fmin(density * falloff, (lane_float)1e30f);
+        share = exact_divide(likelier, fma(likelier, (lane_float)area, 1.0f));
+    }
+    return LANES_SELECT(alone, (lane_float)(1.0f / area), share);
+}
+
 /// Adds the light that paths find where they run into a light, before anything else, to that of
 /// the sight rays that they began as: the share that rays sent to the light leave to them.
 kernel void meet_area_light(PyramidShape shape, LightRecord light, LightAreaRecord area,
-                            VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS) {
+                            VXL_SURROUNDINGS_PARAMETERS, VXL_BATCH_PARAMETERS, uint count,
+                            VXL_NODE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;
     const NodeLight nodes = VXL_NODES;
-    const lane_float zero = (lane_float)0.0f;
-    const lane_float density = path_float(paths, VXL_PATH_DENSITY, stride, first);
-    lane_int met = below(first, count) & LANE_MASK(density > 0.0f);
-    if (!lanes_any(met)) return;
-    lane_float start = zero, travelled = zero;
-    if (VXL_TRANSMISSION) start = LANES_LOAD(batch.starts, first);
+    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
+    Segment way = whole_segment(&batch, first);
+    lane_float travelled = (lane_float)0.0f;
     if (VXL_TRAVELS) travelled = path_float(paths, VXL_PATH_TRAVELLED, stride, first);
-    const AreaMeeting m =
-        meet_area(light, area, shape.edge, load_vector(rays, stride, first),
-                  load_vector(rays + VXL_RAY_DX * stride, stride, first), travelled);
+    const AreaMeeting m = meet_area(light, area, shape.edge, way.origin, way.direction, travelled);
+    const lane_float share = met_share(&batch, first, state, m.falloff, area.axis_y.w);
     const lane_int open =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) == VXL_NO_VOXEL);
-    const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-    met &= m.met & LANE_MASK(m.t >= start) & (open | LANE_MASK(m.t < t_hit));
-    const lane_float likelier = fmin(density * m.falloff, (lane_float)1e30f);
-    const lane_float share = exact_divide(likelier, fma(likelier, (lane_float)area.axis_y.w, 1.0f));
+    const lane_int met = below(first, count) & m.met & LANE_MASK(share > 0.0f) &
+                         LANE_MASK(m.t >= way.t_first) & (open | LANE_MASK(m.t < way.t_last));
+    if (!lanes_any(met)) return;
+    lane_float left[3] = {(lane_float)1.0f, (lane_float)1.0f, (lane_float)1.0f};
+    if (VXL_ABSORBS) {
+        const Surroundings around = VXL_SURROUNDINGS;
+        lane_uint material = (lane_uint)0u;
+        if (VXL_TRANSMISSION) material = LANES_LOAD(inside, first);
+        way.t_last = LANES_SELECT(met, m.t, way.t_last);
+        let_through(shape, &around, &way, material, met, left);
+    }
     const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
     for (uint c = 0; c < 3; ++c) {
         const lane_float throughput = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
-        add_to_nodes(&nodes, c, met, target, throughput * share * (intensity[c] * 3.14159265f), 0);
+        add_to_nodes(&nodes, c, met, target,
+                     throughput * left[c] * share * (intensity[c] * 3.14159265f), 0);
     }
 }

@@ -4,7 +4,8 @@
 // Global light: an unbiased estimate of the light along each sight ray (Kajiya 1986). Lights are
 // sampled at every surface that a path meets; the sky and the background are what its rays run
 // into. Emission is found in both ways, which share it: lib/light/emission_share.h. So are lights
-// with an area by physically based surfaces: area_light.cl.
+// with an area by physically based surfaces, while mirrors and glass leave these to paths:
+// area_light.cl.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/layer.h"

@@ -8,6 +8,7 @@
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/medium/phase.h"
+#include "lib/medium/sight_loss.h"
 #include "lib/medium/veil.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
@@ -16,26 +17,6 @@
 lane_int followed_lanes(const RayBatch* batch, uint first, uint count) {
     return LANE_MASK(LANES_LOAD(batch->rays, VXL_RAY_END * batch->stride + first) >= 0.0f) &
            LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
-}
-
-/// The density of the medium of S times metres along each segment, and metres alone in objects.
-lane_float sight_depth(PyramidShape shape, const DensityView* density, const Segment* segment,
-                       lane_int active, lane_int in_object) {
-    lane_float depth = (lane_float)0.0f;
-    if (VXL_MEDIUM & !VXL_MEDIUM_COLORS)
-        depth = density_along(shape, density, segment, active & ~in_object);
-    if (VXL_TRANSMISSION && lanes_any(in_object))
-        depth = LANES_SELECT(in_object, length_in_world(shape, segment), depth);
-    return LANES_SELECT(active, depth * metres_per_t(shape.edge, segment->direction),
-                        (lane_float)0.0f);
-}
-
-/// What a material absorbs of a channel per metre.
-lane_float material_absorption(global const float* materials, lane_uint material,
-                               lane_int in_object, int channel) {
-    const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
-    return LANES_GATHER_FLOAT(
-        materials, (record + (uint)(VXL_MATERIAL_ABSORPTION + channel)) & LANES_AS_UINT(in_object));
 }
 
 /// The part of a channel's light that a medium of colours lets through. What is sent to emitters,
@@ -66,7 +47,8 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
     lane_uint material = (lane_uint)0u;
     if (VXL_TRANSMISSION) material = LANES_LOAD(inside, first);
     const lane_int in_object = LANE_MASK(material != 0u) & active;
-    const lane_float depth = sight_depth(shape, &density, &segment, active, in_object);
+    const lane_int open = VXL_MEDIUM_COLORS ? (lane_int)0 : active & ~in_object;
+    const lane_float depth = sight_depth(shape, &density, &segment, open, in_object);
     lane_float shows = (lane_float)1.0f;  // the medium's own light
     lane_int looks = (lane_int)0;
     if (VXL_LOOKS) {

@@ -147,7 +147,8 @@ Check in_range(double minimum, double maximum, Number number) {
             !text.empty() && *end == '\0' && value >= minimum && value <= maximum;
         // The parser would read a whole number that begins with 0 as octal.
         const size_t first = text.find_first_of("0123456789");
-        const bool is_octal = is_whole && first + 1 < text.size() && text[first] == '0';
+        const bool is_octal =
+            is_whole && first != std::string::npos && first + 1 < text.size() && text[first] == '0';
         if (is_number && ((is_whole && !is_octal) || number == Number::any)) return {};
         if (number == Number::whole)
             return fmt::format("{} isn't a whole number from {:.0f} to {:.0f} in digits",

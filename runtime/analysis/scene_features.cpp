@@ -106,9 +106,23 @@ bool scatters_paths(const Scene& scene, const Pyramid& world) {
     return has_scattering(scene) && !world.clear;
 }
 
-/// True if a light or an emissive object shines on something that isn't black.
+bool has_area_light(const Scene& scene) {
+    return std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return shines(light) && has_area(light); });
+}
+
+/// True if paths may come from mirrors or through glass to lights with an area.
+bool mirrors_lights(const Scene& scene, const Pyramid& world) {
+    return scene.render.light == LightMode::global && scene.render.bounces > 0 &&
+           has_area_light(scene) &&
+           std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
+               return (effects_of(*m) & (is_physical(*m) ? kRefracts : kReflects | kRefracts)) != 0;
+           });
+}
+
+/// True if a light or an emissive object shines on something that isn't black, or that mirrors it.
 bool lights_surfaces(const Scene& scene, const Pyramid& world) {
-    return (scatters_paths(scene, world) ||
+    return (scatters_paths(scene, world) || mirrors_lights(scene, world) ||
             std::ranges::any_of(shown_materials(scene, world), is_lit)) &&
            (std::ranges::any_of(scene.lights, shines) || has_sun(scene.world) ||
             has_sky_samples(scene) || has_emissive_samples(scene, world));
@@ -121,20 +135,14 @@ bool shows_mixed_mesh(const Scene& scene, const Pyramid& world) {
     });
 }
 
-/// Whether paths may run into lights, whose light they share with rays that are sent to these. They
-/// don't where rays to lights pass what paths don't, or what would have to dim these paths, too:
-/// they share no light inside of glass.
-bool runs_into_lights(const Scene& scene, const Pyramid& world, const Features& features) {
-    const bool has_veils =
-        features.voxel_opacity || features.texture_alpha ||
-        std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
-            return (effects_of(*m) & kIsSeenThrough) != 0;
-        });
-    return features.global && features.physical && features.area_samples &&
-           scene.render.bounces > 0 && features.shadows && !features.filtered_refraction &&
-           !features.medium && !(features.absorbs && has_veils) &&
-           std::ranges::any_of(scene.lights,
-                               [](const Light& light) { return shines(light) && has_area(light); });
+/// Adds the features of paths that run into lights with an area. They don't where rays to lights
+/// pass what paths don't. In a medium that scatters them, physically based surfaces leave lights to
+/// rays.
+void add_met_lights(const Scene& scene, const Pyramid& world, Features& features) {
+    if (!features.shadows || features.filtered_refraction || scene.render.bounces == 0) return;
+    features.area_shares = features.physical && has_area_light(scene) && !features.scattering &&
+                           emitter_feature(scene.render) != VXL_EMITTERS_RAYS;
+    features.meets_lights = features.area_shares || mirrors_lights(scene, world);
 }
 
 /// Adds the features of a sky.
@@ -153,9 +161,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.global = scene.render.light == LightMode::global;
     features.area_samples =
         lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
-                std::ranges::any_of(scene.lights, [](const Light& light) {
-                    return shines(light) && has_area(light);
-                }));
+                has_area_light(scene));
     if (has_emissive_object(scene, world)) features.emitters = emitter_feature(scene.render);
     features.scattering = scatters_paths(scene, world);
     features.near_light = features.scattering && has_placed_light(scene);
@@ -164,7 +170,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     features.medium_colors = features.medium && has_medium_colors(scene.world.medium);
     add_paths(scene, world, features);
-    features.area_shares = runs_into_lights(scene, world, features);
+    add_met_lights(scene, world, features);
     features.direct_alone = features.global && scene.render.direct_alone;
     const bool sends_on = features.shadows || features.paths;
     features.mixed = sends_on && features.triangles && shows_mixed_mesh(scene, world);

@@ -66,10 +66,11 @@ NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& d
 
 /// Adds the light of lights with an area that paths run into before they meet anything else.
 void Illumination::meet_lights(RayBatch& entries, uint32_t count, PathDepth& depth) {
-    if (!features_.area_shares) return;
+    if (!features_.meets_lights) return;
     for (const PathLight& light : lights_)
         if (light.area && light.area->axis_y.w > 0)
-            area_lighting_->meet(world_, light.record, *light.area, entries, count, depth.nodes);
+            area_lighting_->meet(world_, light.record, *light.area, surroundings_, entries, count,
+                                 depth.nodes);
 }
 
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills

@@ -115,9 +115,9 @@ Scene direct_light_of(const Scene& scene) {
     const RenderSettings& render = scene.render;
     const bool may_meet_lights =
         render.light == LightMode::global && render.shadows && !render.filtered_shadows &&
-        !has_scattering(scene) && scene.world.medium.absorption == glm::vec3(0) &&
+        !has_scattering(scene) &&
         std::ranges::any_of(scene.lights, [](const Light& light) { return has_area(light); }) &&
-        std::ranges::any_of(scene.materials, is_physical);
+        std::ranges::any_of(scene.materials, shows_lights);
     result.render.direct_alone = may_meet_lights;
     result.render.bounces = std::min(render.bounces, int(may_meet_lights));
     result.render.depth = 0;

@@ -43,9 +43,9 @@ Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.scattering = features.absorbs = false;
     features.filter = features.filtered_refraction = features.physical = false;
-    features.rough_glass = features.area_shares = features.direct_alone = false;
+    features.rough_glass = features.area_shares = features.meets_lights = false;
     features.sky = features.sky_rays = 0;
-    features.sky_hidden = false;
+    features.sky_hidden = features.direct_alone = false;
     return features;
 }
 

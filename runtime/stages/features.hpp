@@ -53,7 +53,8 @@ struct Features {
     bool rough_glass = false;        ///< ... and lets light through
     bool coat = false;               ///< ... or has a coat
     bool weak_facets = false;        ///< ... or reflects less than its index says
-    bool area_shares = false;        ///< ... and paths may run into a light with an area
+    bool area_shares = false;        ///< ... and shares lights with an area with rays to them
+    bool meets_lights = false;       ///< paths may run into a light with an area
     bool direct_alone = false;       ///< ... whose light is asked for alone, as they come to it
     bool lens = false;               ///< sight rays start all over a lens
     bool blades = false;             ///< ... that is a polygon

@@ -13,6 +13,7 @@
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/voxels/model_file.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
@@ -148,6 +149,25 @@ TEST_F(VoxelModels, ThatAreDamagedOrAnotherSurfaceAreRefusedInOneSentence) {
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::input) << i;
         }
+    }
+}
+
+// A fuzzer found that one without bricks was read.
+TEST_F(VoxelModels, WithoutVoxelsAreRefused) {
+    for (const Surface surface : {Surface::cubes, Surface::smooth}) {
+        voxelize_to("a", surface);
+        ModelFile file = read_model_file(folder / "a.vxm");
+        if (surface == Surface::cubes) {
+            ModelFile hollow = file;
+            std::ranges::fill(std::get<std::vector<uint64_t>>(hollow.arrays.at("occupancy")), 0);
+            write_model_file(folder / "hollow.vxm", hollow);
+            expect_refused("hollow.vxm", surface, "hollow.vxm: has no voxels to show");
+        }
+        std::ranges::fill(std::get<std::vector<uint32_t>>(file.arrays.at("slots")), kBrickInside);
+        for (const char* name : {"coordinates", "occupancy", "distance", "attributes"})
+            file.arrays.erase(name);
+        write_model_file(folder / "none.vxm", file);
+        expect_refused("none.vxm", surface, "none.vxm: has no voxels to show");
     }
 }
 

@@ -197,6 +197,11 @@ TEST_F(CliTest, StressTakesEachTestOnceHoweverItIsNamed) {
     EXPECT_EQ(run("stress --rays 1 --first 1e18").exit_code, 2);
     EXPECT_THAT(run("stress --rays 1 --first 1e18").err,
                 HasSubstr("a whole number from 0 to 1000000000000000000 in digits"));
+    for (const char* none : {"-", "+", "-+", "''"}) {
+        const ProgramResult refused = run(std::string("stress --rays 1 --first ") + none);
+        EXPECT_EQ(refused.exit_code, 2) << none;
+        EXPECT_THAT(refused.err, HasSubstr("isn't a whole number from 0")) << none;
+    }
 }
 
 TEST_F(CliTest, StressKnowsItsTests) {

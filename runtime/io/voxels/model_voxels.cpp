@@ -108,6 +108,7 @@ class ModelReader {
         model.slots = array<uint32_t>("slots", table, true);
         const auto stored = size_t(
             std::ranges::count_if(model.slots, [](uint32_t slot) { return slot < kBrickInside; }));
+        if (stored == 0) file_.refuse("has no voxels to show");
         check_stored_bricks(stored, file_);
         model.coordinates = array<uint32_t>("coordinates", stored, true);
         for (size_t slot = 0; slot < stored; ++slot) {
@@ -120,6 +121,7 @@ class ModelReader {
         model.occupancy =
             array<uint64_t>("occupancy", smooth ? 0 : stored * kLeavesPerBrick, !smooth);
         model.distance = array<int16_t>("distance", smooth ? stored * kVoxelsPerBrick : 0, smooth);
+        if (!smooth && model.voxels() == 0) file_.refuse("has no voxels to show");
         model.colors = array<uint32_t>("colors", stored * kVoxelsPerBrick, false);
         if (shows_voxels(model.surface))
             model.normals = array<uint32_t>("normals", stored * kVoxelsPerBrick, false);

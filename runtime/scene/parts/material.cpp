@@ -56,6 +56,10 @@ bool is_physical(const Material& material) {
            material.transmission || material.coat || material.coat_roughness;
 }
 
+bool shows_lights(const Material& material) {
+    return (effects_of(material) & (kReflects | kRefracts | kIsPhysical)) != 0;
+}
+
 bool is_weak(const Material& material) {
     return is_physical(material) && material.specular.value_or(1) < 1;
 }

@@ -74,6 +74,9 @@ uint32_t effects_of(const Material& material);
 
 bool is_physical(const Material& material);
 
+/// Whether paths that the surface scatters show lights: mirrors, glass, physically based ones.
+bool shows_lights(const Material& material);
+
 /// Whether a physically based surface reflects less than its index of refraction says.
 bool is_weak(const Material& material);
 

@@ -10,7 +10,7 @@ AreaLightStage::AreaLightStage(const Device& device, const Features& features,
     : materials_(materials),
       program_(device, "area_light.cl", features.defines(device)),
       add_(program_.kernel("add_area_light")) {
-    if (features.area_shares) meet_.emplace(program_.kernel("meet_area_light"));
+    if (features.meets_lights) meet_.emplace(program_.kernel("meet_area_light"));
 }
 
 void AreaLightStage::add(const Pyramid& pyramid, const LightRecord& light,
@@ -22,9 +22,9 @@ void AreaLightStage::add(const Pyramid& pyramid, const LightRecord& light,
 }
 
 void AreaLightStage::meet(const Pyramid& pyramid, const LightRecord& light,
-                          const LightAreaRecord& area, RayBatch& batch, uint32_t count,
-                          NodeLight& nodes) {
-    meet_->launch_packets(count, shape_of(pyramid), light, area, batch, count, nodes);
+                          const LightAreaRecord& area, const Surroundings& surroundings,
+                          RayBatch& batch, uint32_t count, NodeLight& nodes) {
+    meet_->launch_packets(count, shape_of(pyramid), light, area, surroundings, batch, count, nodes);
 }
 
 }  // namespace voxelume

@@ -28,9 +28,9 @@ class AreaLightStage {
              ShadowQueue& queue);
 
     /// Adds the light of those of rays 0 .. count-1 that run into it before their hits to their
-    /// nodes. Only for features with `area_shares`.
+    /// nodes. Only for features with `meets_lights`.
     void meet(const Pyramid& pyramid, const LightRecord& light, const LightAreaRecord& area,
-              RayBatch& batch, uint32_t count, NodeLight& nodes);
+              const Surroundings& surroundings, RayBatch& batch, uint32_t count, NodeLight& nodes);
 
   private:
     Buffer<MaterialRecord> materials_;
