@@ -12,35 +12,21 @@ added by Kulla and Conty's formula, with the albedos that Mitsuba's own ball sho
 Fails where the mean differs by 0.2 % or squares by 2 % (RMS). Where Mitsuba isn't installed (pip install
 mitsuba) it says so and ends with 77, as tests do that are skipped.
 """
-import json
 import math
-import pathlib
-import subprocess
 import sys
-import tempfile
+
+from peer_mitsuba import load_mitsuba, our_image, sensor
 
 SIZE = 128
 SQUARE = 4
 SAMPLES = 512
 MAX_MEAN, MAX_SQUARES = 0.002, 0.02
-SKIPPED = 77
 RADIUS, EYE, ANGLE, FAR = 0.5, 2.0, 30.0, 0.85
 LIGHT = {"y": 1.2, "size": 0.6, "radiance": 20.0}
 SKY = 0.2
 
 
-def find_mitsuba():
-    """Mitsuba with a variant of colours, and numpy; None without them."""
-    try:
-        import mitsuba
-        import numpy
-    except ImportError:
-        return None
-    mitsuba.set_variant("scalar_rgb")
-    return mitsuba, numpy
-
-
-def our_image(mi, np, voxelume, roughness, samples, is_object):
+def our_ball(mi, np, voxelume, roughness, samples, is_object):
     """The ball's light in this program. The lamp hides the sky behind it, as Mitsuba's does; one of
     `lights` shines on top of it instead."""
     thin = 1e-4
@@ -66,15 +52,7 @@ def our_image(mi, np, voxelume, roughness, samples, is_object):
         scene["lights"] = [{"type": "rectangle", "position": [0, LIGHT["y"], 0],
                             "direction": [0, -1, 0], "size": [LIGHT["size"]] * 2,
                             "intensity": radiance * LIGHT["size"] ** 2 / math.pi}]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        (folder / "scene.json").write_text(json.dumps(scene))
-        subprocess.run([voxelume, "render", str(folder / "scene.json"), "-o",
-                        str(folder / "ours.exr"), "--channels", "RGBA", "-q"], check=True)
-        bitmap = mi.Bitmap(str(folder / "ours.exr"))
-        names = [field.name for field in bitmap.struct_()]
-        values = np.array(bitmap).astype(float)
-        return np.stack([values[:, :, names.index(c)] for c in "RGB"], axis=-1)
+    return our_image(mi, np, voxelume, scene)
 
 
 def mitsuba_image(mi, np, roughness, samples, is_furnace):
@@ -92,12 +70,7 @@ def mitsuba_image(mi, np, roughness, samples, is_furnace):
         "ball": {"type": "sphere", "radius": RADIUS,
                  "bsdf": {"type": "roughconductor", "material": "none", "distribution": "ggx",
                           "alpha": roughness ** 2}},
-        "sensor": {"type": "perspective", "fov": ANGLE,
-                   "to_world": mi.ScalarTransform4f().look_at(
-                       origin=[0, 0, -EYE], target=[0, 0, 0], up=[0, 1, 0]),
-                   "sampler": {"type": "independent", "sample_count": samples},
-                   "film": {"type": "hdrfilm", "width": SIZE, "height": SIZE,
-                            "rfilter": {"type": "box"}}},
+        "sensor": sensor(mi, SIZE, samples, [0, 0, -EYE], [0, 0, 0], ANGLE),
     }
     if is_furnace:
         del scene["light"]
@@ -168,7 +141,7 @@ def compare(mi, np, voxelume, roughness, samples):
     are_close = True
     for is_object in (True, False):
         ours = squares_on_ball(
-            np, our_image(mi, np, voxelume, roughness, samples, is_object))
+            np, our_ball(mi, np, voxelume, roughness, samples, is_object))
         mean = float(ours.mean() / theirs.mean() - 1)
         each = np.abs(ours / theirs - 1)
         rms = float(np.sqrt((each ** 2).mean()))
@@ -181,11 +154,8 @@ def compare(mi, np, voxelume, roughness, samples):
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    found = find_mitsuba()
-    if not found:
-        print("Mitsuba isn't installed: pip install mitsuba")
-        sys.exit(SKIPPED)
     samples = int(sys.argv[2]) if len(sys.argv) == 3 else SAMPLES
+    found = load_mitsuba()
     results = [compare(*found, sys.argv[1], roughness, samples) for roughness in (0.15, 0.3)]
     sys.exit(0 if all(results) else 1)
 

@@ -9,30 +9,16 @@ here and by Mitsuba's path integrator (envmap, diffuse), and compares squares of
 where the mean differs by 0.2 % or squares by 2 % (RMS). Where Mitsuba isn't installed (pip install
 mitsuba) it says so and ends with 77, as tests do that are skipped.
 """
-import json
 import math
-import pathlib
-import subprocess
 import sys
-import tempfile
+
+from peer_mitsuba import load_mitsuba, our_image, sensor, squares_of
 
 SIZE, SQUARE, BOUNCES = 96, 8, 3
 WIDTH, HEIGHT = 1024, 512
 MAX_MEAN, MAX_SQUARES = 0.002, 0.02
-SKIPPED = 77
 EYE, TARGET, ANGLE = [0.4, 1.1, -2.2], [0, 0.3, 0], 45.0
 SUN, SUN_WIDTH = (0.5, 0.6, -0.62), 0.06
-
-
-def find_mitsuba():
-    """Mitsuba with a variant of colours, and numpy; None without them."""
-    try:
-        import mitsuba
-        import numpy
-    except ImportError:
-        return None
-    mitsuba.set_variant("scalar_rgb")
-    return mitsuba, numpy
 
 
 def sky(np, rows):
@@ -49,7 +35,7 @@ def sky(np, rows):
                     axis=-1).astype(np.float32)
 
 
-def our_image(mi, np, voxelume, samples):
+def our_ball(mi, np, voxelume, samples):
     """The scene in this program."""
     scene = {
         "voxelume": 1,
@@ -64,16 +50,9 @@ def our_image(mi, np, voxelume, samples):
                      "display": {"shape": "pyramid", "angle": ANGLE}},
         "render": {"size": [SIZE, SIZE], "samples": samples, "light": "global", "bounces": BOUNCES},
     }
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    def write_sky(folder):
         mi.Bitmap(sky(np, (np.arange(HEIGHT) + 0.5) / HEIGHT)).write(str(folder / "sky.exr"))
-        (folder / "scene.json").write_text(json.dumps(scene))
-        subprocess.run([voxelume, "render", str(folder / "scene.json"), "-o",
-                        str(folder / "ours.exr"), "--channels", "RGBA", "-q"], check=True)
-        bitmap = mi.Bitmap(str(folder / "ours.exr"))
-        names = [field.name for field in bitmap.struct_()]
-        values = np.array(bitmap).astype(float)
-        return np.stack([values[:, :, names.index(c)] for c in "RGB"], axis=-1)
+    return our_image(mi, np, voxelume, scene, write_sky)
 
 
 def mitsuba_image(mi, np, samples):
@@ -90,32 +69,18 @@ def mitsuba_image(mi, np, samples):
                   "to_world": place().translate([0, -0.05, 0]) @ place().scale([1, 0.05, 1])},
         "ball": {"type": "sphere", "radius": 0.4, "center": [0, 0.45, 0],
                  "bsdf": matt([0.3, 0.6, 0.8])},
-        "sensor": {"type": "perspective", "fov": ANGLE,
-                   "to_world": place().look_at(origin=EYE, target=TARGET, up=[0, 1, 0]),
-                   "sampler": {"type": "independent", "sample_count": samples},
-                   "film": {"type": "hdrfilm", "width": SIZE, "height": SIZE,
-                            "rfilter": {"type": "box"}}},
+        "sensor": sensor(mi, SIZE, samples, EYE, TARGET, ANGLE),
     }
     return np.array(mi.render(mi.load_dict(scene))).astype(float)[:, :, :3]
-
-
-def squares(np, image):
-    """The means of the picture's squares."""
-    parts = SIZE // SQUARE
-    return image.reshape(parts, SQUARE, parts, SQUARE, 3).mean(axis=(1, 3))
 
 
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    found = find_mitsuba()
-    if not found:
-        print("Mitsuba isn't installed: pip install mitsuba")
-        sys.exit(SKIPPED)
-    mi, np = found
+    mi, np = load_mitsuba()
     samples = int(sys.argv[2]) if len(sys.argv) == 3 else 256
-    ours = squares(np, our_image(mi, np, sys.argv[1], samples))
-    theirs = squares(np, mitsuba_image(mi, np, samples))
+    ours = squares_of(our_ball(mi, np, sys.argv[1], samples), SQUARE)
+    theirs = squares_of(mitsuba_image(mi, np, samples), SQUARE)
     mean = float(ours.mean() / theirs.mean() - 1)
     each = np.abs(ours / theirs - 1)
     rms = float(np.sqrt((each ** 2).mean()))
