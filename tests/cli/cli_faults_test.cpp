@@ -4,6 +4,7 @@
 // call and makes the same file.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
@@ -20,17 +21,24 @@ class CliFaultsTest : public SceneProgramTest {
                                     environment, command_));
     }
 
-    /// How often each function is called.
-    std::map<std::string, long> counts() const {
-        const ProgramResult result = render("VXL_FAULT_COUNTS=counts");
+    /// The numbers of each function's calls that are to fail.
+    std::map<std::string, std::vector<long>> calls() const {
+        const ProgramResult result = render("VXL_FAULT_COUNTS=counts VXL_FAULT_SITES=sites");
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        std::ifstream file(folder / "counts");
-        std::map<std::string, long> counts;
+        std::map<std::string, std::vector<long>> calls;
         std::string name;
-        for (long count = 0; file >> name >> count;) counts[name] = count;
-        std::filesystem::remove(folder / "counts");
-        EXPECT_GT(counts["clEnqueueNDRangeKernel"], 0);
-        return counts;
+        std::ifstream counts(folder / "counts"), sites(folder / "sites");
+        for (long count = 0; counts >> name >> count;) calls[name] = {1, (count + 1) / 2, count};
+        EXPECT_TRUE(calls.contains("clEnqueueNDRangeKernel"));
+        if (is_exhaustive())
+            for (long number = 0; sites >> name >> number;) calls[name].push_back(number);
+        for (const char* file : {"counts", "sites"}) std::filesystem::remove(folder / file);
+        for (auto& [function, numbers] : calls) {
+            if (!is_exhaustive()) continue;
+            std::ranges::sort(numbers);
+            numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+        }
+        return calls;
     }
 
     std::map<std::string, std::string> files() const {
@@ -67,8 +75,9 @@ class CliFaultsTest : public SceneProgramTest {
     }
 
     /// Has calls of all functions fail: of every other one the first, the last or one between by
-    /// turns; in an exhaustive run of each one all three and some forty others, each with all
-    /// statuses.
+    /// turns; in an exhaustive run of each one all three and the first from each place that calls
+    /// it, each with all statuses; of those that set an argument, which one function does for
+    /// hundreds of places, each with one status.
     void expect_all_handled(const std::string& arguments, size_t turn) {
         command_ = "render scene.json --no-cache " + arguments;
         remove_files();
@@ -77,20 +86,24 @@ class CliFaultsTest : public SceneProgramTest {
         ASSERT_FALSE(expected.empty());
         // Faults of memory, of a dead queue, of an event, and one that no list has.
         const std::vector statuses = {-5, -6, -4, -36, -14, -9999};
-        for (const auto& [function, count] : counts()) {
+        long tried = 0;
+        for (const auto& [function, numbers] : calls()) {
             // By default each render has every other function fail, which differ by its turn.
             if (!is_exhaustive() && turn % 2 != 0) {
                 ++turn;
                 continue;
             }
-            std::vector<long> numbers = {1, (count + 1) / 2, count};
-            if (is_exhaustive())
-                for (long i = 2; i < count; i = i + 1 + count / 40) numbers.push_back(i);
             for (const long number : in_turn(numbers, turn))
-                for (const int status : in_turn(statuses, turn))
+                for (const int status :
+                     function == "clSetKernelArg"
+                         ? std::vector{statuses[size_t(number) % statuses.size()]}
+                         : in_turn(statuses, turn)) {
                     expect_handled(function, number, status, expected);
+                    ++tried;
+                }
             ++turn;
         }
+        fmt::print("{} faults tried\n", tried);
     }
 
   private:

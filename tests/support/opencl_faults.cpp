@@ -5,11 +5,13 @@
 // VXL_FAULT=NAME:N:CODE has the N-th call of the function NAME (from 1 on) do nothing and return
 // the status CODE; with `hang` for a code it never returns. VXL_FAULT=clEnqueueReadBuffer:N:wrong
 // has the N-th reading give another first bit than was there. VXL_FAULT_COUNTS=FILE writes the
-// number of calls of each function to FILE when a program ends that made some.
+// number of calls of each function to FILE when a program ends that made some, and
+// VXL_FAULT_SITES=FILE the numbers of the first calls from each place: a place is a stack of calls.
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_1_APIS
 #include <CL/cl.h>
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -18,7 +20,10 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -48,12 +53,8 @@ class Calls {
   public:
     ~Calls() {
         if (counts_.empty()) return;  // of `timeout`, which ends after the program that it starts
-        const char* const file = std::getenv("VXL_FAULT_COUNTS");
-        FILE* const out = file ? std::fopen(file, "w") : nullptr;
-        if (!out) return;
-        for (const auto& [name, count] : counts_)
-            std::fprintf(out, "%s %ld\n", name.c_str(), count);
-        std::fclose(out);
+        write(std::getenv("VXL_FAULT_COUNTS"), counts_);
+        write(sites_file_, sites_);
     }
 
     /// Counts a call. Returns the status with which it is to fail, if it is.
@@ -62,6 +63,7 @@ class Calls {
         {
             const std::lock_guard lock(mutex_);
             is_it = ++counts_[name] == fault_.number && fault_.name == name;
+            if (sites_file_ && is_new_place(name)) sites_.emplace_back(name, counts_[name]);
         }
         if (!is_it) return std::nullopt;
         while (fault_.hangs) pause();
@@ -69,8 +71,26 @@ class Calls {
     }
 
   private:
+    /// Writes lines of a function's name and a number.
+    template <class Rows>
+    static void write(const char* file, const Rows& rows) {
+        FILE* const out = file ? std::fopen(file, "w") : nullptr;
+        if (!out) return;
+        for (const auto& [name, number] : rows) std::fprintf(out, "%s %ld\n", name.c_str(), number);
+        std::fclose(out);
+    }
+
+    bool is_new_place(const char* name) {
+        std::vector<void*> stack(64);
+        stack.resize(size_t(backtrace(stack.data(), int(stack.size()))));
+        return places_[name].insert(std::move(stack)).second;
+    }
+
     std::mutex mutex_;
     std::map<std::string, long> counts_;
+    std::vector<std::pair<std::string, long>> sites_;
+    std::map<std::string, std::set<std::vector<void*>>> places_;
+    const char* const sites_file_ = std::getenv("VXL_FAULT_SITES");
     const Fault fault_ = requested_fault();
 };
 
