@@ -145,8 +145,9 @@ static inline lane_int keep_some(lane_float chance, lane_uint bounces, lane_floa
     const lane_float one = (lane_float)1.0f;
     const lane_float brings = largest(throughput);
     const lane_int asked = LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES) & LANE_MASK(brings < 1.0f);
-    const lane_int stays = LANE_MASK(brings > 0.0f) & (LANE_MASK(chance < brings) | ~asked);
-    const lane_float scale = exact_reciprocal(LANES_SELECT(stays & asked, brings, one));
+    const lane_float stay = chance_to_go_on(brings);
+    const lane_int stays = LANE_MASK(brings > 0.0f) & (LANE_MASK(chance < stay) | ~asked);
+    const lane_float scale = exact_reciprocal(LANES_SELECT(stays & asked, stay, one));
     for (int c = 0; c < 3; ++c) throughput[c] *= scale;
     return stays;
 }

@@ -71,6 +71,6 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 #define VXL_DECISION_LIGHT 2u               // and after it one for each light: where on it
 
 // The number of scatterings after which roulette may end a path.
-#define VXL_ROULETTE_BOUNCES 2u
+#define VXL_ROULETTE_BOUNCES 3u
 
 #endif

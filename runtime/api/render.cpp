@@ -109,7 +109,8 @@ class Run {
         const CompilerWatch watch(devices_, api::callback(options_.compiling));
         const BatchOutcome outcome = render_frames(
             devices_, scene_, batch_options(), [this](const FrameResult& result) { take(result); });
-        for (const Device& device : devices_) device.finish();
+        if (options_.time_kernels)
+            for (const Device& device : devices_) device.finish();
         if (outcome.is_cancelled)
             throw v1::Error(v1::ErrorKind::cancelled,
                             fmt::format("cancelled after {} of {} frames", outcome.frames_done,

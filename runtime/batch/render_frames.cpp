@@ -64,7 +64,6 @@ class Batch {
                                : bands_.are_one() ? run_image_parts()
                                                   : run_image_bands();
         outcome.bands = bands_.count;
-        for (const Device& device : devices_) device.finish();
         outcome.is_cancelled = outcome.frames_done < options_.frames.size();
         if (options_.warn && !outcome.is_cancelled)
             warnings_->end(scene_, options_.frames, options_.is_part);

@@ -90,11 +90,12 @@ static inline Choice choose_way(const Lobes* l, const lane_float* throughput, Sq
         c.throughput[i] = throughput[i] * LANES_SELECT(c.diffuse, l->diffuse[i] * per_diffuse, all);
     const lane_float brings = largest(c.throughput);
     const lane_int ends = roulette & ~c.straight & LANE_MASK(brings < 1.0f);
-    const lane_int stays = LANE_MASK(p.y < brings) | ~ends;
+    const lane_float stay = chance_to_go_on(brings);
+    const lane_int stays = LANE_MASK(p.y < stay) | ~ends;
     c.diffuse &= stays, c.reflected &= stays, c.refracted &= stays;
     const lane_int some = ends & LANE_MASK(brings > 0.0f);
     const lane_float scale =
-        LANES_SELECT(some, exact_reciprocal(LANES_SELECT(some, brings, one)), one);
+        LANES_SELECT(some, exact_reciprocal(LANES_SELECT(some, stay, one)), one);
     for (int i = 0; i < 3; ++i) c.throughput[i] *= scale;
     const lane_int lives = LANE_MASK(brings > zero);
     c.diffuse &= lives, c.reflected &= lives, c.refracted &= lives, c.straight &= lives;

@@ -58,6 +58,12 @@ static inline lane_float largest(const lane_float* value) {
     return fmax(value[0], fmax(value[1], value[2]));
 }
 
+/// The chance that a path goes on which can still bring this share of a light. Its root weighs the
+/// time that a path takes against the noise that its end makes.
+static inline lane_float chance_to_go_on(lane_float brings) {
+    return exact_sqrt(fmin(brings, 1.0f));
+}
+
 static inline lane_int below(uint first, uint count) {
     return LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
 }
