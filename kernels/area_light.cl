@@ -41,7 +41,7 @@ static inline lane_float met_share(const RayBatch* batch, uint first, lane_uint 
         const lane_float likelier = fmin(density * falloff, (lane_float)1e30f);
         share = exact_divide(likelier, fma(likelier, (lane_float)area, 1.0f));
     }
-    return LANES_SELECT(alone, (lane_float)(1.0f / area), share);
+    return LANES_SELECT(alone, exact_reciprocal((lane_float)area), share);
 }
 
 /// Adds the light that paths find where they run into a light, before anything else, to that of

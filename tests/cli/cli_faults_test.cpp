@@ -4,9 +4,9 @@
 // call and makes the same file.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "tests/cli/scene_program.hpp"
 #include "tests/support/exhaustive.hpp"
@@ -21,22 +21,23 @@ class CliFaultsTest : public SceneProgramTest {
                                     environment, command_));
     }
 
-    /// The numbers of each function's calls that are to fail.
-    std::map<std::string, std::vector<long>> calls() const {
+    using Numbers = std::vector<long>;
+
+    /// The numbers of each function's calls that are to fail, in an exhaustive run in their order.
+    std::map<std::string, Numbers> calls() const {
         const ProgramResult result = render("VXL_FAULT_COUNTS=counts VXL_FAULT_SITES=sites");
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        std::map<std::string, std::vector<long>> calls;
+        std::map<std::string, Numbers> calls;
         std::string name;
         std::ifstream counts(folder / "counts"), sites(folder / "sites");
         for (long count = 0; counts >> name >> count;) calls[name] = {1, (count + 1) / 2, count};
         EXPECT_TRUE(calls.contains("clEnqueueNDRangeKernel"));
-        if (is_exhaustive())
-            for (long number = 0; sites >> name >> number;) calls[name].push_back(number);
         for (const char* file : {"counts", "sites"}) std::filesystem::remove(folder / file);
+        if (!is_exhaustive()) return calls;
+        for (long number = 0; sites >> name >> number;) calls[name].push_back(number);
         for (auto& [function, numbers] : calls) {
-            if (!is_exhaustive()) continue;
-            std::ranges::sort(numbers);
-            numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+            const std::set<long> each(numbers.begin(), numbers.end());
+            numbers.assign(each.begin(), each.end());
         }
         return calls;
     }
