@@ -144,7 +144,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
         const bool is_absent =
             is_global ? name == std::string("VXL_TINTED") : of_global.contains(name);
         // Displays alone ask for the own light of surfaces, and passes for direct light alone; in a
-        // medium paths run into no lights.
+        // medium that scatters, physically based surfaces leave lights to rays.
         const std::set<std::string> of_others = {"VXL_OWN_LIGHT", "VXL_AREA_SHARES",
                                                  "VXL_DIRECT_ALONE"};
         EXPECT_TRUE(value != 0 || is_absent || name == "VXL_NATIVE_DIVIDE" ||
