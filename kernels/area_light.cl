@@ -29,8 +29,8 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
     shine_from(&world, light, from, met_too, materials, &queue, &batch, first);
 }
 
-/// The share of a light that rays sent to it leave to paths that run into it, over its `area`: all
-/// where mirrors and glass scattered these last.
+/// The part of a light, per square metre of its `area`, that paths bring which run into it: what
+/// rays sent to the light leave to them, and the whole light behind mirrors and glass.
 static inline lane_float met_share(const RayBatch* batch, uint first, lane_uint state,
                                    lane_float falloff, float area) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;

@@ -55,7 +55,7 @@ struct Features {
     bool weak_facets = false;        ///< ... or reflects less than its index says
     bool area_shares = false;        ///< ... and shares lights with an area with rays to them
     bool meets_lights = false;       ///< paths may run into a light with an area
-    bool direct_alone = false;       ///< ... whose light is asked for alone, as they come to it
+    bool direct_alone = false;       ///< light that comes straight from lights is asked for alone
     bool lens = false;               ///< sight rays start all over a lens
     bool blades = false;             ///< ... that is a polygon
     int emitters = 0;                ///< VXL_EMITTERS_*: how paths find emissive surfaces
