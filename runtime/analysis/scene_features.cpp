@@ -106,15 +106,9 @@ bool scatters_paths(const Scene& scene, const Pyramid& world) {
     return has_scattering(scene) && !world.clear;
 }
 
-bool has_area_light(const Scene& scene) {
-    return std::ranges::any_of(scene.lights,
-                               [](const Light& light) { return shines(light) && has_area(light); });
-}
-
 /// True if paths may come from mirrors or through glass to lights with an area.
 bool mirrors_lights(const Scene& scene, const Pyramid& world) {
-    return scene.render.light == LightMode::global && scene.render.bounces > 0 &&
-           has_area_light(scene) &&
+    return may_meet_lights(scene) &&
            std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
                return (effects_of(*m) & (is_physical(*m) ? kRefracts : kReflects | kRefracts)) != 0;
            });
@@ -135,12 +129,11 @@ bool shows_mixed_mesh(const Scene& scene, const Pyramid& world) {
     });
 }
 
-/// Adds the features of paths that run into lights with an area. They don't where rays to lights
-/// pass what paths don't. In a medium that scatters them, physically based surfaces leave lights to
-/// rays.
+/// Adds the features of paths that run into lights with an area. In a medium that scatters them,
+/// physically based surfaces leave lights to rays.
 void add_met_lights(const Scene& scene, const Pyramid& world, Features& features) {
-    if (!features.shadows || features.filtered_refraction || scene.render.bounces == 0) return;
-    features.area_shares = features.physical && has_area_light(scene) && !features.scattering &&
+    if (!features.shadows || !may_meet_lights(scene)) return;
+    features.area_shares = features.physical && !features.scattering &&
                            emitter_feature(scene.render) != VXL_EMITTERS_RAYS;
     features.meets_lights = features.area_shares || mirrors_lights(scene, world);
 }

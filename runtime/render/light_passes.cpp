@@ -109,17 +109,13 @@ Scene white_surfaces(const Scene& scene, bool with_shadows) {
 
 /// The light that comes to the first surface without another one on its way. Where paths may run
 /// into lights, they are followed until then, as those of all light are, so that the two differ by
-/// the rest of the light alone.
+/// the rest of the light alone; but not through a medium that scatters them.
 Scene direct_light_of(const Scene& scene) {
     Scene result = colors_of(scene);
-    const RenderSettings& render = scene.render;
-    const bool may_meet_lights =
-        render.light == LightMode::global && render.shadows && !render.filtered_shadows &&
-        !has_scattering(scene) &&
-        std::ranges::any_of(scene.lights, [](const Light& light) { return has_area(light); }) &&
-        std::ranges::any_of(scene.materials, shows_lights);
-    result.render.direct_alone = may_meet_lights;
-    result.render.bounces = std::min(render.bounces, int(may_meet_lights));
+    const bool meets_lights = may_meet_lights(scene) && !has_scattering(scene) &&
+                              std::ranges::any_of(scene.materials, shows_lights);
+    result.render.direct_alone = meets_lights;
+    result.render.bounces = int(meets_lights);
     result.render.depth = 0;
     return result;
 }

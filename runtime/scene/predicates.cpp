@@ -113,6 +113,21 @@ bool has_area(const Light& light) {
     return type_of(light).area != nullptr;
 }
 
+bool has_area_light(const Scene& scene) {
+    return std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return shines(light) && has_area(light); });
+}
+
+bool may_meet_lights(const Scene& scene) {
+    const RenderSettings& render = scene.render;
+    const bool shadows_let_light_through =
+        render.filtered_shadows && std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return transmits(scene, object);
+        });
+    return render.light == LightMode::global && render.bounces > 0 && render.shadows &&
+           !shadows_let_light_through && has_area_light(scene);
+}
+
 bool shows_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);

@@ -60,6 +60,13 @@ bool has_placed_light(const Scene& scene);
 /// Whether it shines from an area, not from one point or direction.
 bool has_area(const Light& light);
 
+/// Whether a light shines from an area.
+bool has_area_light(const Scene& scene);
+
+/// Whether paths may count lights with an area that they run into. They don't where rays to lights
+/// pass what paths don't pass: everything, without shadows, or transmitting objects.
+bool may_meet_lights(const Scene& scene);
+
 /// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
 bool shows_inside(const Scene& scene, const Object& object);
 

@@ -162,8 +162,9 @@ TEST(MetLights, AMirrorShowsTheLightsOwnRadiance) {
 }
 
 TEST(MetLights, AreDirectLightOfAMirrorAlone) {
-    const auto light_of = [](const char* material) {
+    const auto light_of = [](const char* material, bool is_filtered = false) {
         Json json = lit_by(plate_room(16), true);
+        if (is_filtered) json["render"]["shadow"] = "filtered";
         add_thing(json, glass_ball("exact"), material, {0, -0.1, 0.1});
         send_rays(json, {0, 0.38, -0.42}, {0, -0.68, 0.6}, 0.34, 24);
         Scene scene = parse_scene(json.dump(), "met lights", {});
@@ -183,6 +184,7 @@ TEST(MetLights, AreDirectLightOfAMirrorAlone) {
     const auto [mirrored, around] = light_of("mirror");
     EXPECT_NEAR(mirrored, kPlateRadiance, 0.1);
     EXPECT_LT(around, kPlateRadiance / 2);
+    EXPECT_EQ(light_of("mirror", true), std::pair(mirrored, around));
     // Behind the first surface of glass there is a second one.
     const auto [reflected, thrown] = light_of("glass");
     EXPECT_LT(reflected, kPlateRadiance / 8);
@@ -216,6 +218,9 @@ TEST(MetLights, AreLeftOutWhereNoPathRunsIntoOne) {
     add_thing(filtered, glass_ball("exact"), "glass", {0, -0.1, 0.1});
     filtered["render"]["shadow"] = "filtered";
     EXPECT_EQ(meetings_of(filtered), 0u);
+    // They let nothing through where nothing transmits light.
+    filtered["objects"].back()["material"] = "mirror";
+    EXPECT_GT(meetings_of(filtered), 0u);
 }
 
 TEST(MetLights, HaveTheSameBitsOnAnyNumberOfLanes) {
