@@ -114,19 +114,24 @@ std::string textured_tetrahedron() {
     return writer.gltf();
 }
 
-class AllFeatures : public FileTest, public testing::WithParamInterface<const char*> {
+class FilesOfAllFeatures : public FileTest {
   protected:
-    Scene scene_here() const {
+    Scene scene_in(const char* light) const {
         put_bytes(folder / "m.gltf", textured_tetrahedron());
         write_fog(folder / "fog.vdb");
         put_bytes(folder / "around.hdr",
                   "#?RADIANCE\n\n-Y 1 +X 2\n\x40\x50\x60\x80\x20\x20\x20\x80");
         write_obj(folder / "fin.obj", finned_ball(0.02, 0.6, 24));
-        Scene scene = parse_scene(scene_text(GetParam()), folder / "s.json", {});
+        Scene scene = parse_scene(scene_text(light), folder / "s.json", {});
         const auto finned = std::ranges::find(scene.models, "finned", &Model::name);
         finned->thin_edge = 0.1;  // its fin is exact
         return scene;
     }
+};
+
+class AllFeatures : public FilesOfAllFeatures, public testing::WithParamInterface<const char*> {
+  protected:
+    Scene scene_here() const { return scene_in(GetParam()); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Lights, AllFeatures, testing::Values("local", "global"));
@@ -195,6 +200,33 @@ TEST_P(AllFeatures, HaveTheSameBitsOnAnyNumberOfLanes) {
     const uint64_t expected = hash_on(shared_device());
     for (const int lanes : in_turn(others, is_global ? 1 : 2))
         EXPECT_EQ(hash_on(test_device(lanes)), expected) << lanes;
+}
+
+/// Where no medium scatters paths and shadows let nothing through, physically based surfaces share
+/// lights with rays.
+TEST_F(FilesOfAllFeatures, AreThereWithLightsThatPathsMeet) {
+    Scene scene = scene_in("global");
+    scene.world.medium.scattering = {0, 0, 0};
+    scene.render.filtered_shadows = false;
+    const Device& device = shared_device();
+    RenderReport report;
+    const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
+    const std::set<std::string> shown = {"VXL_AREA_SHARES", "VXL_EMITTERS", "VXL_PHYSICAL",
+                                         "VXL_ROUGH_GLASS", "VXL_SKY_RAYS", "VXL_COAT",
+                                         "VXL_INSTANCES",   "VXL_TEXTURES"};
+    size_t found = 0;
+    for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device)) {
+        found += shown.contains(name);
+        EXPECT_TRUE(value != 0 || !shown.contains(name)) << name;
+    }
+    EXPECT_EQ(found, shown.size());
+    device.counters().launches.clear();
+    const Image image = Renderer(device, false).new_image(scene, world, report);
+    EXPECT_GT(device.counters().launches["meet_area_light"], 0u);
+    EXPECT_EQ(report.not_finite, 0u);
+    const int lanes = device.lanes() == 4 ? 8 : 4;
+    EXPECT_EQ(oracle::image_hash(render(test_device(lanes), scene, report)),
+              oracle::image_hash(image));
 }
 
 }  // namespace
