@@ -126,6 +126,19 @@ TEST_F(CliContinueTest, TakesTheFilesOfFrames) {
                           fmt::format("more.{:04}.exr", frame));
 }
 
+TEST_F(CliContinueTest, GoesOnWithTheWaysOfThings) {
+    write_scene([](Json& scene) {
+        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [{
+            "target": "objects[0].position", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                      {"frame": 2, "value": [0.3, 0.1, 0]}]}]})");
+    });
+    const std::string options = "--frames 1 --channels RGBA,P,objectId,motion ";
+    render(options + "--samples 2 -o two.####.exr");
+    render(options + "--samples 8 -o eight.####.exr");
+    render(options + "--samples 8 -o more.####.exr --continue two.####.exr");
+    expect_same_files("eight.0001.exr", "more.0001.exr");
+}
+
 TEST_F(CliContinueTest, GoesOnByNoiseWhereTilesNeedIt) {
     const std::string line = "--light global --channels RGBA,Z,samples,noise -o ";
     render(line + "much.exr --samples 64 --noise 0.2");
