@@ -161,6 +161,12 @@ static inline void send_on(PyramidShape shape, const Surroundings* around, const
     put_rays(queue, &ray, &slots);
 }
 
+/// Whether paths can send rays to light: that of the sky, or of an emitter.
+static inline bool finds_light(const Emitters* table) {
+    const bool knows_light = VXL_SKY_RAYS ? true : table->count > 0u;
+    return VXL_DIRECT_ALONE ? false : knows_light;
+}
+
 /// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
 /// and sends each path on along one way, unless it ends, and a ray to an emitter. `entries` of the
 /// batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
@@ -180,8 +186,7 @@ kernel void extend_paths(
     const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
     const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
     lane_float throughput[3];
-    for (uint c = 0; c < 3; ++c)
-        throughput[c] = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
+    load_throughput(paths, stride, first, throughput);
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     const lane_int adds = VXL_DIRECT_ALONE ? valid & LANE_MASK(bounces == 0u) : valid;
     add_path_light(&batch, first, adds, is_first, &nodes, target, throughput);
@@ -213,9 +218,7 @@ kernel void extend_paths(
     // Misses, last bounces and the rays sent themselves scatter nothing.
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyMap sky = VXL_SOUGHT_SKY;
-    const bool knows_light = VXL_SKY_RAYS ? true : table.count > 0u;
-    const bool finds_light = VXL_DIRECT_ALONE ? false : knows_light;
-    if (VXL_LOOKS && finds_light && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
+    if (VXL_LOOKS && finds_light(&table) && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
         const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
         NewRays ray;
         const lane_int wanted =

@@ -46,8 +46,7 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
 
     const lane_float depth = flight.depth * metres;
     lane_float throughput[3];
-    for (uint c = 0; c < 3; ++c)
-        throughput[c] = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
+    load_throughput(paths, stride, first, throughput);
     weigh_colors(&medium, depth, flight.ends, active, throughput);
     NewRays point = point_of(shape, &segment, flight.t, target, state);
     const float absorbed[3] = {absorption.x, absorption.y, absorption.z};

@@ -67,11 +67,10 @@ Action add_convert(CLI::App& app) {
                                ".planes .cplanes .rgb332 .rgb565; or of voxels {} {}",
                                endings_of_voxels(false), endings_of_voxels(true)))
         ->required();
-    app.add_option(
-           "--format", command->format,
-           "for any name of B: vdb, exr, nrrd, raw, slices, ply, kv6, planes, color-planes, "
-           "rgb332, rgb565")
-        ->type_name("vdb|exr|nrrd|raw|slices|ply|kv6|planes|color-planes|rgb332|rgb565");
+    const auto formats = volume_format_names();
+    app.add_option("--format", command->format,
+                   fmt::format("for any name of B: {}", fmt::join(formats, ", ")))
+        ->type_name(fmt::format("{}", fmt::join(formats, "|")));
     app.add_flag("--all", options.all_values, "NRRD: also write depth, object and kind");
     app.add_flag("--uncompressed", command->uncompressed, "NRRD: write raw data, not gzip");
     app.add_option("--dither", command->dither,

@@ -66,9 +66,7 @@ voxelume::ImportOptions studio_of(const py::dict& values) {
     return options;
 }
 
-}  // namespace
-
-void bind_scenes(py::module_& module) {
+void bind_scene_class(py::module_& module) {
     py::class_<Scene>(module, "Scene", "A scene that was checked. It never changes.")
         .def("with_size", &Scene::with_size, py::arg("size"),
              "Returns the scene with another image size, (width, height) in pixels.")
@@ -101,6 +99,12 @@ void bind_scenes(py::module_& module) {
             return "<voxelume.Scene of " + std::to_string(scene.object_names().size()) +
                    " objects>";
         });
+}
+
+}  // namespace
+
+void bind_scenes(py::module_& module) {
+    bind_scene_class(module);
     module.def(
         "load_scene",
         [](const std::filesystem::path& file, const std::vector<std::filesystem::path>& assets,

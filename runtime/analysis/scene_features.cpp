@@ -260,8 +260,8 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     add_light(scene, world, features);
     if (!needs_radiance(scene.render, features))
         features = without_light(voxels, scene, world, features);
-    features.lens =
-        scene.observer.aperture > 0 && scene.observer.display.shape == DisplayShape::pyramid;
+    features.lens = scene.observer.aperture > 0 &&
+                    shape_row(scene.observer.display).projection == SightProjection::perspective;
     features.blades = features.lens && scene.observer.blades > 0;
     add_points(scene, world, features);
 }

@@ -83,6 +83,10 @@ VolumeFormat volume_format_named(std::string_view name) {
         [&] { return static_cast<VolumeFormat>(voxelume::volume_format_named(name)); });
 }
 
+std::span<const std::string_view> volume_format_names() {
+    return kVolumeFormatNames;
+}
+
 Volume Volume::read(const std::filesystem::path& file) {
     return api::guarded([&] {
         api::apply_process_options();

@@ -8,8 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
-#include <glm/vector_relational.hpp>
+#include <optional>
 #include <utility>
 
 #include "runtime/analysis/object_boxes.hpp"
@@ -58,23 +57,16 @@ bool is_below_a_pixel(const Observer& observer, const glm::ivec2& image, const g
     const Display& display = observer.display;
     const glm::dvec3 way = point - observer.position;
     const glm::dvec3 seen = glm::transpose(observer.world_from_observer) * way;
-    const double distance = glm::length(way);
-    glm::dvec2 half = display.half_size, at = glm::abs(glm::dvec2(seen));  // of the image, metres
-    switch (shape_row(display).projection) {
-        case SightProjection::perspective:
-            half = seen.z * glm::tan(display.half_angles);
-            break;
-        case SightProjection::parallel:
-            break;
-        case SightProjection::angular: {
-            const bool is_ball = display.shape == DisplayShape::ball;
-            half = is_ball ? distance * glm::dvec2(M_PI, M_PI / 2) : distance * display.half_angles;
-            at = glm::dvec2(is_ball ? 0 : distance * std::acos(seen.z / distance));
-        }
-    }
-    const bool is_ahead = seen.z > 0 || display.shape == DisplayShape::ball;
-    const glm::dvec2 pixel = 2.0 * half / glm::dvec2(image);
-    return is_ahead && glm::all(glm::lessThan(at, half)) && size < std::max(pixel.x, pixel.y);
+    const DisplayShapeRow& shape = shape_row(display);
+    const std::optional<glm::dvec2> uv = shape.ray_through(display, seen);
+    if (!uv || (seen.z <= 0 && shape.looks_ahead(display))) return false;
+    const double aside =
+        shape.image_is_round ? glm::length(*uv) : std::max(std::abs(uv->x), std::abs(uv->y));
+    const bool is_parallel = shape.projection == SightProjection::parallel;
+    const double depth = shape.depth_is_along_z ? seen.z : glm::length(way);
+    const glm::dvec2 pixel =
+        2.0 * (is_parallel ? 1 : depth) * shape.half_extent(display) / glm::dvec2(image);
+    return aside <= 1 && size < std::max(pixel.x, pixel.y);
 }
 
 /// What an observer who sees nothing should change. The objects' box isn't empty, and they are

@@ -11,7 +11,7 @@ namespace voxelume {
 namespace {
 
 bool has_own_voxels(const Model& model) {
-    return !model.voxels.empty() && model.surface != Surface::exact;
+    return !model.voxels.empty() && !lists_primitives(model.surface);
 }
 
 /// A mesh that is voxelized in the world's own lattice is limited there.

@@ -62,12 +62,7 @@ Scene group_alone(const Scene& scene, const std::string& group) {
 void make_matt(Scene& scene) {
     for (Material& m : scene.materials) {
         m.color = color_of(m);
-        m.base_color.reset();
-        m.metallic.reset();
-        m.roughness.reset();
-        m.transmission.reset();
-        m.coat.reset();
-        m.coat_roughness.reset();
+        drop_physical(m);
         m.specular.reset();
         m.diffuse = 1;
         m.reflection = m.refraction = 0;

@@ -13,7 +13,7 @@ namespace {
 void check_observer(const Scene& scene) {
     const Observer& observer = scene.observer;
     if (observer.projection != Projection::display ||
-        observer.display.shape != DisplayShape::pyramid)
+        shape_row(observer.display).projection != SightProjection::perspective)
         throw Error(ErrorKind::usage,
                     "views of a light field need an observer whose display is a pyramid");
     if (!scene.render.crop.is_whole())

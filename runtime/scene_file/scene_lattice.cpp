@@ -45,13 +45,13 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
     read_surface(fields, Surface::smooth, model);
     if (const auto set = fields.find("set")) {
         model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
-        if (model.surface != Surface::cubes) {
+        if (!shows_voxels(model.surface)) {
             set->fail("only a model with \"surface\": \"cubes\" has a set; leave it out");
         }
     }
     if (const auto normals = fields.find("normals")) {
         model.normals = static_cast<CubeNormals>(normals->choice(Names{"faces", "surface"}));
-        if (model.surface != Surface::cubes)
+        if (!shows_voxels(model.surface))
             normals->fail(
                 "only a model with \"surface\": \"cubes\" has a choice of normals; leave it out");
     }

@@ -38,7 +38,7 @@ Projection read_projection(const SceneFields& fields) {
             fmt::format("\"projection\": \"{}\" makes the display; leave one of them out",
                         kProjections[size_t(projection)]));
     if (name && projection == Projection::display &&
-        display_shape(fields.get("display")).shape != DisplayShape::pyramid)
+        display_shape(fields.get("display")).projection != SightProjection::perspective)
         name->fail("\"perspective\" needs a display of the shape \"pyramid\"");
     if (projection != Projection::orthographic)
         for (const char* key : {"width", "height"})
@@ -127,7 +127,8 @@ Observer read_observer(const SceneValue& value, const Scene& scene) {
         project(place, setting, fields.refusal(), observer);
         observer.display.voxels = {scene.render.size, 256};
     }
-    if (observer.aperture > 0 && observer.display.shape != DisplayShape::pyramid)
+    if (observer.aperture > 0 &&
+        shape_row(observer.display).projection != SightProjection::perspective)
         fields.get("aperture")
             .fail("a lens needs a perspective: a display of the shape \"pyramid\"");
     return observer;

@@ -45,6 +45,8 @@ enum class VolumeFormat {
 VolumeFormat volume_format_of(const std::filesystem::path& file);
 /// The format of a name: "vdb", "color-planes", ... Throws Error::usage with the nearest name.
 VolumeFormat volume_format_named(std::string_view name);
+/// The names of all formats, in the order of VolumeFormat.
+std::span<const std::string_view> volume_format_names();
 
 /// How light becomes the few levels of a display's voxel.
 enum class Dither {

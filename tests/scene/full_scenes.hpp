@@ -7,10 +7,8 @@
 
 namespace voxelume {
 
-/// Scenes that together contain every key of the format; the parser and the schema accept each.
-inline std::vector<nlohmann::json> full_scenes() {
-    const char* const texts[] = {
-        R"({"$schema": "x", "voxelume": 1,
+inline constexpr const char* kFullSceneTexts[] = {
+    R"({"$schema": "x", "voxelume": 1,
             "world": {"voxel_size": [0.1, 0.2, 0.3], "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]},
                       "background": [1, 2, 3], "ambient": [0, 1, 2],
                       "medium": {"absorption": [1, 2, 3], "color": [0, 0, 1], "scattering": [2, 1, 0], "anisotropy": -0.5,
@@ -53,7 +51,7 @@ inline std::vector<nlohmann::json> full_scenes() {
             "animation": {"frames": 5, "fps": 24, "tracks": []},
             "render": {"size": [64, 48], "samples": 4, "adaptive": 0.1, "depth": 3, "light": "global", "bounces": 4, "emitters": "paths", "shadows": false, "filter": "tent", "filter_width": 1.5,
                        "shadow": "filtered", "least_weight": 0.001, "transparent": true}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
             "models": {"u": {"shape": "union", "parts": [{"shape": "sphere", "radius": 1}], "surface": "smooth"},
                        "i": {"shape": "intersection", "resolution": 9, "parts": [
                            {"shape": "ellipsoid", "radii": [1, 2, 3], "position": [1, 2, 3]},
@@ -68,7 +66,7 @@ inline std::vector<nlohmann::json> full_scenes() {
                            {"shape": "union", "parts": [{"shape": "sphere", "radius": 1}]}], "surface": "smooth"}},
             "observer": {"position": [0, 0, 0], "turn": [1, 2, 3],
                          "display": {"shape": "sector", "angle": 200, "near": 1, "far": 2}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
             "medium": {"density": {"kind": "grid", "file": "s.#.vdb", "sequence": {"first": 1, "last": 2}}}},
             "materials": {"a": {"ior": 1.5}},
             "models": {"m": {"mesh": "m.obj", "fit": 2, "morph": {"mesh": "m.obj", "amount": 0.5}, "surface": "smooth"},
@@ -90,37 +88,40 @@ inline std::vector<nlohmann::json> full_scenes() {
                 {"target": "objects.o.visible", "keys": [{"frame": 2, "value": false}]},
                 {"target": "objects.o.model", "keys": [{"frame": 2, "value": "ball"}]},
                 {"target": "lights[0].intensity", "keys": [{"frame": 2, "value": 5}]}]}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
             "sky": {"kind": "constant", "color": [1, 2, 3], "strength": 2, "samples": 4, "visible": false},
             "medium": {"density": {"kind": "ball", "center": [1, 2, 3], "radius": 2, "falloff": 1}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2, "voxels": [5, 6, 7],
                                                                    "layout": "lattice", "visibility": "all", "seen_along": "z",
                                                                    "clip": "cylinder"}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
             "sky": {"kind": "gradient", "zenith": [1, 2, 3], "horizon": [3, 2, 1], "ground": [0, 0, 0], "strength": 2, "samples": 4, "visible": true},
             "medium": {"density": {"kind": "grid", "file": "smoke.vdb", "grid": "d",
                                    "transfer": [{"value": -1.5, "absorption": 0},
                                                 {"value": 2, "absorption": 3, "color": [1, 2, 3]}], "lit": [1, -2, 3], "others": [{"file": "smoke.vdb", "grid": "d", "transfer": [{"value": 1, "absorption": 2}], "lit": [1, 0, 0], "position": [1, 2, 3], "turn": [10, 20, 30], "scale": 2}], "position": [1, 2, 3],
                                    "turn": [10, 20, 30], "scale": 2}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid", "angle": 40}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
             "sky": {"kind": "sun", "direction": [1, -2, 3], "angle": 2, "color": [1, 2, 3], "intensity": 4, "turbidity": 5, "ground": [0, 0, 0], "strength": 2, "samples": 4, "visible": false},
             "medium": {"density": {"kind": "grid", "file": "smoke.vdb",
                                    "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "box", "size": [1, 2, 3], "near": 1}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
             "observer": {"position": [0, 0, 0], "projection": "orthographic", "width": 2}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
             "observer": {"position": [0, 0, 0], "projection": "orthographic", "height": 2}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+    R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
             "observer": {"position": [0, 0, 0], "projection": "panoramic"}})",
-        R"({"voxelume": 1, "world": {"resolution": 32, "background": [1, 2, 3],
+    R"({"voxelume": 1, "world": {"resolution": 32, "background": [1, 2, 3],
             "sky": {"kind": "map", "file": "around.hdr", "rotation": 30, "strength": 2, "samples": 4, "visible": false}},
             "models": {"ball": {"shape": "sphere", "radius": 1, "surface": "smooth"}, "m": {"mesh": "m.obj", "unit": "in", "surface": "smooth"}},
             "objects": [{"model": "ball"}, {"model": "m", "position": [1, 2, 3]}]})",
-    };
+};
+
+/// Scenes that together contain every key of the format; the parser and the schema accept each.
+inline std::vector<nlohmann::json> full_scenes() {
     std::vector<nlohmann::json> scenes;
-    for (const char* text : texts) scenes.push_back(nlohmann::json::parse(text));
+    for (const char* text : kFullSceneTexts) scenes.push_back(nlohmann::json::parse(text));
     return scenes;
 }
 

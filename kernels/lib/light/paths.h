@@ -54,6 +54,13 @@ static inline lane_float path_float(global const uint* paths, uint component, ui
     return LANES_AS_FLOAT(LANES_LOAD(paths, component * stride + first));
 }
 
+/// What is left of the light on its way to the nodes of a packet's paths.
+static inline void load_throughput(global const uint* paths, uint stride, uint first,
+                                   lane_float throughput[3]) {
+    for (uint c = 0; c < 3; ++c)
+        throughput[c] = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
+}
+
 static inline lane_float largest(const lane_float* value) {
     return fmax(value[0], fmax(value[1], value[2]));
 }

@@ -41,7 +41,7 @@ Report light_row(const Light& light) {
     return {{"light", light.name},
             {"type", type.name},
             {"at", type.has_position ? list_of(light.position) : Report()},
-            {"along", light.kind == LightKind::point ? Report() : list_of(light.direction)},
+            {"along", type.has_direction ? list_of(light.direction) : Report()},
             {"energy", list_of(glm::dvec3(light.intensity))}};
 }
 

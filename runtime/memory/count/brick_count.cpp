@@ -239,7 +239,7 @@ bool TakenBricks::take(const glm::ivec3& brick) {
 
 BrickRule model_rule(Surface surface, bool is_solid_set) {
     // Distances are stored about blocks of 4³ nodes, voxels about such of 4³ voxels.
-    if (surface == Surface::smooth) return {.first = 0, .last = 15, .reach = 2.8 + 2.6};
+    if (stores_distances(surface)) return {.first = 0, .last = 15, .reach = 2.8 + 2.6};
     return {.first = 0,
             .last = 16,
             .reach = 3.46,
@@ -252,8 +252,8 @@ BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, doub
     // A voxel more on each side, and leaves of the object that reach into that.
     const double half = 9 * spread + 1.5;
     BrickRule rule{8 - half, 8 + half, 3.6, keeps_inside, is_solid_set, true};
-    if (surface == Surface::smooth) rule.reach = 2.9 + 2.4;
-    if (surface == Surface::exact) rule.cover = kCover;
+    if (stores_distances(surface)) rule.reach = 2.9 + 2.4;
+    if (lists_primitives(surface)) rule.cover = kCover;
     return rule;
 }
 

@@ -66,13 +66,13 @@ BrickGrid empty_grid(const GridCounts& counts) {
 }
 
 void count_surface(const Device& device, const GridCounts& counts, BrickGrid& grid) {
-    if (counts.surface == Surface::smooth) {
+    if (stores_distances(counts.surface)) {
         const Buffer<uint16_t> inside = count_inside(device, counts);
         const Buffer<float> shapes = allocate_shapes(device, counts.triangles);
         grid.distance = allocate_distances(device, "distances", counts.bricks);
         return;
     }
-    const bool is_solid = counts.surface == Surface::cubes && counts.set == VoxelSet::solid;
+    const bool is_solid = shows_voxels(counts.surface) && counts.set == VoxelSet::solid;
     const Buffer<uint16_t> inside = is_solid ? count_inside(device, counts) : Buffer<uint16_t>();
     grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
 }
@@ -102,11 +102,11 @@ BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts) {
     BrickGrid grid = empty_grid(counts);
     const DeviceTriangles mesh = allocate_triangles(device, counts.vertices, counts.triangles);
     const TriangleBins bins = sort_triangles(
-        device, counts, counts.surface == Surface::smooth ? kBinsInBand : kBinsPerTriangle);
+        device, counts, stores_distances(counts.surface) ? kBinsInBand : kBinsPerTriangle);
     grid.coordinates = bins.coordinates;
     grid.slots = allocate_slots(device, "brick slots", counts.frame);
     count_surface(device, counts, grid);
-    if (counts.surface == Surface::exact) count_triangles(device, counts, grid);
+    if (lists_primitives(counts.surface)) count_triangles(device, counts, grid);
     if (counts.words || counts.paint.is_there() || counts.cube_normals)
         count_labels(device, counts, grid);
     return grid;
@@ -125,7 +125,7 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
         of_part.slots = allocate_slots(device, "slots", counts.frame);
         grid.parts.push_back({std::make_shared<const BrickGrid>(std::move(of_part)), {}});
     }
-    if (counts.surface == Surface::smooth) {
+    if (stores_distances(counts.surface)) {
         grid.distance = allocate_distances(device, "distance", counts.bricks);
         return grid;
     }
@@ -135,7 +135,7 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
             allocate_masks(device, "undecided voxels", counts.bricks);
     }
     if (counts.cube_normals) grid.normals = allocate_words(device, "voxel normals", counts.bricks);
-    if (counts.surface != Surface::exact) return grid;
+    if (!lists_primitives(counts.surface)) return grid;
     grid.primitive_first = allocate_list_starts(device, "primitive_first", counts.bricks);
     grid.primitives = Buffer<uint32_t>(device, "primitives", counts.voxels);
     grid.solids = solids;
@@ -160,7 +160,7 @@ BrickGrid count_cut_field(const Device& device, const BrickGrid& whole, const Gr
 }  // namespace
 
 BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts) {
-    if (counts.surface == Surface::smooth) return count_cut_field(device, whole, counts);
+    if (stores_distances(counts.surface)) return count_cut_field(device, whole, counts);
     GridCounts space = counts;
     space.words = false;
     space.paint = {};

@@ -27,11 +27,11 @@ const glm::dmat4 kOwnSpace(1);
 
 /// Voxels around a surface whose bricks voxelizing stores.
 double stored_band(const Model& model) {
-    return model.surface == Surface::smooth ? kSurfaceBand : 0;
+    return stores_distances(model.surface) ? kSurfaceBand : 0;
 }
 
 bool is_solid_set(const Model& model) {
-    return model.surface == Surface::cubes && model.set == VoxelSet::solid;
+    return shows_voxels(model.surface) && model.set == VoxelSet::solid;
 }
 
 /// A solid set's voxels without those of the surface: half of those in its bricks, and no more than
@@ -63,7 +63,7 @@ BrickCount count_model(const Model& model, const glm::dmat4& frame_from_model,
 
 /// Primitives that an exact surface's voxels list: the solid, or each triangle that meets one.
 double listed(const Model& model, const SurfaceExtent& extent) {
-    return model.surface != Surface::exact ? 0 : model.solid ? extent.voxels : extent.listed;
+    return !lists_primitives(model.surface) ? 0 : model.solid ? extent.voxels : extent.listed;
 }
 
 /// `mesh` is null for a model that has none.
@@ -175,7 +175,7 @@ GridCounts ObjectCounts::object_grid(const Object& object, const Model& model,
 
 BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
     const Model& model = scene_.models[size_t(object.model)];
-    if (!model.voxels.empty() && model.surface != Surface::exact)
+    if (!model.voxels.empty() && !lists_primitives(model.surface))
         return count_voxels(meshes_.voxels(model), object.world_from_object, spread_of(object),
                             world_frame(scene_.world), taken);
     const bool keeps_inside = shows_inside(scene_, object);
@@ -187,7 +187,7 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
                            box_of(object), rule, taken);
     }
     SurfaceExtent extent =
-        extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+        extents_.planned(object, stores_distances(model.surface) ? kSurfaceBand : kPlacedBand);
     const SurfaceExtent cut = cut_extent(model, object.world_from_object, world_frame(scene_.world),
                                          box_of(object), world_rule(model.surface, false, false));
     extent.voxels += cut.voxels;
@@ -211,16 +211,16 @@ SurfaceExtent ObjectCounts::min_of_voxels(const Object& object, const VoxelModel
 WorldExtent ObjectCounts::min_in_world(size_t number) {
     const Object& object = scene_.objects[number];
     const Model& model = scene_.models[size_t(object.model)];
-    const bool has_voxels = !model.voxels.empty() && model.surface != Surface::exact;
+    const bool has_voxels = !model.voxels.empty() && !lists_primitives(model.surface);
     SurfaceExtent extent =
         has_voxels ? min_of_voxels(object, meshes_.voxels(model))
-                   : extents_.minimum(
-                         object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+                   : extents_.minimum(object,
+                                      stores_distances(model.surface) ? kSurfaceBand : kPlacedBand);
     // Areas say too much where objects are small.
     constexpr double kAreaMargin = 1.2;
     const SurfaceExtent& counted = in_world_[number];
     extent = smaller(extent, {kAreaMargin * counted.voxels, kAreaMargin * counted.bricks});
-    return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
+    return {extent.voxels, extent.bricks, lists_primitives(model.surface) ? extent.voxels : 0};
 }
 
 PartBricks ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
@@ -246,7 +246,7 @@ std::vector<size_t> ObjectCounts::placed_numbers() {
 }
 
 bool ObjectCounts::is_smooth(size_t number) const {
-    return scene_.models[size_t(scene_.objects[number].model)].surface == Surface::smooth;
+    return stores_distances(scene_.models[size_t(scene_.objects[number].model)].surface);
 }
 
 WorldCounts ObjectCounts::expected_world() {

@@ -7,40 +7,27 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 
 #include "kernels/shared/scene.h"
+#include "runtime/scene/parts/angular_displays.hpp"
 
 namespace voxelume {
 
 namespace {
 
-constexpr double kWidestSector = 1.3;  // in radians; wider sectors are taken for whole balls
-
-/// `near` and `far` of a pyramid or sector, which without a `far` shows the whole world.
-void set_depths(const DisplayParameters& p, double world_end, const Refuse& refuse,
-                Display& display) {
-    display.near = p.near;
-    display.far = p.far.value_or(world_end);
-    if (display.far <= display.near)
-        refuse(p.far ? "far" : "near",
-               fmt::format("nothing lies between near, {} m, and far, {} m{}", display.near,
-                           display.far, p.far ? "" : ", the end of the world"));
-}
-
-glm::dvec2 no_slopes(const Display&) {
-    return glm::dvec2(0);
-}
-
 bool always_looks_ahead(const Display&) {
     return true;
 }
 
-double near_surface(const Display& display) {
-    return display.near;
+// Pyramid.
+
+void make_pyramid_square(glm::ivec2 size, Display& display) {
+    display.half_angles.y = std::atan(std::tan(display.half_angles.x) * size.y / size.x);
 }
 
-// Pyramid.
+void widen_pyramid(Display& display, glm::dvec2 scale) {
+    display.half_angles = glm::atan(glm::tan(display.half_angles) * scale);
+}
 
 void measure_pyramid(const DisplayParameters& p, const DisplaySetting& setting,
                      const Refuse& refuse, Display& display) {
@@ -50,7 +37,7 @@ void measure_pyramid(const DisplayParameters& p, const DisplaySetting& setting,
     } else {
         display.square_pixels = true;
         display.half_angles.x = p.angle ? glm::radians(*p.angle / 2) : glm::radians(20.0);
-        display.half_angles.y = square_pixel_half_angle(display.half_angles.x, setting.image_size);
+        make_pyramid_square(setting.image_size, display);
     }
     set_depths(p, setting.world_end, refuse, display);
 }
@@ -99,128 +86,23 @@ constexpr DisplayShapeRow kPyramid = {.shape = DisplayShape::pyramid,
                                       .looks_ahead = always_looks_ahead,
                                       .start_radius = pyramid_start_radius,
                                       .clip_slopes = pyramid_half_extent,
-                                      .flat_sides = pyramid_sides};
-
-// Sector: the angle from Z_E grows evenly with the distance from the image's middle.
-
-void measure_sector(const DisplayParameters& p, const DisplaySetting& setting, const Refuse& refuse,
-                    Display& display) {
-    display.half_angles = glm::dvec2(glm::radians(p.angle.value_or(0) / 2));
-    set_depths(p, setting.world_end, refuse, display);
-}
-
-glm::dvec2 sector_half_extent(const Display& display) {
-    return display.half_angles;
-}
-
-Bounds sector_bounds(const Display& display) {
-    const double far = display.far;
-    const double angle = display.half_angles.x, cosine = std::cos(angle);
-    const double half = cosine > 0 ? far * std::sin(angle) : far;
-    return {{-half, -half, cosine * (cosine > 0 ? display.near : far)}, {half, half, far}};
-}
-
-glm::dvec3 point_on_sector_ray(const Display& display, glm::dvec2 uv, double depth) {
-    const double radius = glm::length(uv);
-    const double angle = radius * display.half_angles.x;
-    const double share = radius > 0 ? std::sin(angle) / radius : 0.0;
-    return glm::dvec3(-uv * share, std::cos(angle)) * depth;
-}
-
-std::optional<glm::dvec2> sector_ray_through(const Display& display, const glm::dvec3& p) {
-    const double across = std::hypot(p.x, p.y);
-    if (across == 0) return glm::dvec2(0);
-    return glm::dvec2(-p.x, -p.y) / across * std::atan2(across, p.z) / sector_half_extent(display);
-}
-
-glm::dvec2 sector_slopes(const Display& display) {
-    return {std::cos(display.half_angles.x), 0};
-}
-
-bool sector_looks_ahead(const Display& display) {
-    return display.half_angles.x <= std::numbers::pi / 2;
-}
-
-std::optional<FlatSides> sector_sides(const Display& display) {
-    const double angle = display.half_angles.x;
-    if (angle > kWidestSector) return std::nullopt;
-    return FlatSides{glm::dvec2(std::tan(angle)), display.near * std::cos(angle)};
-}
-
-constexpr KindKey kSectorKeys[] = {{"angle", true, Range{0, 360, true}}, {"near"}, {"far"}};
-
-constexpr DisplayShapeRow kSector = {.shape = DisplayShape::sector,
-                                     .name = "sector",
-                                     .kernel_number = VXL_SHAPE_SECTOR,
-                                     .projection = SightProjection::angular,
-                                     .depth_is_along_z = false,
-                                     .image_is_round = true,
-                                     .keys = kSectorKeys,
-                                     .measure = measure_sector,
-                                     .half_extent = sector_half_extent,
-                                     .bounds = sector_bounds,
-                                     .point_on_ray = point_on_sector_ray,
-                                     .ray_through = sector_ray_through,
-                                     .looks_ahead = sector_looks_ahead,
-                                     .start_radius = near_surface,
-                                     .clip_slopes = sector_slopes,
-                                     .flat_sides = sector_sides};
-
-// Ball: longitude and latitude.
-
-void measure_ball(const DisplayParameters& p, const DisplaySetting&, const Refuse&,
-                  Display& display) {
-    display.far = p.radius;
-}
-
-glm::dvec2 ball_half_extent(const Display&) {
-    return {std::numbers::pi, std::numbers::pi / 2};
-}
-
-Bounds ball_bounds(const Display& display) {
-    return {glm::dvec3(-display.far), glm::dvec3(display.far)};
-}
-
-glm::dvec3 point_on_ball_ray(const Display& display, glm::dvec2 uv, double depth) {
-    const glm::dvec2 xy = -uv * ball_half_extent(display);
-    return glm::dvec3(std::sin(xy.x) * std::cos(xy.y), std::sin(xy.y),
-                      std::cos(xy.x) * std::cos(xy.y)) *
-           depth;
-}
-
-std::optional<glm::dvec2> ball_ray_through(const Display& display, const glm::dvec3& p) {
-    const glm::dvec2 angles(std::atan2(p.x, p.z), std::atan2(p.y, std::hypot(p.x, p.z)));
-    return -angles / ball_half_extent(display);
-}
-
-bool ball_looks_ahead(const Display&) {
-    return false;
-}
-
-std::optional<FlatSides> ball_sides(const Display&) {
-    return std::nullopt;
-}
-
-constexpr KindKey kBallKeys[] = {{"radius", true}};
-
-constexpr DisplayShapeRow kBall = {.shape = DisplayShape::ball,
-                                   .name = "ball",
-                                   .kernel_number = VXL_SHAPE_BALL,
-                                   .projection = SightProjection::angular,
-                                   .depth_is_along_z = false,
-                                   .image_is_round = false,
-                                   .keys = kBallKeys,
-                                   .measure = measure_ball,
-                                   .half_extent = ball_half_extent,
-                                   .bounds = ball_bounds,
-                                   .point_on_ray = point_on_ball_ray,
-                                   .ray_through = ball_ray_through,
-                                   .looks_ahead = ball_looks_ahead,
-                                   .start_radius = near_surface,
-                                   .clip_slopes = no_slopes,
-                                   .flat_sides = ball_sides};
+                                      .flat_sides = pyramid_sides,
+                                      .widen = widen_pyramid,
+                                      .make_square = make_pyramid_square};
 
 // Box.
+
+void make_box_square(glm::ivec2 size, Display& display) {
+    glm::dvec2& half = display.half_size;
+    if (display.keeps_height)
+        half.x = half.y * size.x / size.y;
+    else
+        half.y = half.x * size.y / size.x;
+}
+
+void widen_box(Display& display, glm::dvec2 scale) {
+    display.half_size *= scale;
+}
 
 void measure_box(const DisplayParameters& p, const DisplaySetting&, const Refuse&,
                  Display& display) {
@@ -244,6 +126,10 @@ glm::dvec3 point_on_box_ray(const Display& display, glm::dvec2 uv, double depth)
 
 std::optional<glm::dvec2> box_ray_through(const Display& display, const glm::dvec3& p) {
     return glm::dvec2(-p.x, -p.y) / box_half_extent(display);
+}
+
+glm::dvec2 no_box_slopes(const Display&) {
+    return glm::dvec2(0);
 }
 
 double box_start_radius(const Display& display) {
@@ -271,27 +157,34 @@ constexpr DisplayShapeRow kBox = {.shape = DisplayShape::box,
                                   .ray_through = box_ray_through,
                                   .looks_ahead = always_looks_ahead,
                                   .start_radius = box_start_radius,
-                                  .clip_slopes = no_slopes,
-                                  .flat_sides = box_sides};
-
-constexpr std::array<DisplayShapeRow, 4> kShapes = {kPyramid, kSector, kBall, kBox};
+                                  .clip_slopes = no_box_slopes,
+                                  .flat_sides = box_sides,
+                                  .widen = widen_box,
+                                  .make_square = make_box_square};
 
 }  // namespace
 
+void set_depths(const DisplayParameters& p, double world_end, const Refuse& refuse,
+                Display& display) {
+    display.near = p.near;
+    display.far = p.far.value_or(world_end);
+    if (display.far <= display.near)
+        refuse(p.far ? "far" : "near",
+               fmt::format("nothing lies between near, {} m, and far, {} m{}", display.near,
+                           display.far, p.far ? "" : ", the end of the world"));
+}
+
 std::span<const DisplayShapeRow> display_shapes() {
-    return kShapes;
+    static const std::array<DisplayShapeRow, 4> shapes = {kPyramid, sector_row(), ball_row(), kBox};
+    return shapes;
 }
 
 const DisplayShapeRow& shape_row(const Display& display) {
-    return kShapes[size_t(display.shape)];
+    return display_shapes()[size_t(display.shape)];
 }
 
 glm::dvec2 half_extent(const Display& display) {
     return shape_row(display).half_extent(display);
-}
-
-double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size) {
-    return std::atan(std::tan(horizontal_half_angle) * size.y / size.x);
 }
 
 }  // namespace voxelume

@@ -126,6 +126,10 @@ struct DisplayShapeRow {
     glm::dvec2 (*clip_slopes)(const Display& display);
     /// Without a value only the ball with the radius `far` holds all sight rays.
     std::optional<FlatSides> (*flat_sides)(const Display& display);
+    /// Widens the image about its middle by a factor for u and one for v; null where it can't.
+    void (*widen)(Display& display, glm::dvec2 scale) = nullptr;
+    /// Lets the measure that follows the image's size make its pixels square; null without one.
+    void (*make_square)(glm::ivec2 size, Display& display) = nullptr;
 };
 
 /// In the order of DisplayShape.
@@ -135,8 +139,5 @@ const DisplayShapeRow& shape_row(const Display& display);
 
 /// `half_extent` of the display's shape.
 glm::dvec2 half_extent(const Display& display);
-
-/// The vertical half angle at which pixels of an image of this size are square.
-double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size);
 
 }  // namespace voxelume

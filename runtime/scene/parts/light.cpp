@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/parts/light.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -99,6 +100,16 @@ void place_rectangle(const LightParameters& p, const Refuse& refuse, Light& ligh
     light.axis_x = axis_across(light, p.up, refuse);
 }
 
+double part_of_spot(const Light& light, double cosine) {
+    const double inner = std::cos(light.inner_half_angle), outer = std::cos(light.outer_half_angle);
+    const double s = std::clamp((cosine - outer) / std::max(inner - outer, 1e-30), 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
+double part_of_area(const Light&, double cosine) {
+    return std::max(cosine, 0.0);
+}
+
 constexpr LightArea kDisk = {
     [](const Light& light) { return std::numbers::pi * light.radius * light.radius; },
     [](const Light& light) { return light.radius; },
@@ -121,13 +132,15 @@ constexpr KindKey kRectangleKeys[] = {{"position", true}, {"direction"}, {"look_
                                       {"size", true},     {"spots"}};
 
 constexpr std::array<LightType, 5> kTypes = {{
-    {LightKind::point, "point", kPointKeys, true, VXL_LIGHT_POINT, place_point},
-    {LightKind::spot, "spot", kSpotKeys, true, VXL_LIGHT_SPOT, place_spot},
-    {LightKind::directional, "directional", kDirectionalKeys, false, VXL_LIGHT_DIRECTIONAL,
+    // The columns: kind, name, keys, has_position, has_direction, shading, place, part_at, area.
+    {LightKind::point, "point", kPointKeys, true, false, VXL_LIGHT_POINT, place_point},
+    {LightKind::spot, "spot", kSpotKeys, true, true, VXL_LIGHT_SPOT, place_spot, part_of_spot},
+    {LightKind::directional, "directional", kDirectionalKeys, false, true, VXL_LIGHT_DIRECTIONAL,
      place_directional},
-    {LightKind::disk, "disk", kDiskKeys, true, VXL_LIGHT_AREA_SAMPLE, place_disk, &kDisk},
-    {LightKind::rectangle, "rectangle", kRectangleKeys, true, VXL_LIGHT_AREA_SAMPLE,
-     place_rectangle, &kRectangle},
+    {LightKind::disk, "disk", kDiskKeys, true, true, VXL_LIGHT_AREA_SAMPLE, place_disk,
+     part_of_area, &kDisk},
+    {LightKind::rectangle, "rectangle", kRectangleKeys, true, true, VXL_LIGHT_AREA_SAMPLE,
+     place_rectangle, part_of_area, &kRectangle},
 }};
 
 }  // namespace

@@ -78,9 +78,12 @@ struct LightType {
     std::string_view name;          ///< in scene files
     std::span<const KindKey> keys;  ///< besides those that all lights have
     bool has_position;              ///< otherwise it shines along one direction everywhere
+    bool has_direction;             ///< otherwise it shines alike to all sides
     int shading;                    ///< VXL_LIGHT_* of kernels/shared/scene.h
     /// Sets what the type's own parameters decide, and refuses those that don't go together.
     void (*place)(const LightParameters& parameters, const Refuse& refuse, Light& light);
+    /// The part of its intensity at an angle from `direction` with this cosine; null for all of it.
+    double (*part_at)(const Light& light, double cosine) = nullptr;
     const LightArea* area = nullptr;  ///< null for a light that shines from one point or direction
 };
 

@@ -118,12 +118,7 @@ Material whitted_material(const Material& material) {
     const double glass = glass_share(material);
     Material m = material;
     m.color = color_of(material);
-    m.base_color.reset();
-    m.metallic.reset();
-    m.roughness.reset();
-    m.transmission.reset();
-    m.coat.reset();
-    m.coat_roughness.reset();
+    drop_physical(m);
     m.diffuse = float(1 - gloss.metal * (1 - gloss.spread()) - glass);
     m.specular = std::max(gloss.of_metal + gloss.of_facets, gloss.coat);
     m.shininess = shininess_of(gloss.shows_coat() ? material.coat_roughness.value_or(kCoatRoughness)
@@ -141,6 +136,15 @@ MetalTint metal_tint(const Material& material) {
     const auto share = [](double part, double rest) { return part > 0 ? part / (part + rest) : 0; };
     return {gloss.shows_coat() ? 0 : share(gloss.of_metal, gloss.of_facets),
             share(gloss.metal * gloss.mirror, glass_share(material))};
+}
+
+void drop_physical(Material& material) {
+    material.base_color.reset();
+    material.metallic.reset();
+    material.roughness.reset();
+    material.transmission.reset();
+    material.coat.reset();
+    material.coat_roughness.reset();
 }
 
 std::span<const std::string_view> physical_keys() {

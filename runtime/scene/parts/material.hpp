@@ -106,6 +106,9 @@ MetalTint metal_tint(const Material& material);
 std::span<const std::string_view> physical_keys();
 std::span<const std::string_view> whitted_keys();
 
+/// Leaves a material without the values of `physical_keys`, as if a scene hadn't given them.
+void drop_physical(Material& material);
+
 /// Refuses a checker without blocks.
 void check_checker(const Checker& checker, const Refuse& refuse);
 

@@ -61,14 +61,8 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
 }
 
 void make_pixels_square(glm::ivec2 size, Display& display) {
-    if (!display.square_pixels) return;
-    glm::dvec2& half = display.half_size;
-    if (display.shape == DisplayShape::pyramid)
-        display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);
-    else if (display.keeps_height)
-        half.x = half.y * size.x / size.y;
-    else
-        half.y = half.x * size.y / size.x;
+    const auto make_square = shape_row(display).make_square;
+    if (display.square_pixels && make_square) make_square(size, display);
 }
 
 void project(const ObserverParameters& p, const DisplaySetting& setting, const Refuse& refuse,

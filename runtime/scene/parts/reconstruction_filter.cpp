@@ -68,9 +68,7 @@ double filter_offset(const ReconstructionFilter& filter, double share) {
 
 Display with_filter_margin(Display display, const ReconstructionFilter& filter, glm::ivec2 frame) {
     const glm::dvec2 scale = 1.0 + std::max(filter.width - 1, 0.0) / glm::dvec2(frame);
-    if (display.shape == DisplayShape::pyramid)
-        display.half_angles = glm::atan(glm::tan(display.half_angles) * scale);
-    if (display.shape == DisplayShape::box) display.half_size *= scale;
+    if (const auto widen = shape_row(display).widen) widen(display, scale);
     return display;
 }
 

@@ -10,18 +10,11 @@
 namespace voxelume {
 namespace {
 
-/// The part of a spot light's intensity at an angle with this cosine.
-double spot_falloff(const Light& light, double cosine) {
-    const double inner = std::cos(light.inner_half_angle), outer = std::cos(light.outer_half_angle);
-    const double s = std::clamp((cosine - outer) / std::max(inner - outer, 1e-30), 0.0, 1.0);
-    return s * s * (3 - 2 * s);
-}
-
 /// The light's strength at a distance squared; `cosine` is that of the angle at which it leaves.
 double falloff_of(const Light& light, double squared, double cosine) {
-    if (const LightArea* const area = type_of(light).area)
-        return std::max(cosine, 0.0) / (squared + area->area(light) / std::numbers::pi);
-    return (light.kind == LightKind::spot ? spot_falloff(light, cosine) : 1) / squared;
+    const LightType& type = type_of(light);
+    const double part = type.part_at ? type.part_at(light, cosine) : 1;
+    return part / (type.area ? squared + type.area->area(light) / std::numbers::pi : squared);
 }
 
 }  // namespace

@@ -74,6 +74,9 @@ Mesh turned_over(Mesh mesh) {
     return mesh;
 }
 
+// The kinds of surfaces fit the bits of a voxel's kind, whose last number is taken.
+static_assert(kSurfaceKinds.size() <= VXL_KIND_EXACT_IN_CUBE);
+
 /// What the mesh's groups and colours give to voxels; the packed attributes are those of
 /// shared/voxel.h.
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {

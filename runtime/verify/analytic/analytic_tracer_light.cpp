@@ -26,7 +26,7 @@ glm::dvec3 AnalyticTracer::share_of(const Light& light, const Path& path, const 
                                     Events& events) const {
     glm::dvec3 to_light = -light.direction;
     double distance = INFINITY, falloff = 1;
-    if (light.kind != LightKind::directional) {
+    if (type_of(light).has_position) {
         to_light = light.position - point.position;
         distance = glm::length(to_light);
         to_light /= distance;
