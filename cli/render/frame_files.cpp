@@ -95,8 +95,8 @@ const CLI::Option* add_frame_options(CLI::App& app, RenderCommand& command) {
                                                "output's name becomes the number")
                                     ->type_name("FRAMES");
     app.add_option("--views", command.views,
-                   "render so many views around the scene; {view} in an output's name becomes the "
-                   "number")
+                   "render this many views around the scene; {view} in an output's name becomes "
+                   "the number")
         ->check(in_range(1, 10000, Number::whole));
     add_quilt_options(app, command.quilt);
     app.add_option("--sweep", command.sweeps,

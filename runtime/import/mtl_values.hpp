@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material of an OBJ file's library -> the keys of a scene's material.
+// MTL material -> the keys of a scene's material.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// Those on which the hits of given sight rays depend.
+/// The features on which the hits of given sight rays depend.
 Features of_hits(const Features& all) {
     Features features;
     features.cubes = all.cubes;

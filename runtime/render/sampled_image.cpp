@@ -55,7 +55,7 @@ bool is_sampled_again(const Scene& scene) {
     return scene.render.noise.is_given() && scene.render.channels.color;
 }
 
-/// Those of the tiles that something is true of.
+/// The tiles for which a predicate holds.
 template <class IsTrue>
 std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&& is_true) {
     std::vector<TileRange> result;
@@ -142,7 +142,8 @@ class TileSamples {
     std::vector<float> errors_;  ///< infinite where none was measured
 };
 
-/// The planes that an image is to have, of one of an earlier run.
+/// The image `earlier` without what tells of its sampling. Throws Error::input if it lacks the
+/// colour that `channels` have.
 Image planes_of(const Image& earlier, const ImageChannels& channels) {
     Image image = earlier;
     std::erase_if(image.planes, [](const auto& plane) {

@@ -78,7 +78,7 @@ bool is_flat(const Image& image, size_t pixel, double voxel) {
 }
 
 /// Expects pictures of one body: every pixel of the one shows it where the other does, but for
-/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel, but for so many where
+/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel, but for as many where
 /// rays graze it and depths differ by more than a voxel from pixel to pixel.
 void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim) {
     const auto& a = mixed.planes.at("Z");

@@ -16,8 +16,8 @@ constexpr size_t kMostEdges = 32;
 /// How many times as much a right angle turns as an edge that is just sharp.
 constexpr double kRightAngle = 90 / kSharpAngle;
 
-/// Around a rounded edge the surface bends to its side alone, within so many widths to each side,
-/// but for a tenth. Scans have bumps and dents there.
+/// Around a rounded edge the surface bends to its side alone, within this many widths on each side,
+/// except for a tenth. Scans have bumps and dents there.
 constexpr double kFlanks = 4, kRough = 1.1;
 
 /// A way that turns by kMostBack degrees to the other side ends there. kEndless is a turn that no

@@ -31,7 +31,8 @@ struct ArraySummary {
     uint64_t zeros = 0;
     /// The value that best parts the values in two, after Otsu 1979.
     double threshold = 0;
-    /// Where all values are whole numbers and few: how many cells have each but 0.
+    /// Empty unless all values are whole numbers and few: then the number of cells with each value
+    /// but 0.
     std::map<int, uint64_t> labels;
 };
 
