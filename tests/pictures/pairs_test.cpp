@@ -86,7 +86,7 @@ bool is_rounded(const Scene& scene, const oracle::Seen& seen, const glm::dvec2& 
     if (model.surface != Surface::smooth || !oracle::has_convex_edges(model.solid->kind))
         return false;
     const oracle::LatticeDistance field(scene.world, *model.solid, object.world_from_object);
-    return field.least_on(scene.observer.position, direction_at(scene.observer, pixel), seen.t) >
+    return field.min_on(scene.observer.position, direction_at(scene.observer, pixel), seen.t) >
            -kStoredStep * scene.world.voxel_size.x;
 }
 

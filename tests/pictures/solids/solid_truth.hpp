@@ -101,15 +101,15 @@ class SolidTruth {
     double distance(const glm::dvec3& point, const glm::dvec3& normal,
                     const glm::dvec2& pixel) const {
         constexpr double kNear = 0.005, kSlack = 0.1;  // metres, pixels
-        double least = INFINITY;
+        double minimum = INFINITY;
         for (const glm::dvec2 step :
              {glm::dvec2(0), {kSlack, 0}, {-kSlack, 0}, {0, kSlack}, {0, -kSlack}}) {
             const glm::dvec3 d = direction_at(observer_, pixel + step);
             const double off = glm::dot(point - observer_.position, d) - trace(d).t;
-            least = std::min(least, std::abs(off * glm::dot(normal, d)));
-            if (least < kNear) break;
+            minimum = std::min(minimum, std::abs(off * glm::dot(normal, d)));
+            if (minimum < kNear) break;
         }
-        return least;
+        return minimum;
     }
 
   private:
