@@ -42,7 +42,7 @@ bool is_pattern(const std::string& path) {
     return frame_path(path, 1, false) != path;
 }
 
-/// Whether an output without --frames asks for the whole animation: a name with #### does, but for
+/// True if an output without --frames asks for the whole animation: a name with #### does, but for
 /// slices, whose #### is left to their writer.
 bool wants_all_frames(const RenderCommand& options) {
     return std::ranges::any_of(options.outputs, is_pattern) ||

@@ -44,13 +44,13 @@ void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
         ranges.push_back({tile, 1});
 }
 
-/// Whether there is time for as much again as was spent since the start.
+/// True if there is time for as much again as was spent since the start.
 bool has_time(const NoiseTarget& target, Clock::time_point start) {
     const std::chrono::duration<double> spent = Clock::now() - start;
     return target.seconds == 0 || 2 * spent.count() <= target.seconds;
 }
 
-/// Whether an image's tiles may need more samples than its first ones.
+/// True if an image's tiles may need more samples than its first ones.
 bool is_sampled_again(const Scene& scene) {
     return scene.render.noise.is_given() && scene.render.channels.color;
 }
@@ -80,7 +80,7 @@ class TileSamples {
 
     int of(uint32_t tile) const { return samples_[tile]; }
 
-    /// Whether a tile that was measured needs twice the samples.
+    /// True if a tile that was measured needs twice the samples.
     bool needs_more(uint32_t tile, const NoiseTarget& target, const Image& image) const {
         const int samples = samples_[tile];
         if (2 * samples > maximum_) return false;

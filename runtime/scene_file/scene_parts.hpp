@@ -37,7 +37,7 @@ class NameTable {
 struct AssetSearch {
     std::filesystem::path scene_folder;
     const AssetFolders& assets;
-    bool all_files = true;  ///< whether all files of a sequence must be there, not the first alone
+    bool all_files = true;  ///< true if all files of a sequence must be there, not the first alone
     const GivenVoxels* given = nullptr;  ///< voxels that go before files; null: none
 };
 

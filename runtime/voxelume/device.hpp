@@ -16,8 +16,8 @@ enum class DeviceKind { cpu, gpu, other };
 /// "cpu", "gpu" or "other".
 const char* name_of(DeviceKind kind);
 
-/// Whether a device's driver computed what is known when it was first opened: arithmetic, and the
-/// ways of rays through a small world.
+/// Tells whether a device's driver computed what is known when it was first opened: arithmetic, and
+/// the ways of rays through a small world.
 enum class SelfTest {
     unknown,  ///< it wasn't opened yet
     passed,   ///< every bit was right

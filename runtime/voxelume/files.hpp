@@ -73,7 +73,7 @@ struct VoxelizeSceneOptions {
 VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
                               const Device& device, const VoxelizeSceneOptions& options = {});
 
-/// Whether `convert_voxels` writes the voxels of the one to the other, by their names and, where
+/// True if `convert_voxels` writes the voxels of the one to the other, by their names and, where
 /// these don't decide, by what is in the first file. Throws Error::input for an OpenVDB file that
 /// can't be read.
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -62,7 +62,7 @@ std::vector<std::string> model_file_endings();
 /// The endings of mesh files among them: ".obj" and others.
 std::vector<std::string> mesh_file_endings();
 
-/// Whether a file's name ends as those of the model files that `import_file` reads.
+/// True if a file's name ends as those of the model files that `import_file` reads.
 bool is_model_file(const std::filesystem::path& file);
 
 /// The text of a scene that shows what a model file holds. It names the file as seen from `folder`,

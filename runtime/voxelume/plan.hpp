@@ -19,7 +19,7 @@
 
 namespace voxelume::v1 {
 
-/// Whether a frame fits a device.
+/// The verdict on whether a frame fits a device.
 enum class Verdict {
     fits,         ///< the maximum that it may take is available
     may_fit,      ///< the minimum is available, the maximum isn't

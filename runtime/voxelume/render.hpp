@@ -34,10 +34,10 @@ struct RenderOptions {
     /// rendering, after the last frame for the others; by the thread that called. What it throws
     /// ends the call. Without it they are in Statistics::warnings alone.
     std::function<void(const Warning&)> warn{};
-    /// Whether warnings end the call: it then throws Error::scene with the first one's sentence,
+    /// True if warnings end the call: it then throws Error::scene with the first one's sentence,
     /// after `warn` had those that were found with it.
     bool strict = false;
-    /// Whether other calls render other frames of the run. Warnings of what none of the frames
+    /// True if other calls render other frames of the run. Warnings of what none of the frames
     /// shows are then left out, as they are for an image cut by Scene::with_crop.
     bool is_part = false;
     /// Called before each kernel that no earlier run compiled is first launched: the `kernel`-th of

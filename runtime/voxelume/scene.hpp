@@ -128,7 +128,7 @@ class Scene {
     /// What the scene leaves out and was found from its objects: members of a scene file, a line
     /// each; empty where nothing was.
     std::string fitted() const;
-    /// Whether its only light is the one of scenes that say nothing of lights.
+    /// True if its only light is the one of scenes that say nothing of lights.
     bool has_default_light() const;
     /// What the scene holds, in lines for people.
     std::string describe() const;

@@ -54,7 +54,7 @@ class LatticeDistance {
     AnalyticSolid solid_;
 };
 
-/// Whether the shape is convex and has edges, which one field rounds.
+/// True if the shape is convex and has edges, which one field rounds.
 constexpr bool has_convex_edges(SolidKind kind) {
     return kind == SolidKind::box || kind == SolidKind::cylinder || kind == SolidKind::cone;
 }

@@ -65,7 +65,7 @@ class ThinPartImage : public FileTest {
     }
 };
 
-/// Whether a pixel's depth is within a voxel of those of its eight neighbours.
+/// True if a pixel's depth is within a voxel of those of its eight neighbours.
 bool is_flat(const Image& image, size_t pixel, double voxel) {
     const auto& depth = image.planes.at("Z");
     for (size_t i = 0; i < 9; ++i) {

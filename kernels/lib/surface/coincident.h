@@ -16,7 +16,7 @@
 // Objects that a ray leaves come after all that it enters.
 #define VXL_ORDER_LEAVING 0x40000000u
 
-/// Whether a world's exact surfaces may coincide: they are of several objects.
+/// True if a world's exact surfaces may coincide: they are of several objects.
 static inline bool may_coincide(const SurfaceView* s) {
     return VXL_ATTRIBUTES && s->order != 0;
 }

@@ -44,10 +44,10 @@ ArraySummary summary_of_array(const CellArray& array);
 /// Error::input as summary_of_array.
 double largest_color(const CellArray& array, double enough);
 
-/// Whether an array's colours are masks: 0 or 1, for none or all of a colour.
+/// True if an array's colours are masks: 0 or 1, for none or all of a colour.
 bool has_color_masks(const CellArray& array);
 
-/// Whether a value is a label: a whole number but 0. Fractions, NaN and infinity are none.
+/// True if a value is a label: a whole number but 0. Fractions, NaN and infinity are none.
 inline bool is_label(double value) {
     return std::isfinite(value) && value != 0 && value == std::floor(value);
 }

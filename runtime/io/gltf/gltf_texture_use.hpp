@@ -34,7 +34,7 @@ std::set<int> gltf_unlit_materials(const GltfFile& file);
 /// base colour's texture as emission.
 GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map, bool is_unlit);
 
-/// Whether a metallic-roughness texture is shown of the material, whose factors it multiplies.
+/// True if a metallic-roughness texture is shown of the material, whose factors it multiplies.
 /// Glass and what has a coat are of one roughness.
 bool gltf_has_gloss_map(const GltfValue& material);
 

@@ -45,7 +45,7 @@ TextureImage without_map(size_t map) {
 
 constexpr std::array<const char*, kMapCount> kMapNames = {"metallic-roughness", "emissive"};
 
-/// Whether the colours of a primitive's vertices have an alpha.
+/// True if the colours of a primitive's vertices have an alpha.
 bool has_alpha(const GltfValue& root, const GltfValue& primitive) {
     const int colors = primitive.at("attributes").index("COLOR_0", root.size("accessors"));
     return colors >= 0 && root.item("accessors", size_t(colors)).text("type") == "VEC4";

@@ -28,12 +28,12 @@ class TransferCurve {
     /// A corner outside of the scan is kOutsideScan, and nothing is there.
     glm::dvec4 mean(const std::array<float, 8>& corners) const;
 
-    /// Whether there is nothing at all values from `min` to `max`.
+    /// True if nothing is there at any value from `min` to `max`.
     bool is_zero_in(double min, double max) const;
 
   private:
     size_t points_up_to(double value) const;
-    /// Whether a point lies between two values.
+    /// True if a point lies between two values.
     bool bends_in(double min, double max) const;
 
     std::vector<double> values_;

@@ -80,7 +80,7 @@ class SolidTruth {
         return seen_[size_t(y + 1) * (kPairSize.x + 2) + size_t(x + 1)];
     }
 
-    /// Whether a neighbour's surface is turned away from that at (x,y) by more than roundness does.
+    /// True if a neighbour's surface is turned away from that at (x,y) by more than roundness does.
     bool is_at_edge(int x, int y) const {
         for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
             const SeenSolid& beside = at(x + step.x, y + step.y);
@@ -88,7 +88,7 @@ class SolidTruth {
         }
         return false;
     }
-    /// Whether the solid's outline, or that of a part before another, is within a pixel.
+    /// True if the solid's outline, or that of a part before another, is within a pixel.
     bool is_at_outline(int x, int y) const {
         for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i)
