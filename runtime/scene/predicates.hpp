@@ -34,7 +34,7 @@ bool has_emission(const Scene& scene, const Object& object);
 /// first.
 std::vector<uint32_t> object_ranks(const std::vector<Object>& objects);
 
-/// For each object, its place among those whose surfaces coincide, of which a ray meets the first:
+/// For each object, its index among those whose surfaces coincide, of which a ray meets the first:
 /// opaque ones come before others, and each of these in the order of object_ranks. Empty for scenes
 /// with fewer than two objects or without exact surfaces.
 std::vector<uint32_t> coincidence_order(const Scene& scene);

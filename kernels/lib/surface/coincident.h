@@ -33,7 +33,7 @@ static inline lane_int is_primitive(lane_uint number) {
     return LANE_MASK(number != VXL_NO_PRIMITIVE) & LANE_MASK((number >> 30) != 1u);
 }
 
-/// The place of a primitive's object in the order of coinciding surfaces.
+/// The index of a primitive's object in the order of coinciding surfaces.
 static inline lane_uint place_in_order(const SurfaceView* s, const RayState* ray_state,
                                        lane_uint primitive, lane_int some) {
     const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, some);

@@ -102,7 +102,7 @@ static inline MediumSet cross_medium(MediumSet in, lane_uint packed, lane_int le
     return cross_medium_or_overflow(in, packed, leaving, crossing, &overflowed);
 }
 
-/// `ranks[object]` is the object's place in the order of priorities.
+/// `ranks[object]` is the object's index in the order of priorities.
 static inline lane_uint rank_of(global const uint* ranks, lane_uint packed) {
     const lane_int some = LANE_MASK(packed != VXL_NO_MEDIUM);
     const lane_uint object = packed & VXL_OBJECT_MASK & LANES_AS_UINT(some);

@@ -14,7 +14,7 @@ static inline uint attributes_in_world(AttributeMap map, global const uint* mate
     return map.x | materials[min(group, map.z - 1)] << VXL_MATERIAL_SHIFT;
 }
 
-// `from` is the voxel's place in the object's buffers, negative for one that has none.
+// `from` is the voxel's index in the object's buffers, negative for one that has none.
 static inline uint attributes_of(AttributeMap map, global const uint* materials,
                                  global const uint* attributes, long from) {
     const uint own = VXL_OBJECT_ATTRIBUTES && from >= 0 ? attributes[from] : map.y;
