@@ -25,7 +25,7 @@ static inline uint color_of(global const uint* colors, long from) {
     return VXL_OBJECT_COLORS && from >= 0 ? colors[from] : 0xFFFFFFu;
 }
 
-// The place of voxel `v` in the object's buffers, or -1.
+// The index of voxel `v` in the object's buffers, or -1.
 static inline long index_of_voxel(const PlacedObject* object, int4 v) {
     const uint slot = brick_slot(object->slots, object->bricks, v >> 4);
     if (!brick_is_stored(slot)) return -1;
