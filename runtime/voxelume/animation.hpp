@@ -33,7 +33,7 @@ enum class Interpolation {
     step,    ///< the earlier key's value
     linear,  ///< number by number, at an even speed
     cubic,   ///< number by number, smoothly, and never beyond the two keys' values
-    slerp,   ///< for a `turn`: the shorter way round one axis, at an even speed
+    slerp,   ///< the shorter way of a `turn` round one axis, at an even speed
     spline   ///< number by number, with the slopes that the keys have
 };
 
