@@ -55,7 +55,7 @@ std::string bash_values(const OptionFacts& option) {
                        option.is_list ? " start=-" : "");
 }
 
-/// Whether files are offered for it: other values have a name of their own, such as FRAMES.
+/// True if files are offered for it: other values have a name of their own, such as FRAMES.
 bool takes_files(const OptionFacts& option) {
     return option.value == "TEXT";
 }

@@ -12,8 +12,8 @@ struct OptionFacts {
     std::string argument;            ///< what an argument is called: "SCENE"
     std::string value;               ///< what follows, as help has it: "TEXT"; empty for a flag
     std::vector<std::string> words;  ///< the values that there are, if they are few
-    bool is_list = false;            ///< whether several of them may be given, with commas between
-    bool is_device = false;          ///< whether the number of a device is a value, too
+    bool is_list = false;            ///< true if several of them may be given, with commas between
+    bool is_device = false;          ///< true if the number of a device is a value, too
     std::string help;
 };
 

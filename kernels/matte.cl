@@ -40,7 +40,7 @@ static inline bool was_met_before(const PixelSamples* s, uint sample, uint numbe
     return false;
 }
 
-/// The numbers that cover most, and how much; equal ones in the order of their numbers.
+/// The numbers that cover most of a pixel, and their shares; ties go to the lower number.
 typedef struct {
     uint number[VXL_MATTE_RANKS];
     float share[VXL_MATTE_RANKS];

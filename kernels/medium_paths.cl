@@ -2,7 +2,7 @@
 // paths on their way through a scattering medium -> the points where it scatters them, the light
 // there, and the next rays of the paths.
 //
-// Scattering is chance, see lib/medium/flight.h; absorption is a weight, as on all rays.
+// Scattering is chance, see lib/medium/free_path.h; absorption is a weight, as on all rays.
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/area_points.h"
@@ -10,7 +10,7 @@
 #include "lib/light/direct_light.h"
 #include "lib/light/light_rays.h"
 #include "lib/light/sent_rays.h"
-#include "lib/medium/flight.h"
+#include "lib/medium/free_path.h"
 #include "lib/medium/medium_point.h"
 #include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
@@ -41,14 +41,14 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     const lane_int is_finite = active & LANE_MASK(sought < INFINITY);
     const lane_float per_t = exact_divide(LANES_SELECT(is_finite, sought, (lane_float)0.0f),
                                           LANES_SELECT(active, metres, (lane_float)1.0f));
-    const Flight flight = fly(shape, &density, &segment,
-                              LANES_SELECT(is_finite, per_t, (lane_float)INFINITY), active);
+    const FreePath path = travel_until(
+        shape, &density, &segment, LANES_SELECT(is_finite, per_t, (lane_float)INFINITY), active);
 
-    const lane_float depth = flight.depth * metres;
+    const lane_float depth = path.depth * metres;
     lane_float throughput[3];
     load_throughput(paths, stride, first, throughput);
-    weigh_colors(&medium, depth, flight.ends, active, throughput);
-    NewRays point = point_of(shape, &segment, flight.t, target, state);
+    weigh_colors(&medium, depth, path.ends, active, throughput);
+    NewRays point = point_of(shape, &segment, path.t, target, state);
     const float absorbed[3] = {absorption.x, absorption.y, absorption.z};
     for (uint c = 0; c < 3; ++c) {
         point.throughput[c] = throughput[c] * exact_exp(-absorbed[c] * depth);
@@ -56,17 +56,17 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
         LANES_STORE(LANES_AS_UINT(throughput[c]), paths,
                     (VXL_PATH_THROUGHPUT + c) * stride + first);
     }
-    LANES_STORE(LANES_SELECT(flight.ends, state | VXL_STATE_IN_MEDIUM, state), paths,
+    LANES_STORE(LANES_SELECT(path.ends, state | VXL_STATE_IN_MEDIUM, state), paths,
                 VXL_PATH_STATE * stride + first);
-    if (!lanes_any(flight.ends)) return;
-    LANES_STORE(flight.t, transmittance, first);
-    const Slots slots = reserve_slots(flight.ends, counters + VXL_COUNT_CHILDREN);
+    if (!lanes_any(path.ends)) return;
+    LANES_STORE(path.t, transmittance, first);
+    const Slots slots = reserve_slots(path.ends, counters + VXL_COUNT_CHILDREN);
     put_points(&points, &point, &slots, point_hits, point_radiance);
     if (!VXL_NEAR_LIGHT) return;
     const Segment part = part_in_world(shape, segment);
-    const lane_float thick = density_at(&density, &segment, flight.t, flight.ends);
-    put_ways(point_hits, points.stride, (flight.t - part.t_first) * metres,
-             (part.t_last - flight.t) * metres, chance_density(&medium, depth, thick), &slots);
+    const lane_float thick = density_at(&density, &segment, path.t, path.ends);
+    put_ways(point_hits, points.stride, (path.t - part.t_first) * metres,
+             (part.t_last - path.t) * metres, chance_density(&medium, depth, thick), &slots);
 }
 
 /// Adds the light that a source sends from the points `from` and the medium scatters towards the

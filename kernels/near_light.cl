@@ -4,7 +4,7 @@
 #include "lib/lanes/work_item.h"
 #include "lib/light/path_samples.h"
 #include "lib/light/paths.h"
-#include "lib/medium/flight.h"
+#include "lib/medium/free_path.h"
 #include "lib/medium/medium_point.h"
 
 /// Chooses a point for each of the rays 0 .. count-1 that the light shines on in the medium, before
@@ -48,7 +48,7 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
         LANES_SELECT(active, clamp(wanted, segment.t_first, segment.t_last), segment.t_first);
     segment.t_last = t;
     const lane_float depth =
-        fly(shape, &density, &segment, (lane_float)INFINITY, active).depth * metres;
+        travel_until(shape, &density, &segment, (lane_float)INFINITY, active).depth * metres;
     const lane_float thick = density_at(&density, &segment, t, active);
     const lane_float found = near_density(&part, x) + chance_density(&medium, depth, thick);
     active &= LANE_MASK(thick > 0.0f) & LANE_MASK(found > 0.0f);

@@ -143,7 +143,7 @@ static inline lane_float weight_behind(const RayBatch* batch,
     return path_float(batch->paths, VXL_PATH_WEIGHT, batch->stride, first) * largest(node_weight);
 }
 
-/// The place of a value of VXL_TINTED among the children's weights: of the colours that surfaces
+/// The index of a value of VXL_TINTED among the children's weights: of the colours that surfaces
 /// give to what they mirror.
 static inline uint tint_of(uint channel, uint stride, uint entry) {
     return ((VXL_REFRACTS ? 2u : 1u) + channel) * stride + entry;

@@ -67,8 +67,9 @@
 // no process, unless `configure` allows it (process.hpp). It reads the variables VOXELUME_DEVICE,
 // VOXELUME_ASSETS, VOXELUME_CACHE_DIR, VOXELUME_CACHE_MB, VOXELUME_MEMORY_MB, VOXELUME_BUFFER_MB,
 // VOXELUME_LANES, VOXELUME_UNITS, VOXELUME_BATCH, VOXELUME_WORK_GROUP, VOXELUME_BUILD_OPTIONS and
-// VOXELUME_SELF_TEST, which cli/MANUAL.md explains, and XDG_CACHE_HOME and HOME. It keeps compiled
-// kernels, voxelized models and worlds in the user's cache.
+// VOXELUME_SELF_TEST, which cli/MANUAL.md explains, and XDG_CACHE_HOME and HOME; also, where
+// `configure` allows its setting, POCL_CACHE_DIR. It keeps compiled kernels, voxelized models and
+// worlds in the user's cache.
 //
 // Bits. The same scene gives the same bits on every number of devices, lanes and threads, whatever
 // was rendered before.

@@ -79,7 +79,7 @@ std::string fault_of_known_bits(const Device& device);
 struct BenchScene {
     std::string name;
     std::string help;          ///< one line
-    bool is_available = true;  ///< whether the files that it needs are there
+    bool is_available = true;  ///< true if the files that it needs are there
 };
 
 /// All scenes, in the order in which they are measured.

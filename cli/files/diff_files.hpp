@@ -19,7 +19,7 @@ struct DiffNames {
     std::string a, b, output, flip;
     std::string frames;  ///< a list like 1-10; empty: all that are there
 
-    /// Whether they are names of an animation's frames.
+    /// True if they are names of an animation's frames.
     bool is_animation() const;
 };
 

@@ -14,7 +14,7 @@ struct VoxelizeNames {
     int frame = 0;  ///< 0: not one of several
 };
 
-/// Whether a file to be read is a sequence such as walk.####.obj. Stacks of slices are one array.
+/// True if a file to be read is a sequence such as walk.####.obj. Stacks of slices are one array.
 bool is_file_sequence(const std::string& file);
 
 /// The names of input and outputs for each frame of a sequence of files: the frames of `list`, or

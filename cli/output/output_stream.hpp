@@ -9,7 +9,7 @@
 
 namespace voxelume::cli {
 
-/// Whether an output is standard output: "-" is a PNG there, "-.exr" OpenEXR.
+/// True if an output is standard output: "-" is a PNG there, "-.exr" OpenEXR.
 bool is_stream(const std::string& output);
 
 /// The one among a job's outputs that is standard output, if there is one.

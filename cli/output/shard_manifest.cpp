@@ -66,13 +66,13 @@ ShardManifest manifest_of(const Json& json) {
     return manifest;
 }
 
-/// Whether what can't be read was meant to be a part: it has the name of one, or begins like one.
+/// True if what can't be read was meant to be a part: it has the name of one, or begins like one.
 bool is_meant(const std::filesystem::path& file, const std::string& text) {
     return file.extension() == ".shard" ||
            text.find(fmt::format("\"{}\"", kFormatKey)) != std::string::npos;
 }
 
-/// Whether a run can have such a part.
+/// True if a run can have such a part.
 bool is_possible(const ShardManifest& manifest) {
     const auto& [number, count] = manifest.shard;
     if (number < 1 || number > count || manifest.frames.empty() || manifest.outputs.empty())

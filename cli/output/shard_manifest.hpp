@@ -41,7 +41,7 @@ struct ShardManifest {
     std::optional<ShardRows> rows;  ///< where the run is one image
 };
 
-/// Whether a manifest can hold this text: whether it is UTF-8.
+/// True if a manifest can hold this text, that is, if it is UTF-8.
 bool is_text(const std::string& text);
 
 /// Writes it. Throws Error::output.

@@ -26,7 +26,7 @@ Overwrite overwrite_of(const RenderCommand& command) {
 
 namespace {
 
-/// Whether all files of a volume are there. Throws Error::output where only some are: they may be
+/// True if all files of a volume are there. Throws Error::output where only some are: they may be
 /// another program's, and aren't to be replaced.
 bool is_kept(const std::filesystem::path& volume) {
     if (!volume_files(volume).empty()) return true;

@@ -42,7 +42,7 @@ bool is_pattern(const std::string& path) {
     return frame_path(path, 1, false) != path;
 }
 
-/// Whether an output without --frames asks for the whole animation: a name with #### does, but for
+/// True if an output without --frames asks for the whole animation: a name with #### does, but for
 /// slices, whose #### is left to their writer.
 bool wants_all_frames(const RenderCommand& options) {
     return std::ranges::any_of(options.outputs, is_pattern) ||
@@ -95,8 +95,8 @@ const CLI::Option* add_frame_options(CLI::App& app, RenderCommand& command) {
                                                "output's name becomes the number")
                                     ->type_name("FRAMES");
     app.add_option("--views", command.views,
-                   "render so many views around the scene; {view} in an output's name becomes the "
-                   "number")
+                   "render this many views around the scene; {view} in an output's name becomes "
+                   "the number")
         ->check(in_range(1, 10000, Number::whole));
     add_quilt_options(app, command.quilt);
     app.add_option("--sweep", command.sweeps,

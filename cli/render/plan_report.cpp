@@ -141,7 +141,7 @@ void print_verdict(const Plan& plan, size_t frames) {
                bytes_text(plan.device_bytes), of_frames, chosen);
 }
 
-/// Plans with a bar where a person watches, as many frames take long.
+/// Plans a scene, and shows a bar to a person, as many frames take long.
 Plan watched_plan(const Scene& scene, const Device& device, PlanOptions options, bool is_quiet) {
     std::optional<Progress> bar;
     size_t told = 0;

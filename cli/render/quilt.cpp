@@ -124,8 +124,8 @@ void add_quilt_options(CLI::App& app, QuiltChoices& choices) {
                "by default")
             ->check(in_range(0, 120));
     app.add_option("--stereo", choices.stereo,
-                   "render a view for each of two eyes, so many metres apart, like 0.064: side by "
-                   "side, the left one first, or into two files whose names have left and "
+                   "the distance of two eyes in metres, like 0.064: render a view for each, side "
+                   "by side, the left one first, or into two files whose names have left and "
                    "right in place of {eye}")
         ->check(in_range(1e-6, 1e6))
         ->excludes(quilt)

@@ -25,7 +25,7 @@ template <class... Args>
 /// What a file's name ends with, in small letters: ".png" of "Bunny.PNG".
 std::string ending_of(const std::filesystem::path& file);
 
-/// Whether a file's name ends as those of triangle meshes do.
+/// True if a file's name ends as those of triangle meshes do.
 bool is_mesh_name(const std::filesystem::path& file);
 
 /// Throws Error::usage when the name has none of the extensions (any will do if there are none),

@@ -7,7 +7,7 @@
 
 namespace voxelume::cli {
 
-/// Whether a name has a place for a number.
+/// True if a name has a place for a number.
 bool is_numbered(const std::string& name);
 
 /// The numbers of the files that there are of a name such as frame.####.png.

@@ -44,7 +44,7 @@ std::string clock_text(double seconds);
 /// left.
 std::string progress_line(const ProgressState& state, const Terminal& terminal);
 
-/// Whether a bar is drawn.
+/// The cases in which a bar is drawn.
 enum class Drawing { never, where_watched, always };
 
 /// Redraws a line on `stream` at most ten times a second; silent where no bar is to be drawn. Any

@@ -31,7 +31,7 @@ struct SceneOptions {
     bool strict = false;
     std::vector<std::string> settings;  ///< PATH=VALUE, of --set
     std::vector<std::string> swept;     ///< likewise, of --sweep
-    bool has_views = false;             ///< whether it is seen from all around
+    bool has_views = false;             ///< true if it is seen from all around
     double orbit = 0;                   ///< degrees of this view
     ImportChoices import;               ///< where the scene is a model file
 };

@@ -60,7 +60,7 @@ constexpr std::array kSettings = {
     Setting{"self_test", "VOXELUME_SELF_TEST",
             "again: test the driver once more; off: use a device that failed", "once a driver",
             fault_of_self_test},
-    Setting{"units", "VOXELUME_UNITS", "take so many compute units only", "all", fault_of_count},
+    Setting{"units", "VOXELUME_UNITS", "the number of compute units to use", "all", fault_of_count},
     Setting{"work_group", "VOXELUME_WORK_GROUP", "work-items of every work-group",
             "what suits the kernel", fault_of_count},
     Setting{"batch", "VOXELUME_BATCH", "rays that pass through the stages together",

@@ -126,7 +126,7 @@
 // through the largest world, 3 * 65536.
 #define VXL_MAX_LAYERS 0x40000
 
-// A free place in the set of objects that a ray is inside of; Features::media is its size.
+// A free slot in the set of objects that a ray is inside of; Features::media is its size.
 #define VXL_NO_MEDIUM 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.

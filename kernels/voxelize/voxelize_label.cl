@@ -15,14 +15,14 @@
 #ifndef VXL_SLICES
 #define VXL_SLICES 16
 #endif
-/// Whether the mesh has colours of its vertices, and textures.
+/// True if the mesh has colours of its vertices, and textures.
 #ifndef VXL_VERTEX_COLORS
 #define VXL_VERTEX_COLORS 1
 #endif
 #ifndef VXL_MESH_TEXTURES
 #define VXL_MESH_TEXTURES 0
 #endif
-/// Whether it has normals at its triangles' corners.
+/// True if it has normals at its triangles' corners.
 #ifndef VXL_VERTEX_NORMALS
 #define VXL_VERTEX_NORMALS 0
 #endif

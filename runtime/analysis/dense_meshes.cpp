@@ -35,7 +35,7 @@ double largest_edge(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-/// Whether a model's shape may change from frame to frame.
+/// True if a model's shape may change from frame to frame.
 bool changes(const Scene& scene, size_t number) {
     return scene.models[number].morph || any_part_changes(scene, [&](const MovingPart& part) {
                return part.part == ScenePart::model && part.place == number;

@@ -135,7 +135,7 @@ void choose_surfaces(Scene& scene, AssetStore& meshes) {
     }
 }
 
-/// Whether rays go through some cubes of the model, of which only its file tells.
+/// True if rays go through some cubes of the model, of which only its file tells.
 bool has_clear_cubes(const Model& model, AssetStore& meshes) {
     return !model.voxels.empty() && shows_voxels(model.surface) && meshes.voxels(model).transparent;
 }

@@ -101,7 +101,7 @@ bool has_emissive_samples(const Scene& scene, const Pyramid& world) {
     return scene.render.light == LightMode::local && has_emissive_object(scene, world);
 }
 
-/// Whether paths are scattered between the objects.
+/// True if paths are scattered between the objects.
 bool scatters_paths(const Scene& scene, const Pyramid& world) {
     return has_scattering(scene) && !world.clear;
 }

@@ -18,8 +18,8 @@ Scene volume_scene(Scene scene);
 /// layers of objects that let light through would need the light of each alone.
 Scene volume_scene(const Scene& scene, const Pyramid& world);
 
-/// Whether objects of the scene decide that, wherever they are in a frame. In a world, textures and
-/// voxels that are seen through may decide it, too.
+/// True if the scene's objects rule out global light, wherever they are in a frame. In a world,
+/// textures and voxels that are seen through may rule it out, too.
 bool drops_global_light(const Scene& scene);
 
 /// What the caller of an image that drops it is told.

@@ -25,14 +25,14 @@
 namespace voxelume {
 namespace {
 
-/// Whether a file has voxels of a model, and no volumetric image.
+/// True if a file has voxels of a model, and no volumetric image.
 bool holds_model(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
     if (ending == ".vox" || ending == ".vxm" || ending == ".vdb") return true;
     return voxel_format_named(path) != nullptr && !is_volume_nrrd(path);
 }
 
-/// Whether a volumetric image may have such a name.
+/// True if a volumetric image may have such a name.
 bool is_volume_name(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
     return std::ranges::any_of(volume_format_table(), [&](const VolumeFormatEntry& entry) {

@@ -32,7 +32,7 @@ bool has_colors(const Image& image) {
                                [&](const char* name) { return image.planes.contains(name); });
 }
 
-/// Whether its colours are numbers, infinite ones among them.
+/// True if its colours are numbers, infinite ones among them.
 bool has_numbers(const Image& image) {
     const auto is_nan = [](float value) { return std::isnan(value); };
     return std::ranges::all_of(kColors, [&](const char* name) {
@@ -63,7 +63,7 @@ std::optional<std::vector<float>> flip_of(const Image& a, const Image& b, bool a
     return flip_map(colors_of(a, are_codes), colors_of(b, are_codes));
 }
 
-/// Whether the options ask for all colours, so that FLIP is among what is compared.
+/// True if the options ask for all colours, so that FLIP is among what is compared.
 bool wants_flip(const CompareOptions& options) {
     const std::vector<std::string>& names = options.channels;
     return names.empty() || std::ranges::all_of(kColors, [&](const char* color) {

@@ -16,14 +16,14 @@
 namespace voxelume {
 namespace {
 
-/// Whether a channel is among those of a row.
+/// True if a channel is among those of a row.
 bool is_of(const std::string& channel, const v1::ChannelRow& row) {
     return std::ranges::any_of(row.planes, [&](const std::string_view plane) {
         return plane.ends_with('_') ? channel.starts_with(plane) : channel == plane;
     });
 }
 
-/// Whether an OpenEXR file leaves a channel out.
+/// True if an OpenEXR file leaves a channel out.
 bool is_left_out(const std::string& channel, const v1::Channels& channels) {
     return std::ranges::any_of(v1::channel_table(), [&](const v1::ChannelRow& row) {
         return !(channels.*row.member) && is_of(channel, row);

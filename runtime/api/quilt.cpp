@@ -40,7 +40,7 @@ std::string hash_of(const CacheKey& key) {
     return cache_key(parts);
 }
 
-/// Whether the images have one size and the same channels.
+/// True if the images have one size and the same channels.
 bool are_alike(const voxelume::Image& a, const voxelume::Image& b) {
     const auto name = [](const auto& channel) -> const std::string& { return channel.first; };
     return a.width == b.width && a.height == b.height &&

@@ -15,7 +15,7 @@ uint64_t main_memory();
 /// Has main_memory() tell at most this; 0: as much as there is. Any thread may call it.
 void limit_main_memory(uint64_t bytes);
 
-/// Whether the process may take this many bytes in addition to what it holds (its resident memory).
+/// True if the process may take this many bytes in addition to what it holds (its resident memory).
 bool has_room_for(double bytes);
 
 /// Throws Error::limit, which names the file and `what` takes the bytes, if there is no room.

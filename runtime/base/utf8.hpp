@@ -12,7 +12,7 @@ bool is_utf8(const std::string& text);
 /// result always is.
 std::string utf8_text(const std::string& text);
 
-/// Whether text begins with the mark of UTF-16, of either order of bytes.
+/// True if text begins with the mark of UTF-16, of either order of bytes.
 bool is_utf16(const std::string& text);
 
 /// The text in UTF-8, without its mark. What is no character becomes U+FFFD.

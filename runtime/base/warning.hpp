@@ -44,7 +44,7 @@ struct Warning {
     std::string file = {};  ///< that it is about, where files of other folders may have its text
 };
 
-/// Whether both are about the same, whatever numbers their texts have.
+/// True if both are about the same, whatever numbers their texts have.
 inline bool is_same(const Warning& a, const Warning& b) {
     return a.kind == b.kind && a.where == b.where;
 }

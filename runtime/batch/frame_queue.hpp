@@ -42,8 +42,8 @@ class FrameQueue {
         rendered_.emplace(frame, std::move(rendered));
         changed_.notify_all();
     }
-    /// Has `frame` and those after it taken again by the one device that takes them, each once all
-    /// before it are output.
+    /// Gives `frame` and the later frames to their one device again, each once all frames before it
+    /// are output.
     void restart(size_t frame) {
         const std::lock_guard lock(mutex_);
         next_ = frame;

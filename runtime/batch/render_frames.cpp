@@ -85,7 +85,7 @@ class Batch {
             check_frames(planned, options_.frames, options_.meshes, device.info());
     }
 
-    /// Whether images are rendered in bands, which have to suit all devices.
+    /// Decides whether images are rendered in bands, which have to suit all devices.
     void choose_bands() {
         for (const Device& device : devices_) {
             const ImageBands bands = bands_that_fit(scene_, options_.frames, options_.meshes,

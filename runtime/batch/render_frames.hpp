@@ -31,11 +31,11 @@ struct EarlierImage {
     std::shared_ptr<const Image> image;
     int samples = 1;  ///< a power of two, less than the scene's; 0: as its channels say
 };
-/// Gives those of frames, by their numbers. Several threads call it.
+/// Gives a frame's earlier image by the frame's number. Several threads call it.
 using EarlierImages = std::function<EarlierImage(int frame)>;
 
-/// Makes who takes the bands of a frame's image, by the frame's place in the run. Several threads
-/// call it.
+/// Makes the sink for the bands of a frame's image, by the frame's number `n` in the run, from 0.
+/// Several threads call it.
 using BandSinks = std::function<std::shared_ptr<BandSink>(size_t n)>;
 
 /// What to render of a scene.

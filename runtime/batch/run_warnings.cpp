@@ -111,7 +111,7 @@ bool returns_light(const Material& material) {
     return (material.diffuse > 0 && !is_black) || material.specular.value_or(0) > 0;
 }
 
-/// Whether objects can be anything but black.
+/// True if objects can be anything but black.
 bool shows_light(const Scene& scene) {
     const auto returns = [&](int material) {
         return returns_light(scene.materials[size_t(material)]);

@@ -35,7 +35,7 @@ class CellBounds {
         first_ = glm::min(first_, cell);
         last_ = glm::max(last_, cell);
     }
-    /// Whether none of a cube of cells can change the bounds.
+    /// True if none of a cube of cells can change the bounds.
     bool hold(const glm::ivec3& corner, int size) const {
         return glm::min(first_, corner) == first_ && glm::max(last_, corner + size - 1) == last_;
     }

@@ -46,7 +46,7 @@ class Places {
         }
     }
 
-    /// Whether some line of those that lie side by side along `axis`, from number `first` to before
+    /// True if some line of those that lie side by side along `axis`, from number `first` to before
     /// `end`, may cross the triangle.
     bool may_cross(const glm::uvec3& t, int axis, int first, int end) const {
         const auto [low, high] =

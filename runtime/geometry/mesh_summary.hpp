@@ -52,10 +52,10 @@ MeshPaint paint_of(const Mesh& mesh);
 /// number, as the scanned bunny's are.
 inline constexpr double kOpenShare = 0.03;
 
-/// Whether a mesh has triangles that aren't points or lines.
+/// True if a mesh has triangles that aren't points or lines.
 bool has_area(const MeshSummary& mesh);
 
-/// Whether a mesh's holes are so large that nothing is inside of it.
+/// True if a mesh's holes are so large that nothing is inside of it.
 bool is_open(const MeshSummary& mesh);
 
 /// The box around the triangles of a mesh.

@@ -78,7 +78,7 @@ class Cells {
 
 using TriangleCorners = std::array<glm::dvec3, 3>;
 
-/// Whether a triangle's box lies in some of the cells; large triangles are cut in two.
+/// True if a triangle's box lies in some of the cells; large triangles are cut in two.
 bool touches(const Cells& cells, const TriangleCorners& t) {
     const glm::ivec3 low = cells.cell_of(glm::min(glm::min(t[0], t[1]), t[2]));
     const glm::ivec3 high = cells.cell_of(glm::max(glm::max(t[0], t[1]), t[2]));

@@ -21,8 +21,8 @@ struct ThinPart {
 /// The triangles of a closed mesh within at least five voxels of walls that are thinner than
 /// kThinVoxels. `voxel_edge` is in metres. Walls are found on lines along the axes, two for each
 /// voxel; those of a voxel or two all around, as folds of scanned meshes are, don't count. Empty
-/// for a mesh without thin walls, of more than 2048 voxels along an axis, or with so many layers
-/// that it has no inside.
+/// for a mesh without thin walls, of more than 2048 voxels along an axis, or with too many layers
+/// to have an inside.
 ThinPart thin_part_of(const Mesh& mesh, double voxel_edge);
 
 }  // namespace voxelume

@@ -21,8 +21,8 @@ struct VoxelModel {
     std::vector<uint64_t> occupancy;
     std::vector<int16_t> distance;
     std::vector<uint32_t> attributes, colors, normals;
-    /// In place of `colors` where there are few: the entry of the palette of each voxel. A fourth
-    /// of the memory, which takes longer to fill than files to read.
+    /// The palette entry of each voxel, in place of `colors` for few colours: it takes a fourth of
+    /// the memory, and memory takes longer to fill than files to read.
     UnfilledVector<uint8_t> color_codes;
     std::array<uint32_t, 256> palette{};
     std::vector<uint32_t> full_colors;  ///< by brick: those of bricks that are full; empty: white

@@ -14,9 +14,9 @@ namespace voxelume {
 /// kernels/shared/field_place.h has the numbers.
 enum class FieldLink : uint8_t { none, least, largest };
 
-/// Brackets may be so deep within each other.
+/// The depth to which the brackets of a formula may be nested.
 inline constexpr size_t kMaxBracketDepth = VXL_MAX_BRACKETS;
-/// ... and a formula may have so many.
+/// The maximum number of brackets in a formula.
 inline constexpr size_t kMaxBrackets = VXL_BRACKET_MASK;
 
 /// A bracket of a formula.

@@ -101,7 +101,7 @@ class Selection {
     const std::vector<std::string>& wanted_;
 };
 
-/// Whether a plane of an image has Cryptomatte's ids: bits of hashes, which are no light.
+/// True if a plane of an image has Cryptomatte's ids: bits of hashes, which are no light.
 bool has_ids(const Image& image, const std::string& plane) {
     if (!plane.ends_with(".R") && !plane.ends_with(".B")) return false;
     constexpr size_t kEnd = 4;  // as "00.R" of "CryptoObject00.R"

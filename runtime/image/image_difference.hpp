@@ -21,7 +21,7 @@ struct ChannelDifference {
     uint64_t differing = 0;  ///< pixels whose values are unequal; two NaNs are equal
     uint64_t unmatched = 0;  ///< those of them with a value that isn't finite; not in the errors
     uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; ids: unequal
-    bool is_id = false;      ///< whether these are ids, which have no distance
+    bool is_id = false;      ///< true if these are ids, which have no distance
 };
 
 /// Which differences count.

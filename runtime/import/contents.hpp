@@ -25,9 +25,9 @@ struct FileObserver {
     double height = 0;  ///< metres; the least of all frames
 };
 
-/// Local light sends rays from each point to each spot of each emissive object. Together they have
-/// three times the spots of a studio's sun.
-inline constexpr size_t kEmissiveSpots = 72;
+/// Local light sends a ray from each point to each light sample of each emissive object. Together
+/// they have three times the light samples of a studio's sun.
+inline constexpr size_t kEmissiveLightSamples = 72;
 
 struct Contents {
     std::vector<std::string> materials;  ///< members: `"name": {...}`

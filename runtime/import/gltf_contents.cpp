@@ -96,7 +96,7 @@ class SceneOfGltf {
             add_observer_tracks(gltf_, nodes, frames_, contents_.tracks);
         if (!contents_.tracks.empty()) contents_.frames = frames_.count;
         contents_.fps = kGltfFrameRate;
-        contents_.max_locally_emissive = kEmissiveSpots;  // each has one
+        contents_.max_locally_emissive = kEmissiveLightSamples;  // each has one
         return std::move(contents_);
     }
 
@@ -104,7 +104,7 @@ class SceneOfGltf {
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
         if (gltf_primitives(mesh).empty()) return;
-        // Its joints place what has a skin, whatever its node does.
+        // A mesh with a skin is placed by its joints alone.
         const bool is_skinned = node.skin >= 0;
         std::vector<glm::dmat4> maps =
             is_skinned ? std::vector{motion_.world_from_file()} : frames_.maps_of(node);

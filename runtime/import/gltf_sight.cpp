@@ -31,7 +31,7 @@ glm::dvec3 direction_of(const GltfNode& node) {
     return direction_of(node.world_from_node);
 }
 
-/// Whether a node's map still tells where its camera looks and what is up there.
+/// True if a node's map still tells where its camera looks and what is up there.
 bool has_directions(const glm::dmat4& map) {
     return glm::length(glm::cross(direction_of(map), unit(map[1]))) > kMinUpSine;
 }

@@ -14,7 +14,7 @@ namespace voxelume {
 
 inline constexpr double kGltfFrameRate = 24;  ///< frames a second; a file has none
 
-/// How many frames show a clip.
+/// The number of frames that show a clip of this length.
 int frame_count(double seconds);
 
 /// The frames of a scene in which a clip moves nodes.

@@ -12,13 +12,13 @@ namespace voxelume {
 /// The scene shows the file `scale` times as large as it is.
 std::string gltf_values(const GltfValue& material, bool is_unlit, double scale = 1);
 
-/// Whether its base colour isn't black.
+/// True if its base colour isn't black.
 bool gltf_has_color(const GltfValue& material);
 
-/// Whether the material has an emission of its own.
+/// True if the material has an emission of its own.
 bool gltf_shines(const GltfValue& material);
 
-/// Whether light goes through what has the material.
+/// True if light goes through what has the material.
 bool gltf_transmits(const GltfValue& material);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material of an OBJ file's library -> the keys of a scene's material.
+// MTL material -> the keys of a scene's material.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace voxelume {
 /// colours, which the material's colour multiplies.
 std::string mtl_values(const MtlMaterial& material);
 
-/// Whether light goes through what has the material.
+/// True if light goes through what has the material.
 bool mtl_transmits(const MtlMaterial& material);
 
 }  // namespace voxelume

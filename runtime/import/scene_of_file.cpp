@@ -161,7 +161,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
     return a;
 }
 
-/// The objects, of which emissive ones share kEmissiveSpots, where there are several.
+/// The objects, of which emissive ones share kEmissiveLightSamples, where there are several.
 std::vector<std::string> lit_objects(const Contents& contents) {
     std::vector<std::string> objects = contents.objects;
     const size_t count = contents.emissive_objects.size();
@@ -169,7 +169,7 @@ std::vector<std::string> lit_objects(const Contents& contents) {
     for (const size_t number : contents.emissive_objects) {
         objects[number].pop_back();
         objects[number] +=
-            fmt::format(", \"spots\": {}}}", std::max<size_t>(1, kEmissiveSpots / count));
+            fmt::format(", \"spots\": {}}}", std::max<size_t>(1, kEmissiveLightSamples / count));
     }
     return objects;
 }

@@ -18,7 +18,7 @@ std::vector<std::string> model_file_endings();
 /// How names of those that are meshes end.
 std::vector<std::string> mesh_file_endings();
 
-/// Whether a file's ending says that `scene_of_file` reads it.
+/// True if a file's ending says that `scene_of_file` reads it.
 bool is_model_file(const std::filesystem::path& file);
 
 /// The text of a scene that shows what a model's file holds: on a ground, in soft light, by an

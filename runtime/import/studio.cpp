@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSunAside = 42, kSunHeight = 44;  // degrees: left of the observer, above
 constexpr double kSunSpread = 2.5;                 // degrees, half of the angle that the sun fills
-constexpr int kSunSpots = 24;  // of 12, each drew a shadow of its own behind thin things
+constexpr int kSunLightSamples = 24;  // each of 12 drew a shadow of its own behind thin things
 constexpr glm::dvec3 kSunColor{1, 0.97, 0.92}, kSkyColor{0.9, 0.95, 1};
 constexpr double kSun = 0.92;  // irradiance of a plane that faces it
 constexpr double kSky = 0.5;   // radiance
@@ -67,7 +67,7 @@ void add_light(const FarLight& far, const Bounds& box, Studio& studio, glm::dvec
     };
     set_light(light_types()[size_t(LightKind::disk)], p, refused, light);
     const glm::dvec3 ground(middle.x, box.min.y, middle.z);
-    // The plane that faces the light is taken for one that lies: its cosine is that of the middle.
+    // The plane facing the light stands in for the horizontal one, with the cosine at its middle.
     const double lying = irradiance_at(light, ground);
     const double needed = far.irradiance * far.towards.y / lying;
     const double intensity = rounded(std::min(needed, kBrightest), 5);
@@ -137,7 +137,7 @@ glm::dvec3 add_own_light(const Bounds& box, double longitude, double ambient, St
     studio.ambient = glm::dvec3(ambient);
     glm::dvec3 on_ground = sky + ambient;
     add_light({"sun", direction_of(longitude - kSunAside, kSunHeight), kSunColor, kSun, kSunSpread,
-               kSunSpots},
+               kSunLightSamples},
               box, studio, on_ground);
     return on_ground;
 }
@@ -151,8 +151,8 @@ glm::dvec3 add_light_of(const FileLight& around, const Bounds& box, double longi
         around.to_sun.value_or(direction_of(longitude - kSunAside, kSunHeight));
     const double sun = std::max({around.sun.x, around.sun.y, around.sun.z});
     if (sun > 0 && to_sun.y > kLowest)
-        add_light({"sun", to_sun, around.sun / sun, sun, around.sun_spread, kSunSpots}, box, studio,
-                  on_ground);
+        add_light({"sun", to_sun, around.sun / sun, sun, around.sun_spread, kSunLightSamples}, box,
+                  studio, on_ground);
     if (around.sky != glm::dvec3(0)) studio.sky = hidden_sky(around.sky);
     if (around.fog != glm::dvec3(0))
         studio.medium =

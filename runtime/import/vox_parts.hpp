@@ -22,12 +22,12 @@ class VoxParts {
     std::string name_of(int model);
     /// `, "materials": {...}` for the model's voxels that have a material of their own.
     std::string group_members(int model);
-    /// Whether some of its voxels emit light.
+    /// True if some of its voxels emit light.
     bool is_emissive(int model);
     /// The box around the model's voxels.
     Bounds box_of(int model);
 
-    /// Whether light goes through a material that is needed.
+    /// True if light goes through a material that is needed.
     bool has_glass() const;
 
     std::vector<std::string> models() const;  ///< members of those that were named

@@ -29,7 +29,7 @@ glm::dmat3 axes_of(const VoxCamera& camera) {
     return yaw * pitch * roll;
 }
 
-/// The file's coordinates with Y up.
+/// A vector of the file with Y up.
 glm::dvec3 turned(const glm::dvec3& v) {
     return {v.x, v.z, -v.y};
 }

@@ -18,7 +18,7 @@ namespace voxelume {
 
 enum class DeviceKind { cpu, gpu, other };
 
-/// Whether a device's driver gave the bits that are known, when it was first opened.
+/// Tells whether a device's driver gave the bits that are known, when it was first opened.
 enum class SelfTest { unknown, passed, failed };
 
 struct Candidate;

@@ -13,7 +13,7 @@ namespace voxelume {
 std::string selector_or_default(std::string_view selector);
 
 /// Limits a device's memory as VOXELUME_MEMORY_MB, VOXELUME_BUFFER_MB and the process's limits say.
-/// That of a CPU is main memory.
+/// A CPU's memory is main memory.
 void limit_memory(DeviceInfo& info);
 
 /// A device as it is opened: with `lanes`, or VOXELUME_LANES if these are 0, or else its own; with

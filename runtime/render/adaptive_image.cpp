@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// Those of the pixels that lie in a part of an image, as numbers of the part's own pixels.
+/// The pixels that lie in a part of an image, numbered within the part.
 std::vector<uint32_t> pixels_in(const std::vector<uint32_t>& pixels, int width, glm::ivec2 first,
                                 glm::ivec2 size) {
     std::vector<uint32_t> result;
@@ -50,8 +50,8 @@ void drop_channels(const ImageChannels& asked, Image& image) {
 
 }  // namespace
 
-/// An image with more samples of the pixels that are given, or, if none are, of those that contrast
-/// with others, which it gives.
+/// An image with more samples of the pixels in `sampled`. If it has none yet, chooses the pixels
+/// that contrast with their neighbours and returns them in `sampled`.
 Image Renderer::adaptive_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                                const Tiles& tiles, Sampled& sampled) {
     const RenderSettings& asked = scene.render;

@@ -61,7 +61,7 @@ struct RankPlanes {
     FloatPlane* share;
 };
 
-/// Those of a layer, rank after rank; none where the image has no such layer.
+/// The planes of a layer, rank after rank; none where the image has no such layer.
 template <class AnyImage>
 auto ranks_of(const std::string& layer, AnyImage& image) {
     using FloatPlane =

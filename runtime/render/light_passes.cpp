@@ -153,7 +153,7 @@ LightPass mattes_of(const Scene& scene) {
     return pass;
 }
 
-/// Whether mattes are a pass.
+/// True if mattes are a pass.
 bool ranks_mattes_anew(const RenderSettings& render) {
     const ImageChannels& channels = render.channels;
     return (channels.object_matte || channels.material_matte) && render.earlier &&

@@ -37,10 +37,10 @@ class NoiseReached {
     Wide squares_ = 0;  ///< in units of 2^-64
 };
 
-/// Whether it is known of an image of a scene, once it is rendered.
+/// True if it is known of an image of a scene, once it is rendered.
 bool measures_noise(const Scene& scene);
 
-/// Whether a tile shows surfaces of which no light came.
+/// True if a tile shows surfaces of which no light came.
 bool is_dark_tile(uint32_t tile, const Image& image);
 
 /// Averages a tile's light over two images with `samples` samples each, in `image`, whose

@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// Those on which the hits of given sight rays depend.
+/// The features on which the hits of given sight rays depend.
 Features of_hits(const Features& all) {
     Features features;
     features.cubes = all.cubes;
@@ -44,14 +44,14 @@ RenderSettings of_sight(const RenderSettings& all) {
 
 }  // namespace
 
-/// Whether the sight rays of both meet the same, though their light differs.
+/// True if the sight rays of both meet the same, though their light differs.
 bool Renderer::have_equal_hits(const View& a, const View& b) {
     return a.world == b.world && a.observer == b.observer && a.transmits == b.transmits &&
            of_sight(a.settings) == of_sight(b.settings) &&
            of_hits(a.features) == of_hits(b.features);
 }
 
-/// Whether a pass of the light, with batches of at most `max_tiles`, may have this image's hits.
+/// True if a pass of the light, with batches of at most `max_tiles`, may have this image's hits.
 bool Renderer::lends_hits(const View& view, uint32_t max_tiles) const {
     return view_ && !hits_.empty() && tiles_in_batch_ <= max_tiles && have_equal_hits(view, *view_);
 }

@@ -67,7 +67,7 @@ class Renderer {
     Image new_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                     const FrameProgress& progress = {});
 
-    /// The tiles that one of several renderers takes of an image.
+    /// The tiles of an image that one of several renderers takes.
     struct Tiles {
         TileShare& share;
         std::vector<TileRange>& taken;  ///< the tiles that it rendered

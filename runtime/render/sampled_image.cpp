@@ -44,18 +44,18 @@ void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
         ranges.push_back({tile, 1});
 }
 
-/// Whether there is time for as much again as was spent since the start.
+/// True if there is time for as much again as was spent since the start.
 bool has_time(const NoiseTarget& target, Clock::time_point start) {
     const std::chrono::duration<double> spent = Clock::now() - start;
     return target.seconds == 0 || 2 * spent.count() <= target.seconds;
 }
 
-/// Whether an image's tiles may need more samples than its first ones.
+/// True if an image's tiles may need more samples than its first ones.
 bool is_sampled_again(const Scene& scene) {
     return scene.render.noise.is_given() && scene.render.channels.color;
 }
 
-/// Those of the tiles that something is true of.
+/// The tiles for which a predicate holds.
 template <class IsTrue>
 std::vector<TileRange> tiles_where(const std::vector<TileRange>& tiles, IsTrue&& is_true) {
     std::vector<TileRange> result;
@@ -80,7 +80,7 @@ class TileSamples {
 
     int of(uint32_t tile) const { return samples_[tile]; }
 
-    /// Whether a tile that was measured needs twice the samples.
+    /// True if a tile that was measured needs twice the samples.
     bool needs_more(uint32_t tile, const NoiseTarget& target, const Image& image) const {
         const int samples = samples_[tile];
         if (2 * samples > maximum_) return false;
@@ -142,7 +142,8 @@ class TileSamples {
     std::vector<float> errors_;  ///< infinite where none was measured
 };
 
-/// The planes that an image is to have, of one of an earlier run.
+/// The image `earlier` without what tells of its sampling. Throws Error::input if it lacks the
+/// colour that `channels` have.
 Image planes_of(const Image& earlier, const ImageChannels& channels) {
     Image image = earlier;
     std::erase_if(image.planes, [](const auto& plane) {

@@ -40,7 +40,7 @@ class VolumeLight {
     /// Lights one sample of the light of rays.
     void sample(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
-    /// Lights rays, in global light by the mean of the scene's samples.
+    /// Lights rays. In global light, a ray gets the mean over the scene's samples.
     void mean(RayBatch& batch, const SampledRays& rays, const LayerSink& sink);
 
   private:

@@ -12,7 +12,7 @@ constexpr int kComparedSamples = 1;
 /// How far from pixels that contrast others show a part of them, through the filter: pixels.
 int contrast_reach(const RenderSettings& render);
 
-/// Whether some pixels of flat images get more samples than others, by their contrast.
+/// True if some pixels of flat images get more samples than others, by their contrast.
 bool is_adaptive(const RenderSettings& render);
 
 /// The scene whose image is rendered first: with so few samples, with what pixels are compared by,

@@ -27,50 +27,50 @@ Outside outside_of(const Scene& scene);
 std::vector<int> materials_of_groups(const Object& object,
                                      const std::vector<std::string>& group_names);
 
-/// Whether one of the object's materials has emission.
+/// True if one of the object's materials has emission.
 bool has_emission(const Scene& scene, const Object& object);
 
 /// The rank of each object by descending priority; among equal priorities the earlier object comes
 /// first.
 std::vector<uint32_t> object_ranks(const std::vector<Object>& objects);
 
-/// For each object, its place among those whose surfaces coincide, of which a ray meets the first:
+/// For each object, its index among those whose surfaces coincide, of which a ray meets the first:
 /// opaque ones come before others, and each of these in the order of object_ranks. Empty for scenes
 /// with fewer than two objects or without exact surfaces.
 std::vector<uint32_t> coincidence_order(const Scene& scene);
 
-/// Whether light goes through or past surfaces of the material.
+/// True if light goes through or past surfaces of the material.
 bool transmits(const Material& material);
 
-/// Whether a material that the object may show transmits light.
+/// True if a material that the object may show transmits light.
 bool transmits(const Scene& scene, const Object& object);
 
-/// Whether an object's emission lights the world: the paper's source of many light samples.
+/// True if an object's emission lights the world: the paper's source of many light samples.
 bool is_emissive(const Scene& scene, const Object& object);
 
-/// Whether any light comes from it.
+/// True if any light comes from it.
 bool shines(const Light& light);
 
-/// Whether the medium between the objects scatters light. In local light none does.
+/// True if the medium between the objects scatters light. In local light none does.
 bool has_scattering(const Scene& scene);
 
-/// Whether any light comes from a light that isn't infinitely far away.
+/// True if any light comes from a light that isn't infinitely far away.
 bool has_placed_light(const Scene& scene);
 
-/// Whether it shines from an area, not from one point or direction.
+/// True if it shines from an area, not from one point or direction.
 bool has_area(const Light& light);
 
-/// Whether a light shines from an area.
+/// True if a light shines from an area.
 bool has_area_light(const Scene& scene);
 
-/// Whether paths may count lights with an area that they run into. They don't where rays to lights
+/// True if paths may count lights with an area that they run into. They don't where rays to lights
 /// pass what paths don't pass: everything, without shadows, or transmitting objects.
 bool may_meet_lights(const Scene& scene);
 
-/// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
+/// True if rays see the voxels inside of the object, too: solid cubes that let light through.
 bool shows_inside(const Scene& scene, const Object& object);
 
-/// Whether an object can be an instance: not cubes that let light through, nor what has no end.
+/// True if an object can be an instance: not cubes that let light through, nor what has no end.
 bool can_be_instance(const Scene& scene, const Object& object);
 
 /// True if rays are transformed into the object's space, instead of the object into the world's.

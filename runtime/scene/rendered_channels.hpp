@@ -6,7 +6,7 @@
 
 namespace voxelume {
 
-/// Whether an image has colour that isn't asked for, since its variance or a target of noise needs
+/// True if an image has colour that isn't asked for, since its variance or a target of noise needs
 /// it.
 bool adds_color(const RenderSettings& render);
 

@@ -51,7 +51,7 @@ struct ImageChannels {
     bool noise = false;           ///< noise: what `RenderSettings::noise` is held against
     bool variance = false;        ///< variance.R ...: of the mean of a pixel's samples
 
-    /// Whether there are parts of the light among them.
+    /// True if there are parts of the light among them.
     bool has_passes() const { return albedo || direct || indirect || shadow || light_groups; }
 
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;

@@ -7,7 +7,7 @@
 
 namespace voxelume {
 
-/// Whether any frame may differ from another.
+/// True if any frame may differ from another.
 bool moves(const Scene& scene);
 
 /// The scene as it is at a frame, 1 being the first; frames may be fractions and lie outside of the

@@ -52,7 +52,7 @@ std::string light_text(const Light& light) {
     const LightType& type = type_of(light);
     const bool has_place = type.has_position;
     return fmt::format(
-        "light \"{}\": {}, {} {}, energy {}", light.name, type.name, has_place ? "at" : "along",
+        "light \"{}\": {}, {} {}, intensity {}", light.name, type.name, has_place ? "at" : "along",
         vector_text(has_place ? light.position : light.direction), vector_text(light.intensity));
 }
 

@@ -100,7 +100,7 @@ struct SceneMotion {
     std::vector<MovingPart> parts;  ///< world, materials, models, objects, lights, observer
 };
 
-/// Whether some part that may change from frame to frame is one of `which`.
+/// True if some part that may change from frame to frame is one of `which`.
 bool any_part_changes(const Scene& scene, const auto& which) {
     return moves(scene) && std::ranges::any_of(scene.motion->parts, which);
 }

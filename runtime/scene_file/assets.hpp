@@ -25,7 +25,7 @@ using AssetFolders = std::vector<std::filesystem::path>;
 /// (separated by colons; empty ones are skipped).
 AssetFolders asset_folders(const std::vector<std::filesystem::path>& from_command_line);
 
-/// Whether `find_asset` would find something by this name.
+/// True if `find_asset` would find something by this name.
 bool is_asset(std::string_view name, const std::filesystem::path& scene_folder,
               const AssetFolders& assets);
 

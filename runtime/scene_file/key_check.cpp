@@ -44,7 +44,7 @@ class PartCheck {
     }
 
   private:
-    /// Whether it is the scale of an object that the track has on its way from key to key.
+    /// True if it is the scale of an object that the track has on its way from key to key.
     bool may_be_flat(const DocumentTrack& track, double frame) const {
         if (part_.part != ScenePart::object) return false;
         const auto is_scale = [](const PathStep& step) { return step.key == "scale"; };

@@ -21,7 +21,7 @@ const JsonMember* find_member(const JsonValue& value, std::string_view key) {
     return found == value.members.end() ? nullptr : &*found;
 }
 
-/// Whether one of two targets of a part equals the other, or is a component of it.
+/// True if one of two targets of a part equals the other, or is a component of it.
 bool overlap(const TrackTarget& a, const TrackTarget& b) {
     const size_t shared = std::min(a.steps.size(), b.steps.size());
     return std::equal(a.steps.begin(), a.steps.begin() + std::ptrdiff_t(shared), b.steps.begin());

@@ -104,7 +104,7 @@ bool has_other_than_0(const std::vector<double>& numbers) {
     return std::ranges::any_of(numbers, [](double number) { return number != 0; });
 }
 
-/// Whether some object is visible in some frame and has a material that shines in some frame.
+/// True if some object is visible in some frame and has a material that shines in some frame.
 bool shows_emission(const Scene& scene, const SceneMotion& motion) {
     std::vector<bool> shines(scene.materials.size());
     for (size_t i = 0; i < shines.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The medium of the scene's world, and where it is how dense.
+// The medium of the scene's world, and its density at each place.
 #include <fmt/format.h>
 
 #include "runtime/scene_file/scene_sequence.hpp"

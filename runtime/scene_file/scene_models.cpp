@@ -20,7 +20,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// How many metres a unit of a file has, or its longest side is to have.
+/// The metres that a file's unit, or its longest side, stands for.
 void read_file_size(const SceneFields& fields, Model& model) {
     struct Unit {
         std::string_view name;
@@ -153,7 +153,7 @@ void check_light_samples(const SceneValue& value, const Scene& scene, const Obje
     if (!object.light_samples || has_emission(scene, object)) return;
     SceneFields(value, "object")
         .get("spots")
-        .fail("none of the object's materials has emission, so it has no spots to shine from");
+        .fail("none of the object's materials has emission, so it can have no light samples");
 }
 
 }  // namespace

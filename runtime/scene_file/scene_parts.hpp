@@ -37,7 +37,7 @@ class NameTable {
 struct AssetSearch {
     std::filesystem::path scene_folder;
     const AssetFolders& assets;
-    bool all_files = true;  ///< whether all files of a sequence must be there, not the first alone
+    bool all_files = true;  ///< true if all files of a sequence must be there, not the first alone
     const GivenVoxels* given = nullptr;  ///< voxels that go before files; null: none
 };
 
@@ -52,7 +52,7 @@ struct ModelContext {
 class ObjectReader {
   public:
     explicit ObjectReader(const Scene& scene);
-    /// `number` is the object's place in the list. Doesn't compare its name with others.
+    /// `number` is the object's index in the list. Doesn't compare its name with others.
     Object read(const SceneValue& value, size_t number) const;
 
   private:
@@ -73,7 +73,7 @@ Solid read_solid(const SceneValue& value);  ///< of a model; see scene_solids.cp
 std::vector<Solid> read_cuts(const SceneValue& value);  ///< a list of parts, of a mesh
 std::vector<Object> read_objects(const SceneValue& value, const Scene& scene);
 LightParameters read_light_parameters(const SceneValue& value);
-Light read_light(const SceneValue& value, size_t number);  ///< `number`: its place in the list
+Light read_light(const SceneValue& value, size_t number);  ///< `number`: its index in the list
 std::vector<Light> read_lights(const SceneValue& value);
 ObserverParameters read_observer_parameters(const SceneValue& value);
 Observer read_observer(const SceneValue& value, const Scene& scene);

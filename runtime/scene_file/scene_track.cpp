@@ -62,7 +62,7 @@ void add_slope(const SceneFields& fields, std::string_view name, double fps, siz
     for (const double number : numbers) slopes.push_back(number / fps);
 }
 
-/// Whether the track's lists are the quaternions of turns.
+/// True if the track's lists are the quaternions of turns.
 bool has_quaternions(const DocumentTrack& track) {
     return track.target.steps.back().key == "turn" && track.values.front().items.size() == 4;
 }

@@ -13,12 +13,12 @@ struct Features {
     bool triangles = false;        ///< some voxel lists triangles
     bool corner_normals = false;   ///< some triangle has normals at its corners
     bool voxel_normals = false;    ///< some cube has the normal of the surface it stands for
-    bool resampled_cubes = false;  ///< ... and other voxels than its object's
+    bool resampled_cubes = false;  ///< some such cube comes from another lattice
     bool solids = false;           ///< some voxel lists analytic solids
     int solid_kinds = 0xFF;     ///< 1 << VXL_SOLID_* of those that there may be, apart from spheres
     bool field_lists = false;   ///< some voxel lists the distance fields in it
-    bool field_chains = false;  ///< ... and some of them are of a solid's parts
-    int chain_depth = 0;        ///< ... in so many brackets within each other
+    bool field_chains = false;  ///< some of these fields are of a solid's parts
+    int chain_depth = 0;        ///< depth of brackets within each other in the parts' formulas
     bool mixed = false;         ///< some mesh has a field and triangles, and rays begin on it
     bool attributes = false;    ///< voxels differ in object, material or kind
     bool colors = false;        ///< voxels have colours of their own
@@ -27,10 +27,10 @@ struct Features {
     bool texture_alpha = false;   ///< the alpha of some triangle's texture counts
     bool texture_maps = false;    ///< some texture has maps
     bool medium = false;          ///< the environment absorbs light, or scatters it
-    bool medium_grid = false;     ///< ... and its density varies
-    bool medium_colors = false;   ///< ... and so does its colour
-    bool scattering = false;      ///< ... and paths are scattered in it
-    bool near_light = false;      ///< ... and some light isn't infinitely far away
+    bool medium_grid = false;     ///< the environment's density varies
+    bool medium_colors = false;   ///< the environment's colour varies
+    bool scattering = false;      ///< paths are scattered in the environment
+    bool near_light = false;      ///< in scattering, some light isn't infinitely far away
     bool shadows = false;         ///< lights can be hidden
     bool area_samples = false;    ///< some light has an area
     bool checker = false;         ///< some material changes its colour from block to block
@@ -47,44 +47,44 @@ struct Features {
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
     bool global = false;               ///< light is followed along paths
-    bool own_light = false;          ///< ... and that of first surfaces alone is asked for, without
-                                     ///< what they let through straight
-    bool physical = false;           ///< ... and some material is physically based
-    bool rough_glass = false;        ///< ... and lets light through
-    bool coat = false;               ///< ... or has a coat
-    bool weak_facets = false;        ///< ... or reflects less than its index says
-    bool area_shares = false;        ///< ... and shares lights with an area with rays to them
-    bool meets_lights = false;       ///< paths may run into a light with an area
-    bool direct_alone = false;       ///< light that comes straight from lights is asked for alone
-    bool lens = false;               ///< sight rays start all over a lens
-    bool blades = false;             ///< ... that is a polygon
-    int emitters = 0;                ///< VXL_EMITTERS_*: how paths find emissive surfaces
-    int sky = 0;                     ///< VXL_SKY_*: what is around the world
-    int sky_rays = 0;                ///< VXL_EMITTERS_*: how paths find the light of a map
-    bool sky_hidden = false;         ///< observers don't see the sky
-    int media = 0;                   ///< size of the sets of transmitting objects that rays are
-                                     ///< inside of
-    bool medium_set_capped = false;  ///< ... and this size may not be enough
+    bool own_light = false;     ///< first surfaces alone are asked for in global light, without
+                                ///< what they let through straight
+    bool physical = false;      ///< in global light, some material is physically based
+    bool rough_glass = false;   ///< some such material lets light through
+    bool coat = false;          ///< some such material has a coat
+    bool weak_facets = false;   ///< some such material reflects less than its index says
+    bool area_shares = false;   ///< paths and rays share lights with an area
+    bool meets_lights = false;  ///< paths may run into a light with an area
+    bool direct_alone = false;  ///< light that comes straight from lights is asked for alone
+    bool lens = false;          ///< sight rays start all over a lens
+    bool blades = false;        ///< the lens is a polygon
+    int emitters = 0;           ///< VXL_EMITTERS_*: how paths find emissive surfaces
+    int sky = 0;                ///< VXL_SKY_*: what is around the world
+    int sky_rays = 0;           ///< VXL_EMITTERS_*: how paths find the light of a map
+    bool sky_hidden = false;    ///< observers don't see the sky
+    int media = 0;              ///< size of the sets of transmitting objects that rays are
+                                ///< inside of
+    bool medium_set_capped = false;  ///< the size `media` may not be enough
     bool instances = false;          ///< some objects keep voxels of their own
     // The results that are asked for:
     bool radiance = true;   ///< the light along rays, and how much of what lies behind they cover
-    bool positions = true;  ///< of the points that rays meet ...
-    bool normals = true;
-    bool hit_attributes = true;  ///< ... and their object and material
+    bool positions = true;  ///< positions of the points that rays meet
+    bool normals = true;    ///< normals at these points
+    bool hit_attributes = true;  ///< objects and materials of these points
 
     friend bool operator==(const Features&, const Features&) = default;
 
     bool exact() const { return triangles || solids; }
-    /// Whether hits have colours of their own.
+    /// True if hits have colours of their own.
     bool textures() const { return worn_triangles || source_meshes; }
     void leave_out_textures() {
         worn_triangles = source_meshes = texture_alpha = texture_maps = false;
     }
-    /// Whether paths send rays to emitters or to the sky.
+    /// True if paths send rays to emitters or to the sky.
     bool looks() const { return emitters != 0 || sky_rays != 0; }
-    /// Whether light falls by normals that aren't those of the surfaces that rays meet.
+    /// True if light falls by normals that aren't those of the surfaces that rays meet.
     bool shading_normals() const { return corner_normals || voxel_normals; }
-    /// Whether rays must know on which of a voxel's surfaces they begin.
+    /// True if rays must know on which of a voxel's surfaces they begin.
     bool sources() const { return exact() || field_lists; }
 
     /// The constants by which kernels know these features.

@@ -33,7 +33,7 @@ enum class Interpolation {
     step,    ///< the earlier key's value
     linear,  ///< number by number, at an even speed
     cubic,   ///< number by number, smoothly, and never beyond the two keys' values
-    slerp,   ///< of a `turn`: the shorter way round one axis, at an even speed
+    slerp,   ///< the shorter way of a `turn` round one axis, at an even speed
     spline   ///< number by number, with the slopes that the keys have
 };
 
@@ -46,11 +46,12 @@ enum class Interpolation {
 /// "world.medium.density.base". Objects and lights without a name have their place in brackets:
 /// "lights[0].color". Names with dots or brackets in them stand in quotes.
 struct Track {
-    std::string target{};  ///< as scene files name it: "objects.ball.position"
+    std::string target{};  ///< path as scene files write it: "objects.ball.position"
+    /// Keys in the order of time, one or more; four numbers are a quaternion of a `turn`, a vector
+    /// is the weights of a morph.
     std::variant<Keys<double>, Keys<std::array<double, 2>>, Keys<Vec3>, Keys<bool>,
                  Keys<std::string>, Keys<std::array<double, 4>>, Keys<std::vector<double>>>
-        keys{};  ///< in the order of time, one or more; four numbers are a quaternion of a `turn`,
-                 ///< a vector is the weights of a morph
+        keys{};
     /// Without it linear, or step for texts and bools.
     std::optional<Interpolation> interpolation{};
 };
@@ -58,7 +59,7 @@ struct Track {
 /// Frames of a scene, and the tracks that move it.
 struct Animation {
     int frames = 1;                 ///< numbered from 1
-    double frames_per_second = 24;  ///< of keys that are given in seconds
+    double frames_per_second = 24;  ///< frames a second; slopes of keys are per second
     std::vector<Track> tracks{};    ///< values that change
 };
 

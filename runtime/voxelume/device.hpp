@@ -16,8 +16,8 @@ enum class DeviceKind { cpu, gpu, other };
 /// "cpu", "gpu" or "other".
 const char* name_of(DeviceKind kind);
 
-/// Whether a device's driver computed what is known when it was first opened: arithmetic, and the
-/// ways of rays through a small world.
+/// Tells whether a device's driver computed what is known when it was first opened: arithmetic, and
+/// the ways of rays through a small world.
 enum class SelfTest {
     unknown,  ///< it wasn't opened yet
     passed,   ///< every bit was right
@@ -29,19 +29,19 @@ const char* name_of(SelfTest result);
 
 /// What an OpenCL platform says of a device, and whether Voxelume can render on it.
 struct DeviceInfo {
-    int index = 0;  ///< its number in list_devices(), which Device::open takes
-    DeviceKind kind = DeviceKind::other;     ///< CPU, GPU or other
-    std::string name{};                      ///< as its driver gives it
-    std::string vendor{};                    ///< as its driver gives it
-    std::string platform{};                  ///< name of the OpenCL platform that it belongs to
-    std::string platform_version{};          ///< OpenCL version of that platform
-    std::string version{};                   ///< of OpenCL
-    std::string driver{};                    ///< version of its driver
-    uint64_t memory_bytes = 0;               ///< at most VOXELUME_MEMORY_MB, where that is set
-    uint64_t max_allocation_bytes = 0;       ///< in one buffer; at most VOXELUME_BUFFER_MB likewise
-    int compute_units = 0;                   ///< as OpenCL counts them
-    int lanes = 1;                           ///< rays that one work-item carries
-    SelfTest self_test = SelfTest::unknown;  ///< kept for its driver's version
+    int index = 0;                        ///< number in list_devices(), which Device::open takes
+    DeviceKind kind = DeviceKind::other;  ///< CPU, GPU or other
+    std::string name{};                   ///< name that its driver gives
+    std::string vendor{};                 ///< vendor that its driver gives
+    std::string platform{};               ///< name of the OpenCL platform that it belongs to
+    std::string platform_version{};       ///< OpenCL version of that platform
+    std::string version{};                ///< OpenCL version of the device
+    std::string driver{};                 ///< version of its driver
+    uint64_t memory_bytes = 0;            ///< bytes of memory; at most VOXELUME_MEMORY_MB, if set
+    uint64_t max_allocation_bytes = 0;  ///< bytes of one buffer; at most VOXELUME_BUFFER_MB, if set
+    int compute_units = 0;              ///< compute units, as OpenCL counts them
+    int lanes = 1;                      ///< rays that one work-item carries
+    SelfTest self_test = SelfTest::unknown;  ///< result, kept for its driver's version
     std::string unusable_because{};          ///< why it can't render; empty when it can
     std::string note{};                      ///< what its user should know; mostly empty
 

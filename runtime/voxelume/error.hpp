@@ -28,8 +28,8 @@ enum class ErrorKind : int {
 struct ErrorPlace {
     /// The scene, mesh, image or volume; the name of a scene built from structs.
     std::string file{};
-    int line = 0;       ///< from 1 on
-    int column = 0;     ///< from 1 on, in characters
+    int line = 0;       ///< number of the line, from 1
+    int column = 0;     ///< number of the character in its line, from 1
     std::string key{};  ///< the path of a value in a scene: "objects[0].material"
 };
 

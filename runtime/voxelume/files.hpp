@@ -26,14 +26,14 @@ struct VoxelizeOptions {
                                                ///< few as leave no gaps between them
     std::optional<Surface> surface{};          ///< what a voxel shows; without it smooth, and
                                                ///< cubes of points and lines
-    VoxelSet set = VoxelSet::supercover;       ///< of cubes
-    CubeNormals normals = CubeNormals::faces;  ///< of cubes; models (.vxm) keep them
+    VoxelSet set = VoxelSet::supercover;       ///< voxel set, for surface `cubes`
+    CubeNormals normals = CubeNormals::faces;  ///< normals of `cubes`; models (.vxm) keep them
 };
 
 /// A format of files that voxels are written to.
 struct VoxelFormat {
-    std::string_view ending;    ///< of names: ".vox"
-    bool has_surfaces = false;  ///< smooth and exact ones as well; others hold cubes alone
+    std::string_view ending;    ///< ending of names: ".vox"
+    bool has_surfaces = false;  ///< smooth and exact surfaces as well; otherwise cubes alone
 };
 
 /// The formats that `voxelize` and `convert_voxels` write.
@@ -41,11 +41,11 @@ std::span<const VoxelFormat> voxel_formats();
 
 /// What voxelizing a mesh made.
 struct VoxelizeReport {
-    uint64_t triangles = 0;     ///< of the mesh
+    uint64_t triangles = 0;     ///< triangles of the mesh
     std::array<int, 3> size{};  ///< voxels
     double voxel_size = 0;      ///< metres
-    uint64_t bricks = 0;        ///< of 16 x 16 x 16 voxels, stored
-    double seconds = 0;         ///< without writing files
+    uint64_t bricks = 0;        ///< stored bricks of 16 x 16 x 16 voxels
+    double seconds = 0;         ///< seconds, without writing files
     /// What formats couldn't hold, as sentences.
     std::vector<std::string> notes{};
 };
@@ -61,9 +61,9 @@ VoxelizeReport voxelize(const std::filesystem::path& mesh,
 /// How the world of a scene becomes voxels.
 struct VoxelizeSceneOptions {
     double voxel_size = 0;  ///< metres; 0: `resolution` decides
-    int resolution = 0;     ///< along the longest side of all that is shown; 0: the scene's voxels
-    int frame = 1;          ///< of a scene that moves
-    CacheOptions cache{};   ///< of models on disk
+    int resolution = 0;     ///< voxels along the longest side of all that is shown; 0: the scene's
+    int frame = 1;          ///< frame of a scene that moves
+    CacheOptions cache{};   ///< cache of models on disk
     std::vector<std::string> without{};  ///< names of objects to leave out
 };
 
@@ -73,7 +73,7 @@ struct VoxelizeSceneOptions {
 VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
                               const Device& device, const VoxelizeSceneOptions& options = {});
 
-/// Whether `convert_voxels` writes the voxels of the one to the other, by their names and, where
+/// True if `convert_voxels` writes the voxels of the one to the other, by their names and, where
 /// these don't decide, by what is in the first file. Throws Error::input for an OpenVDB file that
 /// can't be read.
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);
@@ -94,10 +94,10 @@ using Fact =
 /// A value with its name, or a list, or a table: what describe_file tells. Elements of lists have
 /// no names.
 struct Facts {
-    /// What a file is.
+    /// Says whether facts are a value, a list or an object.
     enum class Kind { value, list, object };
-    Kind kind = Kind::value;  ///< decides which facts are given
-    std::string name{};       ///< of the kind, for people
+    Kind kind = Kind::value;  ///< value, list or object
+    std::string name{};       ///< name of the value; none in lists
     Fact value{};             ///< lists and objects have a vector of their elements and members
 };
 

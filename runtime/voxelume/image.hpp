@@ -50,8 +50,8 @@ struct Channels {
 
 /// A group of channels that is asked for together.
 struct ChannelRow {
-    std::string_view name;   ///< of the group: "RGBA", "CryptoObject"
-    bool Channels::*member;  ///< that asks for it
+    std::string_view name;   ///< name of the group: "RGBA", "CryptoObject"
+    bool Channels::*member;  ///< member of Channels that asks for it
     /// Their names in files; one that ends in _ begins others.
     std::span<const char* const> planes;
 };
@@ -67,16 +67,16 @@ inline constexpr Channels kColorAlone{true, false, false, false, false};
 
 /// How light that is brighter than a screen becomes a colour of the screen.
 enum class ViewTransform {
-    srgb,    ///< as it is, cut off at 1
-    none,    ///< as it is, and stored linearly, for programs that expect light
-    filmic,  ///< by a curve like film's, each channel alone (Narkowicz 2015)
-    agx      ///< by a curve over 16.5 stops, after which bright colours are whiter (Sobotka 2022)
+    srgb,    ///< the colour as it is, cut off at 1
+    none,    ///< the colour as it is, stored linearly, for programs that expect light
+    filmic,  ///< a curve like film's, each channel alone (Narkowicz 2015)
+    agx      ///< a curve over 16.5 stops, after which bright colours are whiter (Sobotka 2022)
 };
 
 /// How an image becomes a file.
 struct ImageFileOptions {
     double exposure = 0;  ///< PNG: stops; colours are multiplied by 2^exposure
-    ViewTransform view_transform = ViewTransform::srgb;  ///< PNG
+    ViewTransform view_transform = ViewTransform::srgb;  ///< PNG: how light becomes colour
     int png_bits = 8;                                    ///< PNG: bits a channel, 8 or 16
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
     Channels channels{};       ///< OpenEXR: others that the image has aren't written
@@ -142,8 +142,9 @@ class Image {
 
 /// A format of image files.
 struct ImageFormat {
-    std::string_view ending;      ///< of names: ".exr"
-    bool holds_channels = false;  ///< every channel as it is; otherwise colours for a screen
+    std::string_view ending;  ///< ending of names: ".exr"
+    /// Every channel is held as it is; otherwise colours for a screen.
+    bool holds_channels = false;
 };
 
 /// The formats that Image::write writes.
@@ -157,7 +158,7 @@ struct ChannelDifference {
     double mae = 0;          ///< mean of |a - b|
     double mrse = 0;         ///< mean of ((a - b) / (|b| + 0.01))^2
     uint64_t differing = 0;  ///< pixels whose values are unequal
-    uint64_t unmatched = 0;  ///< of these, pixels with a value that isn't finite: in no mean
+    uint64_t unmatched = 0;  ///< pixels of these with a value that isn't finite: in no mean
     uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; numbers of
                              ///< objects: unequal ones
     bool is_id = false;      ///< ids, those of Cryptomatte among them: equal or unequal, never far
@@ -165,13 +166,14 @@ struct ChannelDifference {
 
 /// How far two images are apart.
 struct ImageDifference {
-    std::vector<ChannelDifference> channels{};  ///< by name; numbers of objects come last
-    std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
-    std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
+    /// Differences by name; numbers of objects come last.
+    std::vector<ChannelDifference> channels{};
+    std::vector<std::string> only_in_a{};  ///< channels that the second image lacks
+    std::vector<std::string> only_in_b{};  ///< channels that the first image lacks
     /// Mean FLIP (Andersson et al. 2020, LDR), if both have colours, all are numbers, and memory
     /// has room for 200 bytes a pixel.
     std::optional<double> flip;
-    uint64_t pixels = 0;  ///< of each image
+    uint64_t pixels = 0;  ///< pixels of each image
     uint64_t above = 0;   ///< pixels above the threshold in some channel that both have
 };
 

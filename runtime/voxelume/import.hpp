@@ -51,18 +51,18 @@ struct ImportOptions {
     /// Metres from voxel to voxel along X, Y and Z, before `up` turns them, instead of the file's
     /// own: for arrays, scans and files of voxels of one model. It can't be given with `fit`.
     std::optional<Vec3> spacing{};
-    UpAxis up = UpAxis::automatic;  ///< of the file's coordinates
-    Size size{800, 600};            ///< of the image, pixels
+    UpAxis up = UpAxis::automatic;  ///< axis of the file's coordinates that is up
+    Size size{800, 600};            ///< size of the image, pixels
 };
 
 /// The endings of model files that `import_file` reads: ".obj", ".nii.gz" and others. For stacks of
 /// numbered slices, it is "0001.png".
 std::vector<std::string> model_file_endings();
 
-/// How the names of those that are meshes end: ".obj" and others.
+/// The endings of mesh files among them: ".obj" and others.
 std::vector<std::string> mesh_file_endings();
 
-/// Whether a file's name ends as those of the model files that `import_file` reads.
+/// True if a file's name ends as those of the model files that `import_file` reads.
 bool is_model_file(const std::filesystem::path& file);
 
 /// The text of a scene that shows what a model file holds. It names the file as seen from `folder`,
@@ -72,7 +72,7 @@ bool is_model_file(const std::filesystem::path& file);
 std::string import_file(const std::filesystem::path& file, const std::filesystem::path& folder,
                         const ImportOptions& options = {}, const CacheOptions& cache = {});
 
-/// That scene, ready to be rendered. Throws as `import_file` and `Scene::load` do.
+/// The scene of `import_file`, ready to be rendered. Throws as `import_file` and `Scene::load` do.
 Scene scene_of_file(const std::filesystem::path& file, const ImportOptions& options = {},
                     const SceneOptions& scene_options = {});
 

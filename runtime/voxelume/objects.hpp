@@ -37,19 +37,19 @@ struct Cylinder {
 };
 /// A cone around the origin, along Y, upright.
 struct Cone {
-    double radius = 0;      ///< at y = -height / 2
+    double radius = 0;      ///< metres, at y = -height / 2
     double height = 0;      ///< metres
-    double top_radius = 0;  ///< at y = height / 2; 0: a point
+    double top_radius = 0;  ///< metres, at y = height / 2; 0: a point
 };
 /// A ring around the origin, in the plane of X and Z.
 struct Torus {
-    double radius = 0;  ///< of the ring
+    double radius = 0;  ///< metres: radius of the ring
     double tube = 0;    ///< radius of the tube, at most `radius`
 };
 /// A cylinder with round caps around the origin, along Y.
 struct Capsule {
     double radius = 0;  ///< metres
-    double height = 0;  ///< of the part between the round caps
+    double height = 0;  ///< metres of the part between the round caps
 };
 /// A slab has no end in x and z: it ends where the world does.
 struct Slab {
@@ -69,7 +69,7 @@ enum class Operation {
 /// one have to overlap a little.
 struct Combination {
     Operation operation = Operation::union_of;  ///< what is done with the parts
-    std::vector<Part> parts;  ///< in a difference, all others are taken from the first
+    std::vector<Part> parts;  ///< solids; a difference takes all others from the first
 };
 
 /// A shape, or a combination of shapes.
@@ -96,13 +96,14 @@ struct Morph {
     std::vector<double> weights{};
     /// With them or alone: number of a skin of that file, from 1 on, whose joints move the mesh.
     std::optional<int> skin{};
-    std::string clip{};  ///< of that file, which moves the joints; empty: they stand still
+    /// Name of a clip of that file, which moves the joints; empty: they stand still.
+    std::string clip{};
     std::optional<double> time{};  ///< seconds of the clip
 };
 
 /// The normals by which light falls on an exact mesh, or on cubes with those of their mesh.
 enum class Shading {
-    automatic,  ///< those of the file's vertices, where it has some; else flat
+    automatic,  ///< the normals of the file's vertices, where it has some; else flat
     flat,       ///< each triangle's own
     smooth  ///< as automatic, but a mesh without normals gets those of the faces around a vertex
 };
@@ -128,10 +129,10 @@ struct MeshFile {
     std::vector<Part> cuts{};            ///< taken away from the mesh; not of an exact one
     /// Metres that the longest side of the mesh becomes, with the middle of its box at the origin.
     std::optional<double> fit{};
-    std::optional<Unit> unit{};            ///< of the file, instead of `fit`; without both metres
-    std::optional<Shading> shading{};      ///< of an exact mesh, or of cubes with the normals of
-                                           ///< the mesh; without it automatic
-    std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
+    std::optional<Unit> unit{};        ///< unit of the file, instead of `fit`; without both metres
+    std::optional<Shading> shading{};  ///< normals of an exact mesh, or of cubes with its
+                                       ///< normals; without it automatic
+    std::optional<double> crease_angle{};  ///< degrees, for Shading::smooth; without it 30
     std::optional<int> part{};  ///< number of a mesh in a glTF file, from 1 on; without it all
 };
 
@@ -141,8 +142,8 @@ struct VoxelFile {
     std::filesystem::path file{};        ///< .vxm, .vdb, .vox, .npy, .nrrd, .nii, .hdr and others
     std::optional<int> part{};           ///< number of the model in a .vox, from 1; without it all
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
-    std::optional<double> fit{};         ///< as of a mesh
-    std::optional<Unit> unit{};          ///< likewise
+    std::optional<double> fit{};         ///< metres of the longest side
+    std::optional<Unit> unit{};          ///< unit of the file, instead of `fit`
     /// Cells of an array with this value or more are voxels; a smooth surface runs at the value.
     std::optional<double> iso{};
     std::optional<int> label{};  ///< instead: cells with this value are voxels
@@ -153,9 +154,9 @@ struct VoxelFile {
 /// text of a scene. Voxel (i, j, k) fills [(i, j, k), (i, j, k) + 1] metres in object space unless
 /// `fit` or `unit` says otherwise.
 struct VoxelArray {
-    std::string name{};             ///< that models have for it; goes before files of that name
-    std::array<int, 3> size{};      ///< voxels along x, y and z
-    const uint8_t* rgba = nullptr;  ///< of voxel (0, 0, 0): R, G, B and the opacity, a byte each.
+    std::string name{};         ///< name that models have for it; goes before files of that name
+    std::array<int, 3> size{};  ///< voxels along x, y and z
+    const uint8_t* rgba = nullptr;  ///< voxel (0, 0, 0): R, G, B and the opacity, a byte each.
                                     ///< Colours are sRGB; opacity 0: no voxel. Not kept.
     /// Bytes from a voxel to the next along x, y and z, perhaps negative; without a value x is
     /// fastest, then y, without gaps.
@@ -178,19 +179,20 @@ enum class VoxelSet {
 
 /// The normals by which light falls on `cubes`.
 enum class CubeNormals {
-    faces,   ///< those of their own faces
-    surface  ///< those of the mesh or solid that they stand for
+    faces,   ///< normals of their own faces
+    surface  ///< normals of the mesh or solid that they stand for
 };
 
 /// An object before it is placed, and the lattice that it is voxelized on.
 struct Model {
-    std::string name{};                                 ///< by which objects name it
+    std::string name{};                                 ///< name by which objects refer to it
     std::variant<Solid, MeshFile, VoxelFile> source{};  ///< a mesh, voxels or a solid
-    std::optional<Vec3> voxel_size{};      ///< metres in object space; without it the world's
-    std::optional<int> resolution{};       ///< instead: voxels along the longest side, 1..65536
-    std::optional<Surface> surface{};      ///< without it what suits the model, as plan() says
-    std::optional<VoxelSet> set{};         ///< of cubes; without it supercover
-    std::optional<CubeNormals> normals{};  ///< of cubes; without it faces
+    std::optional<Vec3> voxel_size{};  ///< metres in object space; without it the world's
+    std::optional<int> resolution{};   ///< instead: voxels along the longest side, 1..65536
+    /// Surface of the voxels; without it what suits the model, as plan() says.
+    std::optional<Surface> surface{};
+    std::optional<VoxelSet> set{};         ///< voxel set of cubes; without it supercover
+    std::optional<CubeNormals> normals{};  ///< normals of cubes; without it faces
 };
 
 /// How an object gets into the picture.
@@ -210,9 +212,9 @@ struct Parent {
 
 /// A model in the world. Scaling comes first, then turning, then shifting.
 struct Object {
-    std::string name{};      ///< for messages and tracks; empty: "objects[n]"
+    std::string name{};      ///< name for messages and tracks; empty: "objects[n]"
     std::string model{};     ///< name of its model
-    std::string material{};  ///< empty: "default"
+    std::string material{};  ///< name of its material; empty: "default"
     /// Pairs of a group of faces and its material.
     std::vector<std::pair<std::string, std::string>> group_materials{};
     Vec3 position{};                 ///< metres: where the model's origin goes

@@ -45,38 +45,38 @@ enum class VolumeLayout {
 
 /// Which surfaces of the world a lattice shows.
 enum class Visibility {
-    observer,  ///< those that the observer sees
-    outside,   ///< those that can be seen from somewhere outside of the world
-    all        ///< all
+    observer,  ///< surfaces that the observer sees
+    outside,   ///< surfaces that can be seen from somewhere outside of the world
+    all        ///< all surfaces
 };
 
 /// The sight lines along which the voxels of a lattice together cover what lies behind them as much
 /// as the surfaces do that they show.
 enum class SeenAlong {
-    observer,  ///< those of the observer
-    facing,    ///< those along the axis that the surface faces most, voxel by voxel
-    x,         ///< those along X_E
-    y,         ///< those along Y_E
-    z          ///< those along Z_E
+    observer,  ///< sight lines of the observer
+    facing,    ///< lines along the axis that the surface faces most, voxel by voxel
+    x,         ///< lines along X_E
+    y,         ///< lines along Y_E
+    z          ///< lines along Z_E
 };
 
 /// The space that the observer sees, VS_E, and the voxels of a volumetric image of it.
 struct Display {
     /// The sight space.
     std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay> shape{};
-    /// Their numbers along u, v, k, or x, y, z; without it the image's size, and 256.
+    /// Voxels along u, v, k, or x, y, z; without it the image's size, and 256.
     std::optional<std::array<int, 3>> voxels{};
     VolumeLayout layout = VolumeLayout::rays;  ///< how the voxels of a volumetric image lie
-    std::optional<Visibility> visibility{};    ///< of a lattice; without it `observer`
-    std::optional<SeenAlong> seen_along{};  ///< of a lattice; without it `facing`, and `observer`
-                                            ///< for what the observer sees
-    bool cylinder = false;  ///< of a lattice: the upright cylinder inside clips it, too
+    std::optional<Visibility> visibility{};    ///< surfaces in a lattice; without it `observer`
+    /// Sight lines of a lattice; without it `facing`, and `observer` for what the observer sees.
+    std::optional<SeenAlong> seen_along{};
+    bool cylinder = false;  ///< true: the upright cylinder inside a lattice clips it, too
 };
 
 /// How flat images show what an observer sees.
 enum class Projection {
-    display,       ///< through `Observer::display`: a perspective if that is a pyramid
-    orthographic,  ///< by parallel rays, `width` or `height` metres across, to the world's end
+    display,       ///< `Observer::display`: a perspective if that is a pyramid
+    orthographic,  ///< parallel rays, `width` or `height` metres across, to the world's end
     panoramic      ///< all directions by longitude and latitude, to the world's end
 };
 
@@ -87,33 +87,33 @@ struct Observer {
     std::optional<Vec3> up{};       ///< what is up in the image; without it +Y
     std::optional<Vec3> turn{};     ///< degrees [psi, theta, gamma], instead of `look_at` and `up`
     std::optional<double> aperture{};  ///< metres: diameter of a lens, of flat images of a pyramid
-    std::optional<double> focus{};     ///< metres to what it shows sharp; without it `look_at`
-    Display display{};                 ///< what is seen, and how display voxels lie
+    std::optional<double> focus{};  ///< metres to what the lens shows sharp; without it `look_at`
+    Display display{};              ///< what is seen, and how display voxels lie
     Projection projection = Projection::display;  ///< if another, `display` is left out
     std::optional<double> width{};                ///< metres that an orthographic image shows
-    std::optional<double> height{};               ///< or its height, for square pixels
-    std::optional<int> blades{};                  ///< of the lens, which is a polygon then; 3 to 16
+    std::optional<double> height{};               ///< metres of its height, for square pixels
+    std::optional<int> blades{};  ///< blades of the lens, which is a polygon then; 3 to 16
 };
 
 /// The light that reaches surfaces of a flat image.
 enum class LightMode {
-    local,  ///< that of lights, and along mirrored and refracted rays
-    global  ///< all that arrives from surfaces, too
+    local,  ///< light of lights, and along mirrored and refracted rays
+    global  ///< all light that arrives, from surfaces too
 };
 
 /// How paths of global light find emissive surfaces. The light is the same on average.
 enum class EmitterSearch {
-    both,   ///< by rays to them and by running into them: the least noise
-    paths,  ///< by running into them: for large emissive objects
-    rays    ///< by rays to them, but for what mirrors and glass show
+    both,   ///< rays to them and paths that run into them: the least noise
+    paths,  ///< paths that run into them: for large emissive objects
+    rays    ///< rays to them, except for what mirrors and glass show
 };
 
 /// How the samples around the middle of a pixel make its value.
 enum class ReconstructionFilter {
-    box,             ///< their mean
-    tent,            ///< with weights that fall evenly
-    gaussian,        ///< with those of a bell of three standard deviations to each side
-    blackman_harris  ///< with those of Blackman-Harris's window
+    box,             ///< equal weights
+    tent,            ///< weights that fall evenly
+    gaussian,        ///< the weights of a bell of three standard deviations to each side
+    blackman_harris  ///< the weights of Blackman-Harris's window
 };
 
 /// The flat image.
@@ -122,15 +122,15 @@ struct RenderSettings {
     int samples = 1;                     ///< sight rays a pixel, 1..4096
     double adaptive = 0;                 ///< local light: contrast of pixels that get all, 0..1
     int depth = 5;                       ///< reflections and refractions in a row, 0..64
-    bool shadows = true;                 ///< whether lights cast shadows
+    bool shadows = true;                 ///< true: lights cast shadows
     bool filtered_shadows = false;       ///< refracting objects tint light instead of hiding it
     double min_weight = 1.0 / 4096;      ///< paths that would add less of a pixel end
     LightMode light = LightMode::local;  ///< what light reaches surfaces
     int bounces = 8;                     ///< times that a path of global light is scattered, 0..64
-    EmitterSearch emitters = EmitterSearch::both;             ///< of global light
-    ReconstructionFilter filter = ReconstructionFilter::box;  ///< of samples
-    std::optional<double> filter_width{};  ///< pixels from end to end, at most 16; without it 1 of
-                                           ///< a box, 2 of a tent, 3 of others
+    EmitterSearch emitters = EmitterSearch::both;             ///< search in global light
+    ReconstructionFilter filter = ReconstructionFilter::box;  ///< filter of samples
+    std::optional<double> filter_width{};  ///< pixels from end to end, at most 16; without it 1 for
+                                           ///< a box, 2 for a tent, 3 for others
     /// Observers see nothing where no object is: A is 0 there, and PNG files are transparent.
     /// Mirrors and glass show the background or the sky as without it.
     bool transparent = false;

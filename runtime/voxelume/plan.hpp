@@ -19,7 +19,7 @@
 
 namespace voxelume::v1 {
 
-/// Whether a frame fits a device.
+/// The verdict on whether a frame fits a device.
 enum class Verdict {
     fits,         ///< the maximum that it may take is available
     may_fit,      ///< the minimum is available, the maximum isn't
@@ -33,11 +33,11 @@ const char* name_of(Verdict verdict);
 struct GridPlan {
     std::string name{};                   ///< "model NAME", "object NAME" or "world"
     std::array<int, 3> size{};            ///< voxels
-    std::optional<uint64_t> triangles{};  ///< of a mesh; the world has none of its own
-    double surface_voxels = 0;            ///< estimated
-    double bricks = 0;                    ///< of 16 x 16 x 16 voxels, with a surface in them
-    double made_bytes = 0;                ///< of the device, while it is made
-    double kept_bytes = 0;                ///< of the device, afterwards
+    std::optional<uint64_t> triangles{};  ///< triangles of a mesh; the world has none of its own
+    double surface_voxels = 0;            ///< voxels with a surface, estimated
+    double bricks = 0;                    ///< bricks of 16 x 16 x 16 voxels with a surface in them
+    double made_bytes = 0;                ///< bytes on the device while it is made
+    double kept_bytes = 0;                ///< bytes on the device afterwards
     std::array<double, 3> voxel_size{};   ///< metres, in the space of the model or the world
     size_t instances = 0;                 ///< objects that show it as instances
 };
@@ -45,7 +45,7 @@ struct GridPlan {
 /// The maximum memory of the device during a stage, with what earlier stages leave there.
 struct StagePlan {
     std::string name{};  ///< "voxelize", "place", "index", "image" or "volume"
-    double bytes = 0;    ///< at most
+    double bytes = 0;    ///< bytes, at most
 };
 
 /// What `auto` makes of a model's surface.
@@ -57,19 +57,19 @@ struct SurfacePlan {
 
 /// Estimates for the frame that takes the most memory, or the first one that doesn't fit.
 struct Plan {
-    Verdict verdict = Verdict::fits;  ///< of the frame that takes the most
+    Verdict verdict = Verdict::fits;  ///< verdict on the frame that takes the most
     std::optional<Error> refusal{};   ///< why it doesn't fit: what is too large, and what to do
-    int frame = 1;                    ///< that takes the most memory
+    int frame = 1;                    ///< frame that takes the most memory
     /// Number of the frames that were planned where those that change are too many to plan all:
     /// chosen at the tracks' keys, evenly between them, and around the largest. 0: all are planned.
     int chosen_frames = 0;
-    int bands = 1;            ///< of rows, in which each image is rendered to files; 1: it is whole
-    int band_rows = 0;        ///< of each but perhaps the last; estimates are for such an image
-    double min_bytes = 0;     ///< of the device, at least
-    double max_bytes = 0;     ///< of the device, at most, for what the options want
-    double device_bytes = 0;  ///< that can be used
-    double largest_buffer_bytes = 0;  ///< of any stage
-    double host_bytes = 0;            ///< of main memory
+    int bands = 1;      ///< bands of rows in which each image is rendered to files; 1: it is whole
+    int band_rows = 0;  ///< rows of each but perhaps the last; estimates are for such an image
+    double min_bytes = 0;             ///< bytes of the device, at least
+    double max_bytes = 0;             ///< bytes of the device, at most, for what the options want
+    double device_bytes = 0;          ///< bytes of the device that can be used
+    double largest_buffer_bytes = 0;  ///< bytes of the largest buffer of any stage
+    double host_bytes = 0;            ///< bytes of main memory
     std::vector<GridPlan> grids{};    ///< the world's is the last
     /// What each stage takes. The stages "image" and "volume", of flat and of volumetric images,
     /// only run if such images are asked for.
@@ -81,10 +81,10 @@ struct Plan {
 
 /// What planning assumes.
 struct PlanOptions {
-    std::vector<int> frames{};  ///< empty: all of the animation
-    Channels channels{};        ///< of the images
-    bool image = true;          ///< whether flat images are wanted
-    bool volume = false;        ///< whether volumetric images are wanted
+    std::vector<int> frames{};  ///< frames to plan; empty: all of the animation
+    Channels channels{};        ///< channels of the images
+    bool image = true;          ///< true: flat images are wanted
+    bool volume = false;        ///< true: volumetric images are wanted
     CacheOptions cache{};       ///< knows models that needn't be read
     /// Called with the number of frames that are planned, and of all.
     std::function<void(size_t done, size_t frames)> progress{};

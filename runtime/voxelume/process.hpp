@@ -74,7 +74,8 @@ struct CacheOptions {
     /// Empty: `models` in the user's folder of Voxelume, which is VOXELUME_CACHE_DIR or else
     /// ~/.cache/voxelume. Kernels are always kept in the user's folder.
     std::filesystem::path folder{};
-    std::optional<uint64_t> max_megabytes{};  ///< without it VOXELUME_CACHE_MB, or else 4096
+    /// Megabytes, at most; without it VOXELUME_CACHE_MB, or else 4096.
+    std::optional<uint64_t> max_megabytes{};
 };
 
 }  // namespace voxelume::v1

@@ -22,10 +22,10 @@ namespace voxelume::v1 {
 
 /// How frames are rendered.
 struct RenderOptions {
-    Channels channels{};        ///< of images in memory
-    CacheOptions cache{};       ///< of models and worlds on disk
-    bool overlap = true;        ///< whether one device works on the next frame meanwhile
-    bool time_kernels = false;  ///< for Statistics::kernel_ms; costs a little time
+    Channels channels{};        ///< channels of images in memory
+    CacheOptions cache{};       ///< cache of models and worlds on disk
+    bool overlap = true;        ///< true: one device works on the next frame meanwhile
+    bool time_kernels = false;  ///< true: fills Statistics::kernel_ms, which costs a little time
     /// Called with the share of the whole call that is done, from 0 to 1, never decreasing, and the
     /// number of the frame that got on; by one thread at a time, perhaps not the caller's. What it
     /// throws ends the call.
@@ -34,10 +34,10 @@ struct RenderOptions {
     /// rendering, after the last frame for the others; by the thread that called. What it throws
     /// ends the call. Without it they are in Statistics::warnings alone.
     std::function<void(const Warning&)> warn{};
-    /// Whether warnings end the call: it then throws Error::scene with the first one's sentence,
+    /// True if warnings end the call: it then throws Error::scene with the first one's sentence,
     /// after `warn` had those that were found with it.
     bool strict = false;
-    /// Whether other calls render other frames of the run. Warnings of what none of the frames
+    /// True if other calls render other frames of the run. Warnings of what none of the frames
     /// shows are then left out, as they are for an image cut by Scene::with_crop.
     bool is_part = false;
     /// Called before each kernel that no earlier run compiled is first launched: the `kernel`-th of
@@ -64,8 +64,8 @@ Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int
 
 /// Views of a light-field display: from places in a row, through one window.
 struct Quilt {
-    int columns = 8;   ///< of views in the image
-    int rows = 6;      ///< of views; at most 1,000 views in all
+    int columns = 8;   ///< columns of views in the image
+    int rows = 6;      ///< rows of views; at most 1,000 views in all
     double cone = 40;  ///< degrees between the outermost places, as seen from the window
     double focus = 0;  ///< metres before the observer to the window, where what is seen lies in the
                        ///< screen; 0: to what the observer looks at
@@ -98,15 +98,15 @@ struct RenderedFrame {
     int frame = 1;                   ///< its number
     std::optional<Image> image{};    ///< empty if none was asked for, or it was written in bands
     std::optional<Volume> volume{};  ///< empty if none was asked for
-    FrameStatistics statistics{};    ///< of this frame
+    FrameStatistics statistics{};    ///< statistics of this frame
 };
 
 /// A frame to be rendered, and the files to be written of it: images .exr and .png, and volumetric
 /// images of every VolumeFormat.
 struct FrameFiles {
     int frame = 1;                                 ///< its number
-    std::vector<std::filesystem::path> images{};   ///< .exr and .png
-    std::vector<std::filesystem::path> volumes{};  ///< in any format of volumes
+    std::vector<std::filesystem::path> images{};   ///< files of images, .exr and .png
+    std::vector<std::filesystem::path> volumes{};  ///< files in any format of volumes
     /// The frame's OpenEXR file of an earlier job, of which nothing but the samples and the devices
     /// differed, with fewer samples: 1, 2, 4, 8, ... They aren't rendered again, and the image has
     /// the bits that it has with all samples in one job. It needs `float_color` and channels of
@@ -116,13 +116,13 @@ struct FrameFiles {
 
 /// Frames to be rendered, and what becomes of them.
 struct FrameJob {
-    std::vector<FrameFiles> frames{};  ///< in the order in which they are delivered; one or more
+    std::vector<FrameFiles> frames{};  ///< frames in the order of delivery; one or more
     ImageFileOptions image_files{};    ///< how images are written
     /// Called with each frame, in order, after its files were written; by the thread that called
     /// render_frames. What it throws ends the call.
     std::function<void(const RenderedFrame&)> deliver{};
-    bool deliver_images = false;   ///< whether `deliver` wants the images in memory
-    bool deliver_volumes = false;  ///< whether `deliver` wants the volumetric images in memory
+    bool deliver_images = false;   ///< true: `deliver` wants the images in memory
+    bool deliver_volumes = false;  ///< true: `deliver` wants the volumetric images in memory
 };
 
 /// The channels of images that render_frames computes for a job: those that some file or `deliver`

@@ -23,8 +23,8 @@ namespace voxelume::v1 {
 struct SceneDescription {
     std::string name = "scene";         ///< what messages call it
     World world{};                      ///< the lattice, and the space in it
-    std::vector<Material> materials{};  ///< by name
-    std::vector<Model> models{};        ///< by name
+    std::vector<Material> materials{};  ///< materials, which objects name
+    std::vector<Model> models{};        ///< models, which objects name
     std::vector<Object> objects{};      ///< models placed in the world
     /// Sources of light. Without a value, and without a material that shines, one comes from over
     /// the observer's left shoulder; an empty list is dark.
@@ -119,8 +119,8 @@ class Scene {
     const std::filesystem::path& file() const;
     /// Width and height of its image, pixels.
     Size size() const;
-    bool moves() const;  ///< whether any frame may differ from another
-    int frames() const;  ///< of the animation; 1 without one
+    bool moves() const;  ///< true if any frame may differ from another
+    int frames() const;  ///< number of frames of the animation; 1 without one
     /// Frames a second of its animation.
     double frames_per_second() const;
     /// Names of the objects, in the order of the numbers that images have for them, from 1 on.
@@ -128,7 +128,7 @@ class Scene {
     /// What the scene leaves out and was found from its objects: members of a scene file, a line
     /// each; empty where nothing was.
     std::string fitted() const;
-    /// Whether its only light is the one of scenes that say nothing of lights.
+    /// True if its only light is the one of scenes that say nothing of lights.
     bool has_default_light() const;
     /// What the scene holds, in lines for people.
     std::string describe() const;

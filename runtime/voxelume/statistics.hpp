@@ -39,21 +39,21 @@ struct StageSeconds {
     double place = 0;     ///< objects into the world's voxels
     double index = 0;     ///< the world's pyramid, and instances
     double cache = 0;     ///< writing models and worlds to the disk
-    double image = 0;     ///< from sight rays to pixels, or to display voxels
+    double image = 0;     ///< sight rays to pixels, or to display voxels
 };
 
 /// Rays and paths.
 struct RayCounts {
     uint64_t sight_rays = 0;           ///< rays from the observer
-    uint64_t beams = 0;                ///< sent along 16 sight rays each
-    uint64_t clear_beams = 0;          ///< of these, those that see nothing
+    uint64_t beams = 0;                ///< beams sent along 16 sight rays each
+    uint64_t clear_beams = 0;          ///< beams among these that see nothing
     uint64_t display_lines = 0;        ///< probe lines along a display's lattice
-    uint64_t clear_display_lines = 0;  ///< not sent, as they pass all objects by
-    uint64_t contrasting_pixels = 0;   ///< of adaptive images: those with all samples
+    uint64_t clear_display_lines = 0;  ///< lines not sent, as they pass all objects by
+    uint64_t contrasting_pixels = 0;   ///< pixels of adaptive images that have all samples
     uint64_t shadow_rays = 0;          ///< rays to lights
     uint64_t light_beams = 0;          ///< beams from lights, where shadow rays end
-    uint64_t secondary_rays = 0;       ///< reflected, refracted, and gone on through surfaces
-    uint64_t ended_paths = 0;          ///< not followed for their small weight
+    uint64_t secondary_rays = 0;       ///< rays reflected, refracted or gone on through surfaces
+    uint64_t ended_paths = 0;          ///< paths not followed for their small weight
     uint64_t medium_overflows = 0;     ///< rays in more overlapping objects than they can remember
     uint32_t not_finite = 0;           ///< values that became 0
     /// The standard error of light in 4 x 4 pixels over their mean, as a root mean square over all
@@ -63,10 +63,10 @@ struct RayCounts {
 
 /// Instances, and the models that they share.
 struct InstanceCounts {
-    uint32_t instances = 0;  ///< in the world
-    uint32_t models = 0;     ///< that they share
-    uint64_t voxels = 0;     ///< of the models, each counted once
-    uint64_t bytes = 0;      ///< of these models
+    uint32_t instances = 0;  ///< instances in the world
+    uint32_t models = 0;     ///< models that they share
+    uint64_t voxels = 0;     ///< voxels of the models, each counted once
+    uint64_t bytes = 0;      ///< bytes of these models
     double seconds = 0;      ///< making them ready
 };
 
@@ -78,54 +78,56 @@ struct FrameStatistics {
     ImageReuse image = ImageReuse::traced;  ///< what was done for the image
     uint64_t meshes_read = 0;               ///< files of models
     uint64_t voxelized = 0;                 ///< models, and exact objects
-    uint64_t models_from_cache = 0;         ///< whose voxels were on the disk
-    uint64_t painted_bricks = 0;            ///< that objects were placed into
+    uint64_t models_from_cache = 0;         ///< models whose voxels were on the disk
+    uint64_t painted_bricks = 0;            ///< bricks that objects were placed into
     bool world_from_cache = false;          ///< the world of an earlier run was read
-    uint32_t instances_moved = 0;           ///< that are new or stand elsewhere
-    uint32_t instance_models_indexed = 0;   ///< made ready for rays
-    bool keeps_nothing = false;  ///< for want of memory, for the next frame of its device
-    StageSeconds seconds{};      ///< waiting included, where frames overlap
+    uint32_t instances_moved = 0;           ///< instances that are new or stand elsewhere
+    uint32_t instance_models_indexed = 0;   ///< models made ready for rays
+    /// True: nothing is kept for the device's next frame, for want of memory.
+    bool keeps_nothing = false;
+    StageSeconds seconds{};  ///< waiting included, where frames overlap
 };
 
 /// A device that took part.
 struct DeviceStatistics {
-    std::string name{};     ///< as its driver gives it
+    std::string name{};     ///< name that its driver gives
     std::string driver{};   ///< version of its driver
-    int compute_units = 0;  ///< as OpenCL counts them
+    int compute_units = 0;  ///< compute units, as OpenCL counts them
     int lanes = 1;          ///< rays that one work-item takes
 };
 
 /// What a run took: the sums over its frames and devices, or the largest of a frame for sizes.
 struct Statistics {
-    std::vector<DeviceStatistics> devices{};          ///< that rendered
+    std::vector<DeviceStatistics> devices{};          ///< devices that rendered
     Size size{};                                      ///< pixels of an image
     bool images = true;                               ///< false: volumetric images alone
-    int bands = 1;                                    ///< of each image; 1: it was whole
+    int bands = 1;                                    ///< bands of each image; 1: it was whole
     std::optional<std::array<int, 3>> volume_size{};  ///< voxels of a volumetric image, if any
-    size_t files = 0;                                 ///< written
-    uint64_t voxels = 0;                              ///< with a surface, of the frame with most
-    uint64_t triangles = 0;                           ///< of the models, of the frame with most
-    uint64_t culled_objects = 0;                      ///< that no ray can meet: not voxelized
-    uint64_t world_bytes = 0;                         ///< on the device, of the frame with most
-    RayCounts rays{};                                 ///< of all frames
-    InstanceCounts instances{};                       ///< of the frame with most
-    StageSeconds seconds{};                           ///< of all frames, by stage
-    double open_seconds = 0;                          ///< before the first frame
-    double write_seconds = 0;  ///< writing files, perhaps while other work went on
-    double total_seconds = 0;  ///< by the clock
+    size_t files = 0;                                 ///< files written
+    uint64_t voxels = 0;          ///< voxels with a surface, in the frame with most
+    uint64_t triangles = 0;       ///< triangles of the models, in the frame with most
+    uint64_t culled_objects = 0;  ///< objects that no ray can meet: not voxelized
+    uint64_t world_bytes = 0;     ///< bytes on the device, in the frame with most
+    RayCounts rays{};             ///< counts of all frames
+    InstanceCounts instances{};   ///< counts of the frame with most
+    StageSeconds seconds{};       ///< seconds of all frames, by stage
+    double open_seconds = 0;      ///< seconds before the first frame
+    double write_seconds = 0;     ///< seconds of writing files, perhaps while other work went on
+    double total_seconds = 0;     ///< seconds by the clock
     /// Frame from which on none overlapped, for want of memory.
     std::optional<int> one_by_one_from;
     std::vector<FrameStatistics> frames{};  ///< one for each frame
     std::vector<Warning> warnings{};        ///< what is probably wrong, each once
 
     // Counters of the devices since they were opened.
-    uint64_t peak_device_bytes = 0;              ///< in buffers at once, all devices together
-    std::map<std::string, uint64_t> launches{};  ///< by kernel
-    std::map<std::string, double> kernel_ms{};   ///< by kernel, with RenderOptions::time_kernels
-    std::map<std::string, uint64_t> allocated_bytes{};  ///< by buffer
+    uint64_t peak_device_bytes = 0;              ///< bytes in buffers at once, all devices together
+    std::map<std::string, uint64_t> launches{};  ///< launches of each kernel
+    /// Milliseconds of each kernel, with RenderOptions::time_kernels.
+    std::map<std::string, double> kernel_ms{};
+    std::map<std::string, uint64_t> allocated_bytes{};  ///< bytes of each buffer
     uint64_t programs_made = 0;                         ///< OpenCL programs made ready
-    uint64_t programs_from_cache = 0;                   ///< of these, not compiled again
-    double programs_ms = 0;                             ///< making them ready took
+    uint64_t programs_from_cache = 0;  ///< programs among these, not compiled again
+    double programs_ms = 0;            ///< milliseconds to make them ready
 };
 
 /// The statistics as JSON, as `voxelume render --stats-json` writes them.

@@ -59,15 +59,15 @@ enum class Axis { x, y, z };
 
 /// How a volumetric image becomes a file.
 struct VolumeFileOptions {
-    std::optional<VolumeFormat> format{};  ///< without it the name's ending says it
+    std::optional<VolumeFormat> format{};  ///< format; without it the name's ending says it
     bool compress = true;                  ///< NRRD: gzip instead of raw
     bool all_values = false;               ///< NRRD: depth, object and kind, with RGBA
     // The options of displays' own formats:
     double exposure = 0;             ///< stops: colours are multiplied by 2^exposure
-    Dither dither = Dither::bayer8;  ///< of displays' formats
-    Axis sweep = Axis::y;            ///< along which planes are swept
-    int angles = 0;                  ///< of cylinders; 0: as many as the outer voxels need
-    int radii = 0;                   ///< of cylinders; 0: half of the shorter side
+    Dither dither = Dither::bayer8;  ///< dithering of displays' formats
+    Axis sweep = Axis::y;            ///< axis along which planes are swept
+    int angles = 0;                  ///< angles of cylinders; 0: as many as the outer voxels need
+    int radii = 0;                   ///< radii of cylinders; 0: half of the shorter side
 };
 
 /// Where the voxels of a volumetric image are.
@@ -99,7 +99,7 @@ class Volume {
 
     /// Where its voxels lie.
     const VolumeFrame& frame() const;
-    size_t count() const;  ///< of the voxels that are listed
+    size_t count() const;  ///< number of the voxels that are listed
 
     // The arrays live as long as this volume or a copy of it.
     std::span<const uint64_t> indices() const;     ///< i + size[0] * (j + size[1] * k)
@@ -107,7 +107,7 @@ class Volume {
                                                    ///< not multiplied by the opacity
     std::span<const float> opacities() const;      ///< 0..1
     std::span<const float> depths() const;         ///< metres from the observer
-    std::span<const uint32_t> object_ids() const;  ///< from 1 on; 0: no object
+    std::span<const uint32_t> object_ids() const;  ///< numbers of objects, from 1; 0: no object
     /// What each voxel shows.
     std::span<const VoxelKind> kinds() const;
 

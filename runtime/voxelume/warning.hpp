@@ -34,7 +34,7 @@ const char* name_of(WarningKind kind);
 
 /// A sentence in two parts, which a person reads as "WHERE: TEXT".
 struct Warning {
-    WarningKind kind = WarningKind::outside_world;  ///< for programs
+    WarningKind kind = WarningKind::outside_world;  ///< kind, for programs
     std::string where{};  ///< a place in the scene, "room.json:12:9: objects[0]", or a file
     std::string text{};   ///< what is wrong, and what to do
 };

@@ -17,7 +17,7 @@ struct Sequence {
     int first = 1;      ///< number of the first file
     int last = 1;       ///< number of the last file
     int start = 1;      ///< frame that shows the first file
-    bool loop = false;  ///< whether the first file follows the last one, which stays otherwise
+    bool loop = false;  ///< true: the first file follows the last one; else the last stays
 };
 
 /// Fog on the ground: density 1 up to y = `base`, above it exp(-(y - base) / scale_height).
@@ -35,8 +35,8 @@ struct BallDensity {
 
 /// What light meets where a file has a value; see GridDensity::transfer.
 struct TransferPoint {
-    double value = 0;              ///< of the file; above that of the point before
-    double absorption = 0;         ///< per metre, times the medium's
+    double value = 0;              ///< value of the file; above that of the point before
+    double absorption = 0;         ///< absorption per metre, times the medium's
     std::optional<Color> color{};  ///< radiance of an infinitely deep medium; without it white
 };
 
@@ -52,8 +52,9 @@ struct GridDensity {
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
     /// The file's values are no densities, but what these points say, linear between them.
     std::vector<TransferPoint> transfer{};
-    std::optional<Vec3> lit{};  ///< with a transfer: where light travels that brings out surfaces
-    bool is_lit_by_scene = false;  ///< with a transfer: the scene's lights do, instead of `lit`
+    std::optional<Vec3> lit{};  ///< direction of light that brings out surfaces, with a transfer
+    /// True: the scene's lights do, with a transfer, instead of `lit`.
+    bool is_lit_by_scene = false;
     /// Up to 15 further scans in the same medium, or windows of one, without others of their own.
     std::vector<GridDensity> others{};
 };
@@ -88,7 +89,7 @@ struct GradientSky {
 struct SunSky {
     Vec3 direction{0, -1, 0};        ///< where the sun's light travels; downwards
     double angle = 0.53;             ///< degrees that the disc fills, up to 90
-    Color color{1, 0.95, 0.88};      ///< of the disc's light
+    Color color{1, 0.95, 0.88};      ///< colour of the disc's light
     double intensity = 1;            ///< what arrives from the disc
     double turbidity = 3;            ///< haze, 2 clear to 10 thick
     Color ground{0.25, 0.23, 0.21};  ///< radiance from below the horizon
@@ -105,7 +106,7 @@ struct Sky {
     std::variant<ConstantSky, GradientSky, SunSky, MapSky> kind{};  ///< what it looks like
     double strength = 1;  ///< multiplies its radiance, but for the sun's disc
     int samples = 16;     ///< directions that a point in local light looks to, 0..1024
-    bool visible = true;  ///< to observers, who otherwise see the background
+    bool visible = true;  ///< true: observers see it, who otherwise see the background
 };
 
 /// The lattice S that all objects are placed in, and the space around it.
@@ -132,7 +133,7 @@ struct Checker {
 /// How a surface looks (Whitted 1980), and the body behind it. The material named "default" is what
 /// objects without a material have.
 struct Material {
-    std::string name{};          ///< by which objects name it
+    std::string name{};          ///< name by which objects refer to it
     Color color{0.8, 0.8, 0.8};  ///< 0..1
     double diffuse = 1;          ///< part of the light that Lambert's term returns, 0..1
     /// Part of the light that the Blinn-Phong highlight returns, 0..1; otherwise 0. Physically
@@ -155,7 +156,7 @@ struct Material {
     std::optional<double> roughness{};       ///< 0 polished to 1 dull; otherwise 0.5
     std::optional<double> transmission{};    ///< share of glass, of what isn't metal, 0..1
     std::optional<double> coat{};            ///< share under a clear coat, 0..1; otherwise 0
-    std::optional<double> coat_roughness{};  ///< of the coat, 0..1; otherwise 0
+    std::optional<double> coat_roughness{};  ///< roughness of the coat, 0..1; otherwise 0
 };
 
 }  // namespace voxelume::v1

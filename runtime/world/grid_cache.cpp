@@ -34,7 +34,7 @@ Model source_of(Model model) {
     return model;
 }
 
-/// Whether a model may be closed where a lattice ends, and isn't because light goes through it.
+/// True if a model may be closed where a lattice ends, and isn't because light goes through it.
 bool stays_open(const Model& model, bool transmits) {
     return transmits && model.solid && lists_primitives(model.surface);
 }
@@ -167,7 +167,7 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
     return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});
 }
 
-/// Whether a grid is one of a model, and no other of it was asked for: that is old.
+/// True if a grid is one of a model, and no other of it was asked for: that is old.
 bool GridCache::is_old(const Model& model, const Source& source) const {
     const std::optional<Model> part = source.model.is_thin_part ? thin_part_of(model) : model;
     if (!part) return false;

@@ -110,7 +110,7 @@ class WorldBuilder {
     struct Task {
         const Scene& scene;
         const std::vector<bool>& retained;
-        bool keeps;     ///< whether to keep what the next frame may use
+        bool keeps;     ///< true if to keep what the next frame may use
         uint64_t room;  ///< bytes on the device for retained models
         WorldReport& report;
     };
@@ -129,7 +129,7 @@ class WorldBuilder {
     Device device_;
     bool follows_;
     bool keeps_ = false;
-    bool retains_ = true;  ///< whether models that aren't shown are retained
+    bool retains_ = true;  ///< true if models that aren't shown are retained
     AssetStore meshes_;
     double load_seconds_ = 0;  ///< time of meshes_ in reports so far
     uint64_t meshes_read_ = 0;

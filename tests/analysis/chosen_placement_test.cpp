@@ -9,14 +9,14 @@ namespace {
 
 using PlacementChoices = ChosenScene;
 
-/// Whether `auto` makes the first object an instance.
+/// True if `auto` makes the first object an instance.
 bool placed_as_instance(Scene scene) {
     AssetStore meshes;
     make_choices(scene, meshes);
     return is_instanced(scene, scene.objects[0]);
 }
 
-/// Whether `auto` makes the first of `count` objects of the model an instance.
+/// True if `auto` makes the first of `count` objects of the model an instance.
 bool first_is_instanced(Scene scene, int count, const Material& material, bool has_cubes) {
     scene.materials.push_back(material);
     scene.objects[0].material = int(scene.materials.size()) - 1;

@@ -165,7 +165,7 @@ TEST(Culling, HoldsWhatCoversPartOfAnEmissiveObjectAlsoWithoutShadows) {
         Scene without = scene;
         without.objects[size_t(cover)].visible = false;
         EXPECT_NE(hash_of_all(without), hash_of_all(scene))
-            << "the emissive object's spots are others";
+            << "the emissive object's light samples differ";
     }
 }
 

@@ -20,7 +20,7 @@ inline double cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Whether an accelerator is measured, whose work takes none of this process's CPU time.
+/// True if an accelerator is measured, whose work takes none of this process's CPU time.
 inline bool measures_accelerator = false;
 
 /// CPU time, or wall time where an accelerator is measured.

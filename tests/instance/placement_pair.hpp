@@ -92,7 +92,7 @@ inline Pixel pixel_of(const Image& image, size_t i) {
             vector("N.X", "N.Y", "N.Z"), vector("R", "G", "B")};
 }
 
-/// Whether light is the same but for rounding, and for what a hundredth of a degree makes of it.
+/// True if light is the same but for rounding, and for what a hundredth of a degree makes of it.
 inline bool is_same_light(const glm::dvec3& a, const glm::dvec3& b) {
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(a[i] - b[i]) <= 1e-3 * (1 + std::max(a[i], b[i])))) return false;
@@ -212,7 +212,7 @@ class PlacementPair {
         return promised(surface_of(at.object)) * voxel_of(at.object) + pitch;
     }
 
-    /// Whether a condition holds for a pixel that is at most three pixels from pixel i.
+    /// True if a condition holds for a pixel that is at most three pixels from pixel i.
     template <class Condition>
     static bool any_around(const Image& image, size_t i, Condition holds) {
         const int radius = 3, x = int(i) % image.width, y = int(i) / image.width;
@@ -223,7 +223,7 @@ class PlacementPair {
         return false;
     }
 
-    /// Whether another picture shows the object of a pixel, at most three pixels from it, as close
+    /// True if another picture shows the object of a pixel, at most three pixels from it, as close
     /// to the plane that touches it there as its surface promises. An exact one has no slack.
     bool is_promised(const Pixel& at, const Image& image, size_t i) const {
         if (!at.object || surface_of(at.object) == Surface::exact) return false;
@@ -233,14 +233,14 @@ class PlacementPair {
         });
     }
 
-    /// Whether an outline of what a pixel shows, or a step in its depth, is close in its picture.
+    /// True if an outline of what a pixel shows, or a step in its depth, is close in its picture.
     bool is_outline(const Pixel& at, const Image& image, size_t i) const {
         return any_around(image, i, [&](const Pixel& other) {
             return other.object != at.object || distance_of(other) > distance_of(at) + slack_of(at);
         });
     }
 
-    /// Whether the pictures of a scene with such placements, which are made at first, have the same
+    /// True if the pictures of a scene with such placements, which are made at first, have the same
     /// light at a pixel.
     static bool is_alike(const Scene& scene, bool kept, std::vector<Image>& pictures, size_t i) {
         if (pictures.empty())

@@ -23,7 +23,7 @@ struct ShippedScene {
     const char* name;
     double voxels = 96;
     bool is_default = false;  ///< otherwise only an exhaustive run draws it
-    size_t far_edges = 0;  ///< at most so many pixels differ by a hundredth voxel of a ray's place
+    size_t far_edges = 0;     ///< maximum of pixels that differ by 0.01 voxels of a ray's place
 };
 
 /// What GoogleTest calls it.

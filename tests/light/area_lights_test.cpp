@@ -28,7 +28,7 @@ TEST(AreaLights, ADiskGivesThePointBelowItsMiddleWhatItsSolidAngleHolds) {
         const size_t pixel = pixel_at(image, 0.05, 0.1);
         EXPECT_NEAR(image.planes.at("R")[pixel], expected,
                     (light_samples == 1 ? 1e-5 : 0.005) * expected)
-            << light_samples << " spots";
+            << light_samples << " light samples";
         EXPECT_NEAR(image.planes.at("G")[pixel], expected / 2, 0.005 * expected);
     }
 }
@@ -91,7 +91,7 @@ TEST(AreaLights, DivideARectangleAndADiskEvenly) {
     size_t inner = 0;
     for (const LightRecord& light_sample : area_light_samples(light, world))
         inner += std::hypot(light_sample.position.x, light_sample.position.y) < std::sqrt(2.0);
-    EXPECT_NEAR(double(inner), 250, 1) << "half of the area, half of the spots";
+    EXPECT_NEAR(double(inner), 250, 1) << "half of the area, half of the light samples";
 }
 
 TEST(AreaLights, ShadowEdgesLieBetweenUmbraAndPenumbra) {

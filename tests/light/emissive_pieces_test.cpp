@@ -124,7 +124,7 @@ TEST_F(MeshPieces, OfAnOpenMeshFaceBothWays) {
     const glm::dvec3 area =
         glm::cross(glm::dvec3(0.3, 0.01, 0.1), glm::dvec3(0.1, 0.05, 0.3)) / 2.0;
     EXPECT_NEAR(area_of(pieces), 2 * glm::length(area), 1e-3 * glm::length(area));
-    EXPECT_GT(pieces.size(), 1000u) << "parts small enough for many spots";
+    EXPECT_GT(pieces.size(), 1000u) << "parts small enough for many light samples";
     glm::dvec3 sum(0);
     for (const EmissivePiece& piece : pieces) sum += piece.normal * piece.area;
     EXPECT_NEAR(glm::length(sum), 0, 1e-9);

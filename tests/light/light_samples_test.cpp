@@ -150,8 +150,8 @@ TEST_P(FlatEmissiveObjects, AreNotHiddenByTheirOwnSurface) {
         if (!is_floor(bare, i)) continue;
         const float whole = bare.planes.at("R")[i], seen = shadowed.planes.at("R")[i];
         dimmed += seen != whole;
-        // The object is 1.5 voxels thin. At its smooth edges a small part of one spot of 100 may be
-        // hidden.
+        // The object is 1.5 voxels thin. At its smooth edges a small part of one light sample
+        // of 100 may be hidden.
         ASSERT_NEAR(seen, whole, surface == "smooth" ? 1e-3 * whole : 0) << i;
         lit += bare.planes.at("R")[i] > 0;
     }

@@ -103,7 +103,7 @@ TEST(BrickCount, OfAFilesCubesIsThatOfTheBricksThatTheyReach) {
     taken.take({1, 1, 1});
     const glm::dmat4 map = glm::translate(glm::dmat4(1), glm::dvec3(20));
     EXPECT_EQ(count_voxels(full, map, 1, world, taken).new_bricks, 7);
-    // Nothing is listed of cubes that are far too large.
+    // Cubes far too large are counted without a list.
     EXPECT_GT(count_voxels(full, glm::scale(glm::dmat4(1), glm::dvec3(1e4)), 1, world, taken)
                   .extent.bricks,
               1e9);

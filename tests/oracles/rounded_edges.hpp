@@ -39,14 +39,14 @@ class LatticeDistance {
         return sum;
     }
 
-    /// The least of `at` on the part of a ray that is inside of the solid, from `t` metres on, in
+    /// The minimum of `at` on the part of a ray that is inside of the solid, from `t` metres on, in
     /// steps of a sixteenth of a voxel.
-    double least_on(const glm::dvec3& origin, const glm::dvec3& direction, double t) const {
+    double min_on(const glm::dvec3& origin, const glm::dvec3& direction, double t) const {
         const double step = edge_.x / 16;
-        double least = 0;
+        double minimum = 0;
         for (t += step; solid_.distance(Vector(origin + t * direction)) < 0; t += step)
-            least = std::min(least, at(origin + t * direction));
-        return least;
+            minimum = std::min(minimum, at(origin + t * direction));
+        return minimum;
     }
 
   private:
@@ -54,7 +54,7 @@ class LatticeDistance {
     AnalyticSolid solid_;
 };
 
-/// Whether the shape is convex and has edges, which one field rounds.
+/// True if the shape is convex and has edges, which one field rounds.
 constexpr bool has_convex_edges(SolidKind kind) {
     return kind == SolidKind::box || kind == SolidKind::cylinder || kind == SolidKind::cone;
 }

@@ -78,11 +78,11 @@ class Coincident : public FileTest {
 int pixels_that_differ(const Image& a, const Image& b) {
     int count = 0;
     for (int i = 0; i < kPixelsWide * kPixelsHigh; ++i) {
-        double most = 0;
+        double maximum = 0;
         for (const char* channel : {"R", "G", "B"})
-            most = std::max(most, std::abs(double(a.planes.at(channel)[size_t(i)]) -
-                                           double(b.planes.at(channel)[size_t(i)])));
-        count += most > 0.01;
+            maximum = std::max(maximum, std::abs(double(a.planes.at(channel)[size_t(i)]) -
+                                                 double(b.planes.at(channel)[size_t(i)])));
+        count += maximum > 0.01;
     }
     return count;
 }

@@ -156,7 +156,7 @@ CubePairErrors cube_pair_errors(const Scene& scene) {
 /// passes, or within the distance that closes gaps. So no point of a cube is farther from the
 /// surface than half a diagonal and, as much as models are stretched, two halves of theirs.
 constexpr double kHalfDiagonal = 0.8661;
-constexpr double kFarthestCube = kHalfDiagonal + 2 * kMostStretch * kHalfDiagonal;
+constexpr double kFarthestCube = kHalfDiagonal + 2 * kMaxMapStretch * kHalfDiagonal;
 
 /// A voxel that the surface passes is no cube where its centre lies in none of the model's. A ray
 /// gets no deeper than to the far end of that voxel.

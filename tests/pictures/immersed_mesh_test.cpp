@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images of observers in glass that can only be found by tracing, in meshes and smooth bodies,
-// against an analytic tracer.
+// Images of observers inside glass meshes and smooth bodies, against an analytic tracer; only
+// tracing finds the glass.
 #include <nlohmann/json.hpp>
 
 #include "runtime/scene_file/read_scene.hpp"

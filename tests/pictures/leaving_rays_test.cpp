@@ -44,10 +44,10 @@ class LeavingRays : public FileTest {
     }
 };
 
-/// The pixels that differ by more than `most`.
-size_t differing(const std::vector<float>& a, const std::vector<float>& b, float most) {
+/// The pixels that differ by more than `maximum`.
+size_t differing(const std::vector<float>& a, const std::vector<float>& b, float maximum) {
     size_t count = 0;
-    for (size_t i = 0; i < a.size(); ++i) count += std::abs(a[i] - b[i]) > most;
+    for (size_t i = 0; i < a.size(); ++i) count += std::abs(a[i] - b[i]) > maximum;
     return count;
 }
 

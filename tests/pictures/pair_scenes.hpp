@@ -110,9 +110,9 @@ inline std::string random_shape(std::mt19937& random) {
     }
 }
 
-/// The least and the most by which random_map() stretches, and its shift along each axis: what it
-/// maps lies in the world.
-inline constexpr double kLeastStretch = 0.65, kMostStretch = 1.05, kMostShift = 0.2;
+/// The minimum and the maximum by which random_map() stretches, and its shift along each axis: what
+/// it maps lies in the world.
+inline constexpr double kMinMapStretch = 0.65, kMaxMapStretch = 1.05, kMaxMapShift = 0.2;
 
 /// The matrix of a random affine map that shears, as JSON. Between two turns it stretches, and
 /// every other map mirrors.
@@ -124,13 +124,13 @@ inline std::string random_map(std::mt19937& random) {
     };
     glm::dmat3 stretch(1);
     for (int axis = 0; axis < 3; ++axis)
-        stretch[axis][axis] = random_in(random, kLeastStretch, kMostStretch);
+        stretch[axis][axis] = random_in(random, kMinMapStretch, kMaxMapStretch);
     if (random() % 2 == 0) stretch[0][0] = -stretch[0][0];
     const glm::dmat3 first = turn(), second = turn(), m = second * stretch * first;
     std::string rows;
     for (int row = 0; row < 3; ++row)
         rows += fmt::format("{}[{}, {}, {}, {}]", row == 0 ? "" : ", ", m[0][row], m[1][row],
-                            m[2][row], random_in(random, -kMostShift, kMostShift));
+                            m[2][row], random_in(random, -kMaxMapShift, kMaxMapShift));
     return fmt::format(R"("matrix": [{}])", rows);
 }
 

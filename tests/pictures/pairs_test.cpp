@@ -50,7 +50,7 @@ class Truth {
         return tracer_.trace(scene_.observer.position, direction_at(scene_.observer, pixel));
     }
 
-    /// Whether the object, or -1, is seen within `metres` around a pixel, at the distance of what
+    /// True if the object, or -1, is seen within `metres` around a pixel, at the distance of what
     /// is seen there or of the world's middle.
     bool sees_near(int x, int y, int object, double metres) const {
         const double t = std::min(at(x, y).t, glm::length(scene_.observer.position));
@@ -77,7 +77,7 @@ class Truth {
     std::vector<oracle::Seen> seen_;
 };
 
-/// Whether a surface that a picture lacks at a pixel is that of an edge, which `smooth` solids
+/// True if a surface that a picture lacks at a pixel is that of an edge, which `smooth` solids
 /// round: the distances at the lattice's nodes don't make any field have it.
 bool is_rounded(const Scene& scene, const oracle::Seen& seen, const glm::dvec2& pixel) {
     if (seen.object < 0) return false;
@@ -86,7 +86,7 @@ bool is_rounded(const Scene& scene, const oracle::Seen& seen, const glm::dvec2& 
     if (model.surface != Surface::smooth || !oracle::has_convex_edges(model.solid->kind))
         return false;
     const oracle::LatticeDistance field(scene.world, *model.solid, object.world_from_object);
-    return field.least_on(scene.observer.position, direction_at(scene.observer, pixel), seen.t) >
+    return field.min_on(scene.observer.position, direction_at(scene.observer, pixel), seen.t) >
            -kStoredStep * scene.world.voxel_size.x;
 }
 

@@ -65,7 +65,7 @@ class ThinPartImage : public FileTest {
     }
 };
 
-/// Whether a pixel's depth is within a voxel of those of its eight neighbours.
+/// True if a pixel's depth is within a voxel of those of its eight neighbours.
 bool is_flat(const Image& image, size_t pixel, double voxel) {
     const auto& depth = image.planes.at("Z");
     for (size_t i = 0; i < 9; ++i) {
@@ -78,7 +78,7 @@ bool is_flat(const Image& image, size_t pixel, double voxel) {
 }
 
 /// Expects pictures of one body: every pixel of the one shows it where the other does, but for
-/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel, but for so many where
+/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel, but for as many where
 /// rays graze it and depths differ by more than a voxel from pixel to pixel.
 void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim) {
     const auto& a = mixed.planes.at("Z");

@@ -48,7 +48,7 @@ class Calls {
         }
     }
 
-    /// Whether the call that writes to the file or folder at `path` is to fail; errno says why,
+    /// True if the call that writes to the file or folder at `path` is to fail; errno says why,
     /// then.
     bool fails(const char* path) {
         if (fault_.folder.empty() || !is_below_folder(path)) return false;

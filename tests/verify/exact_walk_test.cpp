@@ -64,7 +64,7 @@ TEST_P(ExactWalk, EntersTheCellsThatRationalsEnter) {
 }
 
 TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
-    constexpr size_t kMaxCells = 2000;  // no walk through the first two grids has so many
+    constexpr size_t kMaxCells = 2000;  // walks through the first two grids are shorter
     for (const glm::ivec3 size :
          {glm::ivec3(33, 64, 50), glm::ivec3(600, 300, 400), glm::ivec3(65536, 40001, 65536)})
         for (uint64_t number = 0; number < 150; ++number) {

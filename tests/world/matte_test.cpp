@@ -64,12 +64,12 @@ TEST(Matte, AnObjectsShareIsTheLightOfAScreenWhereItGlowsAlone) {
     const Image image = image_of(scene);
     double edges = 0;
     for (size_t number = 0; number < scene.objects.size(); ++number) {
-        Scene glowing = scene;
-        glowing.materials.push_back(glowing.materials[1]);
-        glowing.materials.back().emission = glm::vec3(1);
-        glowing.objects[number].material = int(glowing.materials.size()) - 1;
-        glowing.render.channels = {};
-        const Image light = image_of(glowing);
+        Scene emissive = scene;
+        emissive.materials.push_back(emissive.materials[1]);
+        emissive.materials.back().emission = glm::vec3(1);
+        emissive.objects[number].material = int(emissive.materials.size()) - 1;
+        emissive.render.channels = {};
+        const Image light = image_of(emissive);
         const auto shares = share_of(image, "CryptoObject", scene.objects[number].name);
         for (size_t i = 0; i < shares.size(); ++i) {
             ASSERT_EQ(shares[i], light.planes.at("R")[i]) << number << " at " << i;

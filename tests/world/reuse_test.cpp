@@ -95,7 +95,7 @@ TEST(Reuse, LightsMaterialsAndTheMediumOnlyLightTheHitsAgain) {
     const Scene first = scene_of("blue");
     std::vector<std::pair<const char*, Scene>> changes(6, {"", first});
     changes[0].first = "a light's place", changes[0].second.lights[0].position.x = -1;
-    changes[1].first = "a light's energy", changes[1].second.lights[0].intensity *= 2.0f;
+    changes[1].first = "a light's intensity", changes[1].second.lights[0].intensity *= 2.0f;
     changes[2].first = "a material's color", changes[2].second.materials[1].color.y = 0.7f;
     changes[3].first = "the medium", changes[3].second.world.medium.absorption.x = 0.2f;
     changes[4].first = "the background", changes[4].second.world.background.x = 0.9f;

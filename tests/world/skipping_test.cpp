@@ -107,7 +107,7 @@ class SkippingFiles : public FileTest {
 };
 
 const Row kRows[] = {
-    {"a light without energy",
+    {"a light without intensity",
      kFloor,
      "\"intensity\": 9",
      "\"intensity\": 0",

@@ -16,7 +16,7 @@
 // Objects that a ray leaves come after all that it enters.
 #define VXL_ORDER_LEAVING 0x40000000u
 
-/// Whether a world's exact surfaces may coincide: they are of several objects.
+/// True if a world's exact surfaces may coincide: they are of several objects.
 static inline bool may_coincide(const SurfaceView* s) {
     return VXL_ATTRIBUTES && s->order != 0;
 }
@@ -33,7 +33,7 @@ static inline lane_int is_primitive(lane_uint number) {
     return LANE_MASK(number != VXL_NO_PRIMITIVE) & LANE_MASK((number >> 30) != 1u);
 }
 
-/// The place of a primitive's object in the order of coinciding surfaces.
+/// The index of a primitive's object in the order of coinciding surfaces.
 static inline lane_uint place_in_order(const SurfaceView* s, const RayState* ray_state,
                                        lane_uint primitive, lane_int some) {
     const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, some);

@@ -54,8 +54,8 @@ static inline lane_float off_middle(Vector from, float4 step, lane_float depth, 
                         (lane_float)0.0f);
 }
 
-/// What rays span at the points `position`, in voxels. Those that come from other surfaces had the
-/// width `before` there, which is 0 for rays from the observer.
+/// The vectors that rays span, in metres, at the points `position`, in voxels. Rays from other
+/// surfaces were `before` wide there; rays from the observer were 0 wide.
 static inline RaySpan span_of(const Footprint* f, float4 edge, Vector position, Vector normal,
                               Vector way, lane_float before, lane_float travelled) {
     const Vector middle = vector_of(f->middle);

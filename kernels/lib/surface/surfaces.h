@@ -15,7 +15,8 @@
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
-/// Ends the walks of `lanes` that have a cube behind there, where it is: the mask of these.
+/// Ends the walks of the `lanes` whose ray met a cube behind its voxel, at that cube. Returns the
+/// mask of these lanes.
 static inline lane_int take_cube_behind(SurfaceHit* found, Walk* w, lane_int lanes) {
     const lane_int taken = lanes & found->behind.kept;
     if (!lanes_any(taken)) return taken;

@@ -110,8 +110,8 @@ static inline void add_texel(const TextureLevel* t, lane_int x, lane_int y, lane
     }
 }
 
-/// Adds the bilinear value at a place, times `weight`. Where alpha is below its least, nothing is
-/// there; elsewhere with such a least all is.
+/// Adds the bilinear value at a place, times `weight`. With a minimum alpha, a texel counts as
+/// fully there or not at all.
 static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v, lane_float weight,
                                lane_float* sum) {
     const lane_float x = fma(place_of_texels(u, t->wrap_u), LANES_FLOAT(t->width), -0.5f);

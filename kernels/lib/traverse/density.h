@@ -28,7 +28,7 @@ typedef struct {
 typedef struct {
     lane_float density;
     lane_int log2_size;  // of the aligned cube of cells around it that has one density
-    lane_uint place;     // of the density among the values
+    lane_uint place;     // index of the density among the values
 } DensityCell;
 
 /// The density at voxel (x,y,z); lanes that are not `active` read something harmless.

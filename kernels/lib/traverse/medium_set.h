@@ -13,14 +13,14 @@
 // The build constant VXL_MEDIA is the number of objects that a scene needs room for.
 #define VXL_MEDIUM_SET_SIZE (VXL_MEDIA > 0 ? VXL_MEDIA : 1)
 
-/// The place of VXL_PATH_EMITTER among the components of paths.
+/// Component VXL_PATH_EMITTER of a path, if the scene has it (VXL_LOOKS).
 #define VXL_PATH_EMITTER (VXL_PATH_INSIDE + (VXL_TRANSMISSION ? VXL_MEDIUM_SET_SIZE : 0))
-/// That of VXL_PATH_TRAVELLED, and whether there is one.
+/// Component VXL_PATH_TRAVELLED of a path, if the scene has it (VXL_TRAVELS).
 #define VXL_PATH_TRAVELLED (VXL_PATH_EMITTER + (VXL_LOOKS ? 1 : 0))
 #define VXL_TRAVELS ((VXL_EMITTERS || VXL_AREA_SHARES) && VXL_INSTANCES && VXL_TRANSMISSION)
-/// That of VXL_PATH_DENSITY, which there is with VXL_AREA_SHARES.
+/// Component VXL_PATH_DENSITY of a path, if the scene has VXL_AREA_SHARES.
 #define VXL_PATH_DENSITY (VXL_PATH_TRAVELLED + (VXL_TRAVELS ? 1 : 0))
-/// That of VXL_PATH_WIDTH, behind those that there are, and whether there is one.
+/// Component VXL_PATH_WIDTH of a path, the last one, if the scene has it (VXL_WIDENS).
 #define VXL_PATH_WIDTH (VXL_PATH_DENSITY + (VXL_AREA_SHARES ? 1 : 0))
 #define VXL_WIDENS (VXL_TEXTURES && VXL_PATHS && VXL_RADIANCE)
 
@@ -102,7 +102,7 @@ static inline MediumSet cross_medium(MediumSet in, lane_uint packed, lane_int le
     return cross_medium_or_overflow(in, packed, leaving, crossing, &overflowed);
 }
 
-/// `ranks[object]` is the object's place in the order of priorities.
+/// `ranks[object]` is the object's index in the order of priorities.
 static inline lane_uint rank_of(global const uint* ranks, lane_uint packed) {
     const lane_int some = LANE_MASK(packed != VXL_NO_MEDIUM);
     const lane_uint object = packed & VXL_OBJECT_MASK & LANES_AS_UINT(some);

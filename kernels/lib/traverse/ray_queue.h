@@ -46,7 +46,7 @@ typedef struct {
 #define VXL_QUEUE \
     { next_rays, next_paths, next_starts, next_inside, next_stride }
 
-/// The wanted lanes of a packet, left-packed, and their first place in a queue.
+/// The wanted lanes of a packet, left-packed, and the index of their first in a queue.
 typedef struct {
     uint first, count;
     uint lane[VXL_LANES];

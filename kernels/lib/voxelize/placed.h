@@ -140,7 +140,7 @@ static inline bool is_inside_field(const PlacedObject* object, global const shor
                     ((node.z & 15) << 8)] < 0;
 }
 
-// True if voxel `v` of the object is set. `place` becomes its place in the bricks' values, or -1
+// True if voxel `v` of the object is set. `place` becomes its index in the bricks' values, or -1
 // for a voxel of a brick that isn't stored.
 static inline bool is_occupied(const PlacedObject* object, global const ulong* occupancy, int4 v,
                                long* place) {

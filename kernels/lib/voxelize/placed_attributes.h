@@ -14,7 +14,7 @@ static inline uint attributes_in_world(AttributeMap map, global const uint* mate
     return map.x | materials[min(group, map.z - 1)] << VXL_MATERIAL_SHIFT;
 }
 
-// `from` is the voxel's place in the object's buffers, negative for one that has none.
+// `from` is the voxel's index in the object's buffers, negative for one that has none.
 static inline uint attributes_of(AttributeMap map, global const uint* materials,
                                  global const uint* attributes, long from) {
     const uint own = VXL_OBJECT_ATTRIBUTES && from >= 0 ? attributes[from] : map.y;
@@ -25,7 +25,7 @@ static inline uint color_of(global const uint* colors, long from) {
     return VXL_OBJECT_COLORS && from >= 0 ? colors[from] : 0xFFFFFFu;
 }
 
-// The place of voxel `v` in the object's buffers, or -1.
+// The index of voxel `v` in the object's buffers, or -1.
 static inline long index_of_voxel(const PlacedObject* object, int4 v) {
     const uint slot = brick_slot(object->slots, object->bricks, v >> 4);
     if (!brick_is_stored(slot)) return -1;

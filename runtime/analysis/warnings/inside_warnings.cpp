@@ -25,7 +25,7 @@ bool is_in_box(const Bounds& box, const glm::dvec3& p) {
     return glm::all(glm::lessThan(box.min, p)) && glm::all(glm::lessThan(p, box.max));
 }
 
-/// Whether an object encloses a point of the world.
+/// True if an object encloses a point of the world.
 bool encloses(const Scene& scene, const Object& object, const glm::dvec3& point,
               AssetStore& meshes) {
     const Model& model = scene.models[size_t(object.model)];
@@ -48,7 +48,7 @@ std::optional<Bounds> own_box(const Model& model, AssetStore& meshes) {
     return Bounds{own.min, own.max};
 }
 
-/// Whether an object wholly encloses the other, as a room encloses its furniture: the middle and
+/// True if an object wholly encloses the other, as a room encloses its furniture: the middle and
 /// the corners of its box are inside. If the middle alone is, the other is stuck in a wall.
 bool encloses(const Scene& scene, const Object& object, const Object& other, AssetStore& meshes) {
     const auto box = own_box(scene.models[size_t(other.model)], meshes);

@@ -27,7 +27,7 @@ std::vector<int> some_of(std::span<const int> frames) {
     return some;
 }
 
-/// Whether something in the scene sends light to surfaces, or shows light of its own.
+/// True if something in the scene sends light to surfaces, or shows light of its own.
 bool has_any_light(const Scene& scene) {
     const World& world = scene.world;
     const bool has_background = world.background != glm::vec3(0) || world.sky;
@@ -85,7 +85,7 @@ void add_cache_warning(const ModelCache& cache, std::vector<Warning>& warnings) 
              warnings);
 }
 
-/// Whether an object shows the same file, or a solid, as in another frame.
+/// True if an object shows the same file, or a solid, as in another frame.
 bool shows_same_file(const Scene& a, const Scene& b, size_t object) {
     const Model& m = a.models[size_t(a.objects[object].model)];
     const Model& n = b.models[size_t(b.objects[object].model)];

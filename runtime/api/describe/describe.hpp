@@ -33,7 +33,7 @@ Report describe_art(const std::filesystem::path& path, const VoxelFileFormat& fo
 /// The place, values or labels of an array, and what is assumed where the file doesn't say it.
 Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& format);
 
-/// Whether a file is to be read as a scene: it has a scene's keys, or it isn't JSON; then reading
+/// True if a file is to be read as a scene: it has a scene's keys, or it isn't JSON; then reading
 /// it as a scene reports the line.
 bool is_scene(const std::filesystem::path& path);
 

@@ -42,7 +42,7 @@ Report light_row(const Light& light) {
             {"type", type.name},
             {"at", type.has_position ? list_of(light.position) : Report()},
             {"along", type.has_direction ? list_of(light.direction) : Report()},
-            {"energy", list_of(glm::dvec3(light.intensity))}};
+            {"intensity", list_of(glm::dvec3(light.intensity))}};
 }
 
 }  // namespace

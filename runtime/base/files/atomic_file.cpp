@@ -38,7 +38,7 @@ fs::path follow_links(const fs::path& target) {
     return file;
 }
 
-/// Whether a writer holds the file, as far as the file system knows of locks.
+/// True if a writer holds the file, as far as the file system knows of locks.
 bool is_locked(const fs::path& path) {
     const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return true;

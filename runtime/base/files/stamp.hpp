@@ -40,7 +40,7 @@ bool seal(int descriptor) noexcept;
 /// Compares a file with what it should be made from.
 StampState check_stamp(const std::filesystem::path& file, std::string_view hash);
 
-/// Whether a regular file's bytes are those that were written, whatever it was made from; empty if
+/// True if a regular file's bytes are those that were written, whatever it was made from; empty if
 /// it has no stamp, or can't be read.
 std::optional<bool> is_as_written(const std::filesystem::path& file);
 

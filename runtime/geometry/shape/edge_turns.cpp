@@ -11,24 +11,24 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kMostEdges = 32;
+constexpr size_t kMaxEdges = 32;
 
 /// How many times as much a right angle turns as an edge that is just sharp.
 constexpr double kRightAngle = 90 / kSharpAngle;
 
-/// Around a rounded edge the surface bends to its side alone, within so many widths to each side,
-/// but for a tenth. Scans have bumps and dents there.
+/// Around a rounded edge the surface bends to its side alone, within this many widths on each side,
+/// except for a tenth. Scans have bumps and dents there.
 constexpr double kFlanks = 4, kRough = 1.1;
 
-/// A way that turns by kMostBack degrees to the other side ends there. kEndless is a turn that no
-/// way has.
-constexpr double kMostBack = 20, kEndless = 1e6;
+/// A way that turns by kMaxTurnBack degrees to the other side ends there. kEndless is a turn that
+/// no way has.
+constexpr double kMaxTurnBack = 20, kEndless = 1e6;
 
 /// The edges that are crossed on one side of an edge: `way` is how far away each lies, metres,
 /// `turn` what the surface turns as far as there, degrees, and `bent` the same without signs.
 /// Number 0 is the edge itself.
 struct Arm {
-    std::array<double, kMostEdges + 1> way, turn, bent;  // filled as far as `count`
+    std::array<double, kMaxEdges + 1> way, turn, bent;  // filled as far as `count`
     size_t count = 1;
     double end = std::numeric_limits<double>::infinity();  // where it bends back too far
 
@@ -65,7 +65,7 @@ struct Walk {
         Arm arm;
         glm::dvec3 at = middle, normal = sign * edges.normal(side);
         double way = 0, turn = 0, bent = 0, back = 0, end = reach;
-        while (arm.count <= kMostEdges && back <= kMostBack) {
+        while (arm.count <= kMaxEdges && back <= kMaxTurnBack) {
             const uint32_t second = next_side(side), third = next_side(second);
             const glm::dvec3 tip = edges.start(third);
             const double above = height(tip);
@@ -91,7 +91,7 @@ struct Walk {
             arm.way[arm.count] = way;
             arm.turn[arm.count] = turn;
             arm.bent[arm.count++] = bent;
-            if (back > kMostBack) {
+            if (back > kMaxTurnBack) {
                 arm.bent[arm.count - 1] = kEndless;
                 arm.end = way;
             }

@@ -68,8 +68,8 @@ std::vector<glm::dvec3> normals_of(const Mesh& mesh) {
     return normals;
 }
 
-/// Faces whose normals differ by less lie in one another: single precision moves those of
-/// millimetres in a metre by as much.
+/// Faces whose normals differ by less count as coplanar: single precision turns faces of
+/// millimetres in a mesh of metres by that much.
 constexpr double kSameFace = 0.9999;  // 0.8 degrees
 
 /// Leaves of an edge's sides one of those whose faces lie in each other and look to the same side.

@@ -35,8 +35,8 @@ MeshShape shape_of(const Mesh& mesh);
 /// The shape of a mesh that is this many times as large.
 MeshShape scaled(const MeshShape& shape, double scale);
 
-/// True if so many of its edges are sharp, or rounded so narrowly that they are in such voxels,
-/// that distances would bead them. Chords next to them say nothing of thin parts.
+/// True if distances would bead the mesh's edges, as many of them are sharp or rounded within a
+/// voxel. Chords next to them say nothing of thin parts.
 bool has_sharp_edges(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
 
 /// A surface with the reason for it, as the second half of a sentence.

@@ -6,7 +6,7 @@
 
 namespace voxelume {
 
-/// Whether a flat face of one solid continues one of the other, looking to the same side, and the
+/// True if a flat face of one solid continues one of the other, looking to the same side, and the
 /// boxes around the two overlap. Both are in one space.
 bool have_flush_faces(const Solid& a, const Solid& b);
 

@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// Whether a point in the space of the solid's parent lies inside of it, not on its surface.
+/// True if a point in the space of the solid's parent lies inside of it, not on its surface.
 bool is_inside(const Solid& solid, const glm::dvec3& point);
 
 /// The width of the thinnest shape of a solid under a linear map. What a difference takes away

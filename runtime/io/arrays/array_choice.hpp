@@ -40,7 +40,7 @@ void choose_from(const Value* row, size_t count, std::optional<Value> low, uint8
     for (size_t i = 0; i < count; ++i) chosen[i] = is_there && row[i] >= bound;
 }
 
-/// Whether the values of a row are voxels, a byte each.
+/// True if the values of a row are voxels, a byte each.
 template <class Value>
 void choose(const Value* row, size_t count, const CellArray& array, const VoxelValues& values,
             uint8_t* chosen) {

@@ -186,10 +186,10 @@ class ArrayCubes {
         model.transparent = transparent;
     }
 
-    /// Whether the model has the file's bytes, as codes of colours.
+    /// True if the model has the file's bytes, as codes of colours.
     bool has_codes() const { return !array_.is_color() && bytes_in_memory(array_.type) == 1; }
 
-    /// Whether a voxel lets light through.
+    /// True if a voxel lets light through.
     bool read_colors(int first, int end, VoxelModel& model) const {
         ArraySlabs slabs(array_, file_, kBrickSize, first, end);
         bool transparent = false;

@@ -28,7 +28,7 @@ class SurfaceValues {
     /// How far a value is below another one. Infinity stays what it is.
     static float step_between(double high, double low);
 
-    /// Whether values of some cells may be so large, or no numbers, that no surface is near them.
+    /// True if values of some cells may be so large, or no numbers, that no surface is near them.
     bool may_be_infinite() const { return may_be_infinite_; }
 
     /// False where no value from `min` to `max` lies inside.

@@ -62,7 +62,7 @@ class ArraySlabs {
     std::vector<std::byte> bytes_, halves_;
 };
 
-/// Whether a layer can be read without those before it.
+/// True if a layer can be read without those before it.
 inline bool in_any_order(const CellArray& array) {
     return array.encoding == DataEncoding::raw;
 }

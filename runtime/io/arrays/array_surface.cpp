@@ -93,7 +93,7 @@ class ArraySurface {
                            values_.in_words(), sides_.min, sides_.max);
     }
 
-    /// Whether cell `i` along the file's axis has a next one.
+    /// True if cell `i` along the file's axis has a next one.
     bool has_next(int axis, int i) const { return i >= 0 && i + 1 < array_.counts[axis]; }
 
     /// Marks the cells at the surface: of two neighbours, the one that comes first in the model,
@@ -133,7 +133,7 @@ class ArraySurface {
         }
     }
 
-    /// Whether the body goes on where the array ends.
+    /// True if the body goes on where the array ends.
     bool find_cut(int y, int z) {
         const bool is_edge =
             y == 0 || y + 1 == array_.counts.y || z == 0 || z + 1 == array_.counts.z;

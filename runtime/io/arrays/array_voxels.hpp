@@ -31,7 +31,8 @@ struct ArraySummary {
     uint64_t zeros = 0;
     /// The value that best parts the values in two, after Otsu 1979.
     double threshold = 0;
-    /// Where all values are whole numbers and few: how many cells have each but 0.
+    /// Empty unless all values are whole numbers and few: then the number of cells with each value
+    /// but 0.
     std::map<int, uint64_t> labels;
 };
 
@@ -43,10 +44,10 @@ ArraySummary summary_of_array(const CellArray& array);
 /// Error::input as summary_of_array.
 double largest_color(const CellArray& array, double enough);
 
-/// Whether an array's colours are masks: 0 or 1, for none or all of a colour.
+/// True if an array's colours are masks: 0 or 1, for none or all of a colour.
 bool has_color_masks(const CellArray& array);
 
-/// Whether a value is a label: a whole number but 0. Fractions, NaN and infinity are none.
+/// True if a value is a label: a whole number but 0. Fractions, NaN and infinity are none.
 inline bool is_label(double value) {
     return std::isfinite(value) && value != 0 && value == std::floor(value);
 }

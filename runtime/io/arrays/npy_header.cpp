@@ -83,7 +83,7 @@ std::vector<uint64_t> shape_of(std::string_view text, const InputFile& file) {
     return shape;
 }
 
-/// Whether an array of values has the shape of a picture with colours.
+/// True if an array of values has the shape of a picture with colours.
 bool is_like_picture(const std::vector<uint64_t>& shape) {
     return (shape[2] == 3 || shape[2] == 4) && shape[0] > 4 && shape[1] > 4;
 }

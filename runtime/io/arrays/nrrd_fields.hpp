@@ -20,9 +20,9 @@ class NrrdFields {
 
     /// The value of a field; empty where the header has none.
     std::string text(std::string_view name) const;
-    /// Its words, which blanks part; those in quotes or brackets stay together.
+    /// Words of the value, split at blanks; quoted or bracketed ones stay whole.
     std::vector<std::string> words(std::string_view name) const;
-    /// Its numbers; those that are none are NaN.
+    /// Numbers of the value; NaN for words that are no numbers.
     std::vector<double> numbers(std::string_view name) const;
     bool has(std::string_view name) const { return !text(name).empty(); }
     bool has_key(std::string_view name) const { return keys_.contains(name); }

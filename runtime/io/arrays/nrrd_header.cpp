@@ -55,7 +55,7 @@ DataEncoding nrrd_encoding(const std::string& name, const InputFile& file) {
                     quote(name)));
 }
 
-/// Whether the header says that the first axis is that of a colour, as in "RGB-color".
+/// True if the header says that the first axis is that of a colour, as in "RGB-color".
 bool says_colors(const NrrdFields& fields) {
     const std::vector<std::string> kinds = fields.words("kinds");
     return !kinds.empty() && kinds[0].find("color") != std::string::npos;

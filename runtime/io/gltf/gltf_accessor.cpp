@@ -87,7 +87,7 @@ struct Elements {
         }
     }
 
-    /// Whether elements of a type are words that this machine has, too, one after the other.
+    /// True if elements of a type are words that this machine has, too, one after the other.
     bool are_words(uint64_t of_type) const {
         return std::endian::native == std::endian::little && first != nullptr && type == of_type &&
                components == rows && stride == sizeof(uint32_t) * size_t(components);

@@ -24,7 +24,7 @@ struct GltfDecoded {
 void decode_gltf_views(const GltfFile& file, GltfDecoded& decoded);
 void decode_gltf_primitives(const GltfFile& file, GltfDecoded& decoded);
 
-/// Whether a buffer has no bytes because all views of it are compressed.
+/// True if a buffer has no bytes because all views of it are compressed.
 bool is_gltf_fallback(const GltfValue& buffer);
 
 }  // namespace voxelume

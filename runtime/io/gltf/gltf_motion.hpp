@@ -26,7 +26,7 @@ class GltfMotion {
     bool has_tracks(int node) const { return tracks_of(node) != std::array<const GltfTrack*, 3>{}; }
     /// The numbers of a node's ancestors and its own, from the root on.
     std::vector<int> line_of(int node) const;
-    /// Whether the node or an ancestor has tracks.
+    /// True if the node or an ancestor has tracks.
     bool moves(int node) const;
 
     /// The place that the file gives a node with tracks in its parent, and that of any node.

@@ -39,7 +39,7 @@ glm::dvec3 gltf_scale(const GltfValue& node);
 /// The node's map, by these three or by its matrix.
 glm::dmat4 gltf_parent_from_node(const GltfValue& node);
 
-/// Whether some primitive of a mesh with triangles has joints, so that a skin moves it.
+/// True if some primitive of a mesh with triangles has joints, so that a skin moves it.
 bool has_gltf_joints(const GltfValue& mesh);
 
 /// The lights of KHR_lights_punctual.

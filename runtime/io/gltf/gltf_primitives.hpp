@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// Whether a primitive is points or lines.
+/// True if a primitive is points or lines.
 inline bool is_gltf_stroke(const GltfValue& primitive) {
     return primitive.count("mode", 4) < 4;
 }

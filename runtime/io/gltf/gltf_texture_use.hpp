@@ -30,11 +30,11 @@ GltfTextureUse gltf_base_texture(const GltfFile& file, const GltfValue& material
 /// emission. Those of vertices with colours aren't among them: these don't multiply emission.
 std::set<int> gltf_unlit_materials(const GltfFile& file);
 
-/// The texture that is shown as one of the maps, by the numbers of TextureMap. That of the base
-/// colour is the emission's where `is_unlit`.
+/// The texture that a material shows as map number `map` of TextureMap. Unlit materials show the
+/// base colour's texture as emission.
 GltfTextureUse gltf_map(const GltfFile& file, const GltfValue& material, size_t map, bool is_unlit);
 
-/// Whether a metallic-roughness texture is shown of the material, whose factors it multiplies.
+/// True if a metallic-roughness texture is shown of the material, whose factors it multiplies.
 /// Glass and what has a coat are of one roughness.
 bool gltf_has_gloss_map(const GltfValue& material);
 

@@ -33,7 +33,7 @@ uint32_t alpha_of(const GltfValue& material) {
         material.at("pbrMetallicRoughness").numbers("baseColorFactor", 4);
     const double cutoff = std::clamp(material.number("alphaCutoff", 0.5), 0.0, 1.0);
     const double share = factor.empty() ? 1 : std::clamp(factor[3], 0.0, 1.0);
-    // Nothing reaches the cutoff of a smaller factor, which the material's opacity says.
+    // With an opacity below the cutoff no texel reaches the cutoff.
     if (share <= cutoff) return share < cutoff ? kAlphaOpaque : 255;
     return uint32_t(std::clamp(std::ceil(255 * cutoff / share), 0.0, 255.0));
 }
@@ -45,7 +45,7 @@ TextureImage without_map(size_t map) {
 
 constexpr std::array<const char*, kMapCount> kMapNames = {"metallic-roughness", "emissive"};
 
-/// Whether the colours of a primitive's vertices have an alpha.
+/// True if the colours of a primitive's vertices have an alpha.
 bool has_alpha(const GltfValue& root, const GltfValue& primitive) {
     const int colors = primitive.at("attributes").index("COLOR_0", root.size("accessors"));
     return colors >= 0 && root.item("accessors", size_t(colors)).text("type") == "VEC4";

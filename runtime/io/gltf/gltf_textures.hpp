@@ -24,7 +24,7 @@ class GltfTextures {
     /// How the material uses its base colour's texture, or without one its first map; all of its
     /// maps lie on the same places.
     GltfTextureUse of_material(int material) const;
-    /// Whether the alpha of vertices says how much is covered of what has the material. It is a
+    /// True if the alpha of vertices says how much is covered of what has the material. It is a
     /// place on a texture of alpha_ramp.hpp, so that materials with other textures don't show it.
     bool shows_vertex_alpha(int material) const;
     /// Notes that it isn't shown where vertices let light through, though the material wants it.

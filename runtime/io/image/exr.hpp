@@ -75,7 +75,7 @@ struct ExrHeader {
     std::vector<ExrPartHeader> parts;               ///< empty for a file with one
 };
 
-/// Whether main memory has room for the channels of a flat file in addition to what the process
+/// True if main memory has room for the channels of a flat file in addition to what the process
 /// holds.
 bool fits_memory(const ExrHeader& header);
 

@@ -22,7 +22,7 @@ struct ExrChannel {
     exr_pixel_type_t type = EXR_PIXEL_FLOAT;
 };
 
-/// Whether a text belongs to the file format: it says that a part consists of scanlines or of
+/// True if a text belongs to the file format: it says that a part consists of scanlines or of
 /// tiles, or is the name of one of several parts.
 bool is_of_format(std::string_view attribute, bool has_parts);
 

@@ -17,7 +17,7 @@ struct CloseDecoder {
     void operator()(void* decoder) const { tjDestroy(decoder); }
 };
 
-/// Whether a JPEG has the marker of Adobe's programs, which save inks as what they leave white.
+/// True if a JPEG has the marker of Adobe's programs, which save inks as what they leave white.
 bool has_adobe_marker(std::span<const uint8_t> bytes) {
     constexpr uint8_t kApp14 = 0xEE, kStartOfScan = 0xDA;
     constexpr std::string_view kName = "Adobe";

@@ -82,8 +82,8 @@ Resolution read_header(Reader& reader) {
     const std::string_view first = reader.line();
     if (!first.starts_with("#?"))
         reader.refuse("not a Radiance picture: it doesn't begin as they do, with #?RADIANCE");
-    constexpr int kMostLines = 4096;
-    for (int i = 0; i < kMostLines; ++i) {
+    constexpr int kMaxLines = 4096;
+    for (int i = 0; i < kMaxLines; ++i) {
         const std::string_view line = reader.line();
         if (line.empty() || line == "\r") return resolution_of(reader.line(), reader);
         if (line.starts_with("FORMAT=") && line.find("32-bit_rle_rgbe") == line.npos)

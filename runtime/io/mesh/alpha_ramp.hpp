@@ -33,7 +33,7 @@ inline glm::vec2 place_on_ramp(double alpha) {
     return {float((255 * share + 0.5) / 256), 0.5f};
 }
 
-/// Whether vertices of these alphas let light through. Where all are 0, nobody meant them.
+/// True if vertices of these alphas let light through. Where all are 0, nobody meant them.
 inline bool lets_through(const std::vector<float>& alphas) {
     return std::ranges::any_of(alphas, [](float a) { return a < 1; }) &&
            std::ranges::any_of(alphas, [](float a) { return a > 0; });

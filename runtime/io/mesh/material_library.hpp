@@ -37,7 +37,7 @@ struct MtlMaterial {
     bool has_bumps = false;                             ///< map_Bump, norm, disp: not shown
     bool has_specular_maps = false;                     ///< map_Ks, map_Ns: not shown
 
-    /// Whether it is described by roughness and metalness.
+    /// True if it is described by roughness and metalness.
     bool is_physical() const {
         return roughness || metallic || !roughness_map.file.empty() || !metallic_map.file.empty();
     }

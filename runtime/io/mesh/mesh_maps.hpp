@@ -21,7 +21,7 @@ bool has_maps(const MtlMaterial& material);
 /// or, if that is 255 everywhere, by the mean of its channels. It is of the larger one's size.
 Picture covered_by(const Picture& cover, const std::optional<Picture>& colors);
 
-/// Whether the alpha of some pixels is below 255. A picture whose alpha is 0 everywhere counts as
+/// True if the alpha of some pixels is below 255. A picture whose alpha is 0 everywhere counts as
 /// one without: nobody paints what isn't there.
 bool lets_through(const Picture& picture);
 

@@ -36,7 +36,7 @@ class ObjColors {
     void settle(const MeshSource& source, Mesh& mesh) const {
         if (mesh.vertex_colors.empty()) return;
         mesh.vertex_colors.resize(mesh.positions.size(), kNone);
-        if (max_ > 1 && max_ < kLeastBytes && !is_whole_)
+        if (max_ > 1 && max_ < kMinBytes && !is_whole_)
             source.fail_at_line(above_,
                                 fmt::format("the vertex's colour has a part above 1, and none of "
                                             "the file is above {}; colours are from 0 to 1, or to "
@@ -52,8 +52,8 @@ class ObjColors {
 
   private:
     static constexpr float kBytes = 255;
-    static constexpr float kLeastBytes = 16;  ///< the least maximum of fractions that are meant so
-    static constexpr glm::vec3 kNone{-1};     ///< of a vertex without a colour, which is white
+    static constexpr float kMinBytes = 16;  ///< from this maximum on values are bytes
+    static constexpr glm::vec3 kNone{-1};   ///< of a vertex without a colour, which is white
 
     float max_ = 0;
     bool is_whole_ = true;

@@ -194,7 +194,7 @@ void read_ply_texture(const fs::path& name, Mesh& mesh) {
     mesh.triangle_colors = {};
 }
 
-/// Whether a line has nothing but blanks before `at`.
+/// True if a line has nothing but blanks before `at`.
 bool begins_line(const std::string& text, size_t at) {
     while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
     return at == 0 || text[at - 1] == '\n';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// picture -> texture: its levels for distant looks.
+// picture -> texture: its smaller copies, for distant views.
 #pragma once
 
 #include "runtime/geometry/texture.hpp"

@@ -145,8 +145,8 @@ bool take_compression(const InputFile& file, NrrdHeader& header, uint64_t bytes)
         if (stored != bytes) file.refuse("it hasn't as much data as its sizes say; it is damaged");
         return false;
     }
-    constexpr uint64_t kMostDeflated = 1032;
-    if (bytes / kMostDeflated > stored)
+    constexpr uint64_t kMaxDeflated = 1032;
+    if (bytes / kMaxDeflated > stored)
         file.refuse("it is far too small for its sizes; it is damaged");
     return true;
 }

@@ -169,7 +169,7 @@ void add_graph(std::string& bytes, const Parts& parts) {
     }
 }
 
-/// True if there are so many materials that plain voxels would have no colour left.
+/// True if the materials leave no colour for plain voxels.
 bool has_too_many_materials(const CubeList& cubes) {
     std::set<size_t> numbers;
     for (size_t i = 0; i < cubes.material_numbers.size(); ++i)

@@ -215,7 +215,7 @@ bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
     return false;
 }
 
-/// Whether most of the voxels in the middle of a model's list lie in rows. Threads that write all
+/// True if most of the voxels in the middle of a model's list lie in rows. Threads that write all
 /// over the cells take longer together than one takes alone.
 bool VoxCells::lies_in_rows(const VoxModel& model) const {
     std::vector<uint32_t> some(std::min(kBlock / 16, size_t(model.voxels)));

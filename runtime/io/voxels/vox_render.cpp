@@ -119,7 +119,7 @@ void read_lines(const VoxDictionary& values, VoxRender& render) {
 }  // namespace
 
 VoxCamera take_camera(VoxContent& content) {
-    content.take_int();  // its place in the list of cameras
+    content.take_int();  // its index in the list of cameras
     const VoxDictionary values = content.take_dictionary();
     VoxCamera camera;
     camera.kind = camera_named(text_in(values, "_mode"));

@@ -20,7 +20,7 @@ struct VoxCamera {
     VoxCameraKind kind = VoxCameraKind::perspective;
     glm::dvec3 focus{0};                  ///< voxels
     double pitch = 0, yaw = 0, roll = 0;  ///< degrees
-    double radius = 0;   ///< voxels from the focus; 0 for a place in the list that isn't used
+    double radius = 0;   ///< voxels from the focus; 0 for an entry of the list that isn't used
     double frustum = 0;  ///< half of the picture's height: a tangent, or voxels
     std::optional<double> angle;  ///< degrees from the picture's top to its bottom
 };

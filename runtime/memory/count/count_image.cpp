@@ -92,7 +92,7 @@ void count_sky(const Device& device, const Sky& sky, ImageMemory& memory) {
     memory.sky_host_bytes = bytes.host;
 }
 
-/// The image of an adaptive image's first samples. That of the others may be as large.
+/// Counts the image of an adaptive image's first samples; the image of the others may be as large.
 void count_first_samples(const Device& device, const Scene& scene, ImageMemory& memory) {
     const RenderSettings first = first_samples_of(scene).render;
     memory.first_image = allocate_image(device, first.size, first.channels);

@@ -44,7 +44,7 @@ class ObjectCounts {
     /// The bricks that the objects are expected in for which `objects` is true.
     PartBricks changed_bricks(const std::vector<bool>& objects);
 
-    /// Boxes as those of object_boxes.
+    /// The boxes that object_boxes() gives.
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:

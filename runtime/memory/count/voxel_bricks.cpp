@@ -65,7 +65,7 @@ class LeafCounter {
     size_t max_waiting_ = 1 << 16;
 };
 
-/// How many voxels of the world one of a file's is as large as.
+/// The volume of one of the file's voxels in voxels of the world.
 double size_in(const GridFrame& world, const GridFrame& file, const glm::dmat4& world_from_object) {
     const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };
     return volume(file.voxel_edge) / volume(world.voxel_edge) *

@@ -34,7 +34,7 @@ constexpr const char* kLock = "lock";
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// Whether a folder's name is one that make_folder() gives, or gave it in older versions: nothing
+/// True if a folder's name is one that make_folder() gives, or gave it in older versions: nothing
 /// else is ever removed.
 bool is_of_process(const std::string& name) {
     static const std::regex pattern(R"(pocl(-[0-9]+|\..+\.[0-9]+\.[0-9]+)-[A-Za-z0-9]{6})");

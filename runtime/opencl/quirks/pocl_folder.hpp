@@ -35,7 +35,7 @@ class PoclFolder {
     /// The process's folder.
     static PoclFolder& instance();
 
-    /// Whether the process has such a folder, of which PoCL learns by a variable of the
+    /// Sets whether the process has such a folder, of which PoCL learns by a variable of the
     /// environment. It has one unless this forbids it before `instance` is first called.
     static void allow(bool is_allowed);
 
@@ -56,7 +56,7 @@ class PoclFolder {
     /// Writes to `cache` what PoCL compiled since the last call.
     void publish(const DiskCache& cache);
 
-    /// Whether other processes may wait for what this one compiles.
+    /// True if other processes may wait for what this one compiles.
     bool has_turn();
 
     /// Writes it for them, and ends their waiting.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
 
-/// Whether a folder's file of the name is the open one: who had the turn removes its file.
+/// True if a folder's file of the name is the open one: who had the turn removes its file.
 bool is_named(int file, const PrivateFolder& folder, const std::string& name) {
     struct stat open_one = {}, named = {};
     return fstat(file, &open_one) == 0 &&

@@ -74,16 +74,16 @@ uint32_t effects_of(const Material& material);
 
 bool is_physical(const Material& material);
 
-/// Whether paths that the surface scatters show lights: mirrors, glass, physically based ones.
+/// True if paths that the surface scatters show lights: mirrors, glass, physically based ones.
 bool shows_lights(const Material& material);
 
-/// Whether a physically based surface reflects less than its index of refraction says.
+/// True if a physically based surface reflects less than its index of refraction says.
 bool is_weak(const Material& material);
 
 /// The share of a physically based surface that is glass.
 double glass_share(const Material& material);
 
-/// Whether the maps of textures change the material's roughness and metalness: those of physically
+/// True if the maps of textures change the material's roughness and metalness: those of physically
 /// based ones without glass and coat, whose tables are made for one roughness.
 bool takes_gloss_map(const Material& material);
 

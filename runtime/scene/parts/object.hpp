@@ -38,7 +38,7 @@ struct Morph {
     double time = 0;     ///< seconds of the clip, >= 0
     bool operator==(const Morph&) const = default;
 
-    /// Whether what moves the mesh is in its own file.
+    /// True if what moves the mesh is in its own file.
     bool is_of_file() const { return !weights.empty() || skin > 0; }
 };
 

@@ -62,7 +62,7 @@ struct ValueRow {
     Slot slot(Part& part) const {
         return std::visit([&](auto m) -> Slot { return &(part.*m); }, member);
     }
-    /// Whether two parts have the same value.
+    /// True if two parts have the same value.
     bool is_equal(const Part& a, const Part& b) const {
         return std::visit([&](auto m) { return a.*m == b.*m; }, member);
     }

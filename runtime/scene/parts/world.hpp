@@ -79,7 +79,7 @@ struct Medium {
     friend bool operator==(const Medium&, const Medium&) = default;
 };
 
-/// Whether the medium's density differs from voxel to voxel.
+/// True if the medium's density differs from voxel to voxel.
 inline bool has_density(const Medium& medium) {
     return !std::holds_alternative<std::monostate>(medium.density);
 }
@@ -104,13 +104,13 @@ inline Bounds lattice_bounds(const World& world) {
     return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
 }
 
-/// Whether the medium's colour differs from voxel to voxel.
+/// True if the medium's colour differs from voxel to voxel.
 inline bool has_medium_colors(const Medium& medium) {
     const auto* grid = std::get_if<GridDensity>(&medium.density);
     return grid && !grid->transfer.empty();
 }
 
-/// Whether the sky has a sun that shines.
+/// True if the sky has a sun that shines.
 inline bool has_sun(const World& world) {
     return world.sky && world.sky->kind == SkyKind::sun && world.sky->intensity > 0;
 }

@@ -78,7 +78,7 @@ class Changer {
         throw Error(ErrorKind::usage, "{}: {}", change_.origin, sentence);
     }
 
-    /// Whether the scene's own names are the keys of a section.
+    /// True if the scene's own names are the keys of a section.
     static bool is_named(std::string_view section) {
         return section == "materials" || section == "models";
     }

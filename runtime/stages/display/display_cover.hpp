@@ -14,7 +14,7 @@
 
 namespace voxelume {
 
-/// What lines along each axis sum up in each of `voxels` voxels, see cover_lines.
+/// Memory for the sums of lines along each axis, for each of `voxels` voxels; see cover_lines.
 Buffer<uint32_t> allocate_covers(const Device& device, uint32_t voxels);
 
 /// Mean numbers of crossings of lines along the three axes in a voxel, each of them times

@@ -43,7 +43,7 @@ MediumSample shown_by(const Medium& medium, double absorption, double density,
     return sample;
 }
 
-/// Two that share a voxel, each in front of the other for one half.
+/// The mix of two samples that share a voxel: each lies in front of the other in one half.
 MediumSample mixed(const MediumSample& a, const MediumSample& b) {
     return {a.light * (1 - b.opacity / 2) + b.light * (1 - a.opacity / 2),
             a.opacity + b.opacity - a.opacity * b.opacity};

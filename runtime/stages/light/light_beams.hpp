@@ -16,7 +16,7 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
 /// of this many.
 inline constexpr uint32_t kLightsOfMaxBeams = 4;
 
-/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass,
+/// True if beams of lights can tell where shadow rays end: not where these gather what they pass,
 /// nor where most of them begin on surfaces that no sight ray meets.
 inline bool lights_send_beams(const Features& features) {
     return features.shadows && !features.filter && !features.global;
@@ -28,7 +28,7 @@ std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm:
 /// What a grid's beams are kept in.
 Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
 
-/// Whether two grids of one dilated occupancy have the same beams.
+/// True if two grids of one dilated occupancy have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 
 /// The maximum number of beams of one light that saves more time than it costs, for pixels of this

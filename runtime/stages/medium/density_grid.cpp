@@ -87,7 +87,7 @@ class BrickWriter {
                 DensityGrid& grid)
         : lattice_(lattice), constants_(constants), next_slot_(first_slot), grid_(grid) {}
 
-    /// The word of a brick: its slot or its constant density.
+    /// The entry of a brick: its slot or its constant density.
     uint32_t add(size_t number) {
         if (const auto density = lattice_.constant_in(number)) return constants_.word(*density);
         waiting_.resize(waiting_.size() + kBrickCells);

@@ -50,7 +50,7 @@ DensityPlan plan_density(const World& world, bool scatters = false);
 /// The grid's buffers.
 DensityGrid allocate_density(const Device& device, const DensitySize& size);
 
-/// Whether the medium is known to have density 0 at all voxels, without a look at all of them; a
+/// True if the medium is known to have density 0 at all voxels, without a look at all of them; a
 /// file of all zeros is. Throws Error::input as plan_density.
 bool has_no_medium(const World& world);
 

@@ -22,17 +22,18 @@ class TransferCurve {
     /// which both are 0, and exactly the first and the last point's beyond them.
     glm::dvec4 at(double value) const;
 
-    /// Their mean over a box at whose corners are these values, x fastest. The values between are
-    /// taken for linear, and then the mean is exact: it is a sum of box splines of the points.
+    /// The mean of the curve over a box with these values at its corners, x fastest. The values
+    /// between are taken for linear, and then the mean is exact: it is a sum of box splines of the
+    /// points.
     /// A corner outside of the scan is kOutsideScan, and nothing is there.
     glm::dvec4 mean(const std::array<float, 8>& corners) const;
 
-    /// Whether there is nothing at all values from `min` to `max`.
+    /// True if nothing is there at any value from `min` to `max`.
     bool is_zero_in(double min, double max) const;
 
   private:
     size_t points_up_to(double value) const;
-    /// Whether a point lies between two values.
+    /// True if a point lies between two values.
     bool bends_in(double min, double max) const;
 
     std::vector<double> values_;

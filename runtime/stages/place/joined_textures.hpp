@@ -25,7 +25,7 @@ class JoinedTextures {
         return found == places_.end() ? 0 : found->second;
     }
 
-    /// The words of all.
+    /// The number of 32-bit words that all textures take.
     uint64_t words() const { return words_; }
 
   private:

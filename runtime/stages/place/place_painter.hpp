@@ -22,7 +22,7 @@ struct WorldParts {
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }
-    /// Whether bricks of both worlds have the same buffers.
+    /// True if bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
 

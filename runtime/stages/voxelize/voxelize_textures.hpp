@@ -27,7 +27,7 @@ uint32_t texture_level(double texels, double voxels, int levels);
 /// Kernels gather by signed indices.
 inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
 
-/// Whether the alpha of textures counts where rays meet them.
+/// Tells whether the alpha of textures counts where rays meet them.
 enum class TextureAlpha : uint8_t { counts, is_ignored };
 
 /// Textures as they were written: where each begins, from their start, and a hash of all.

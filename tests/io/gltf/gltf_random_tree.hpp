@@ -121,8 +121,8 @@ class RandomTree {
     static constexpr int kNodes = 24;
 
   private:
-    float number(double least, double most) {
-        return float(std::uniform_real_distribution<double>(least, most)(random_));
+    float number(double minimum, double maximum) {
+        return float(std::uniform_real_distribution<double>(minimum, maximum)(random_));
     }
     int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
 

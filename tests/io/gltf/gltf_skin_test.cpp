@@ -36,8 +36,8 @@ struct SkinnedTree {
         write();
     }
 
-    float number(double least, double most) {
-        return float(std::uniform_real_distribution<double>(least, most)(random));
+    float number(double minimum, double maximum) {
+        return float(std::uniform_real_distribution<double>(minimum, maximum)(random));
     }
 
     void add_weights() {

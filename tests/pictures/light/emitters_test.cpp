@@ -171,7 +171,7 @@ TEST(Emitters, HaveTheSameBitsOnAnyNumberOfLanes) {
         RenderReport report;
         const Image image = render(test_device(lanes), scene, report);
         EXPECT_EQ(report.not_finite, 0u);
-        expect_golden("global/lamps", oracle::image_hash(image));
+        expect_golden("global/emissive_objects", oracle::image_hash(image));
     }
 }
 

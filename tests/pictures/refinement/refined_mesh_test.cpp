@@ -150,8 +150,8 @@ void expect_no_farther_from_shape(const RefinedMeshErrors& now, const RefinedMes
                                   const RefinedMeshErrors& facets, double voxel,
                                   const std::string& what) {
     const double slack = before.surface == now.surface ? 0 : kFirstField * voxel;
-    const double most = std::max(before.to_shape, facets.to_shape);
-    EXPECT_LE(now.to_shape, std::max(1.05 * most, slack)) << what;
+    const double maximum = std::max(before.to_shape, facets.to_shape);
+    EXPECT_LE(now.to_shape, std::max(1.05 * maximum, slack)) << what;
     EXPECT_LE(now.normal, 1.05 * std::max(before.normal, facets.normal)) << what;
 }
 

@@ -80,7 +80,7 @@ class SolidTruth {
         return seen_[size_t(y + 1) * (kPairSize.x + 2) + size_t(x + 1)];
     }
 
-    /// Whether a neighbour's surface is turned away from that at (x,y) by more than roundness does.
+    /// True if a neighbour's surface is turned away from that at (x,y) by more than roundness does.
     bool is_at_edge(int x, int y) const {
         for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
             const SeenSolid& beside = at(x + step.x, y + step.y);
@@ -88,7 +88,7 @@ class SolidTruth {
         }
         return false;
     }
-    /// Whether the solid's outline, or that of a part before another, is within a pixel.
+    /// True if the solid's outline, or that of a part before another, is within a pixel.
     bool is_at_outline(int x, int y) const {
         for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i)
@@ -101,15 +101,15 @@ class SolidTruth {
     double distance(const glm::dvec3& point, const glm::dvec3& normal,
                     const glm::dvec2& pixel) const {
         constexpr double kNear = 0.005, kSlack = 0.1;  // metres, pixels
-        double least = INFINITY;
+        double minimum = INFINITY;
         for (const glm::dvec2 step :
              {glm::dvec2(0), {kSlack, 0}, {-kSlack, 0}, {0, kSlack}, {0, -kSlack}}) {
             const glm::dvec3 d = direction_at(observer_, pixel + step);
             const double off = glm::dot(point - observer_.position, d) - trace(d).t;
-            least = std::min(least, std::abs(off * glm::dot(normal, d)));
-            if (least < kNear) break;
+            minimum = std::min(minimum, std::abs(off * glm::dot(normal, d)));
+            if (minimum < kNear) break;
         }
-        return least;
+        return minimum;
     }
 
   private:

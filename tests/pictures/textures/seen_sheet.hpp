@@ -34,11 +34,11 @@ inline oracle::Picture picture_of(int width, int height) {
 }
 
 /// Where a pixel's part looks, by the scene's own words: the way, and for boxes the start.
-struct Sight {
+struct SheetRay {
     glm::dvec3 from, way;
 };
 
-inline Sight sight_of(const Scene& scene, double column, double row) {
+inline SheetRay sheet_ray(const Scene& scene, double column, double row) {
     const Observer& o = scene.observer;
     const glm::dvec2 half = half_extent(o.display);
     const glm::dvec2 part = 2.0 * glm::dvec2(column, row) / glm::dvec2(scene.render.size) - 1.0;
@@ -52,9 +52,9 @@ inline Sight sight_of(const Scene& scene, double column, double row) {
 /// The colour that the sheet shows along a ray; negative beside it, or closer than `margin` to its
 /// border.
 inline glm::dvec3 color_along(const oracle::Picture& picture, const glm::dmat4& object_from_world,
-                              const Sight& sight, double margin = 0) {
-    const glm::dvec3 from(object_from_world * glm::dvec4(sight.from, 1));
-    const glm::dvec3 way(object_from_world * glm::dvec4(sight.way, 0));
+                              const SheetRay& ray, double margin = 0) {
+    const glm::dvec3 from(object_from_world * glm::dvec4(ray.from, 1));
+    const glm::dvec3 way(object_from_world * glm::dvec4(ray.way, 0));
     const glm::dvec3 at = from - way * (from.y / way.y);
     if (from.y / way.y > 0 || std::abs(at.x) > 4 - margin || std::abs(at.z) > 3 - margin)
         return glm::dvec3(-1);
@@ -80,15 +80,15 @@ inline Difference compare(const Image& image, const Scene& scene, const oracle::
             bool is_inside = true;
             for (int i = 0; i < kEach * kEach && is_inside; ++i) {
                 const int part_x = i % kEach, part_y = i / kEach;
-                Sight sight =
-                    sight_of(scene, column + (part_x + 0.5) / kEach, row + (part_y + 0.5) / kEach);
+                SheetRay ray =
+                    sheet_ray(scene, column + (part_x + 0.5) / kEach, row + (part_y + 0.5) / kEach);
                 if (mirror) {
-                    const bool sees_sheet = color_along(picture, inverse, sight).x >= 0;
-                    sight.from.z = 2 * *mirror - sight.from.z;
-                    sight.way.z = -sight.way.z;
+                    const bool sees_sheet = color_along(picture, inverse, ray).x >= 0;
+                    ray.from.z = 2 * *mirror - ray.from.z;
+                    ray.way.z = -ray.way.z;
                     is_inside = !sees_sheet;
                 }
-                const glm::dvec3 color = color_along(picture, inverse, sight, margin);
+                const glm::dvec3 color = color_along(picture, inverse, ray, margin);
                 is_inside = is_inside && color.x >= 0;
                 sum += color / double(kEach * kEach);
             }

@@ -96,7 +96,7 @@ glm::dvec2 place_on_front(const Scene& scene, double column, double row) {
     return {(at.x + 1) / 2, (1 - at.y) / 2};
 }
 
-/// Whether a place is on the front, and not where the edges are rounded.
+/// True if a place is on the front, and not where the edges are rounded.
 bool is_flat(const glm::dvec2& place) {
     return place == glm::clamp(place, 0.15, 0.85);
 }

@@ -4,8 +4,8 @@
 // The length is sampled exactly: the sum of density times length is inverted voxel by voxel,
 // without rejections ("regular tracking"). Where the three colours are scattered differently one of
 // them chooses the length, and all share it by the balance heuristic (Veach & Guibas 1995).
-#ifndef VXL_FLIGHT_H
-#define VXL_FLIGHT_H
+#ifndef VXL_FREE_PATH_H
+#define VXL_FREE_PATH_H
 
 #include "lib/lanes/exact_exp.h"
 #include "lib/medium/phase.h"
@@ -17,13 +17,13 @@ typedef struct {
     lane_float t;
     lane_float depth;  // sum of density times t up to there
     lane_int ends;     // mask: the medium scatters them there
-} Flight;
+} FreePath;
 
-/// Flies through the voxels of the segments up to where density times t sums up to `sought`.
-static inline Flight fly_through_grid(PyramidShape shape, const DensityView* density,
-                                      const Segment* s, lane_float sought, lane_int active) {
+/// Follows the segments through the voxels up to where density times t sums up to `sought`.
+static inline FreePath travel_through_grid(PyramidShape shape, const DensityView* density,
+                                           const Segment* s, lane_float sought, lane_int active) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    Flight f = {s->t_last, zero, (lane_int)0};
+    FreePath f = {s->t_last, zero, (lane_int)0};
     lane_float lost = zero, entered = s->t_first, entered_low = zero;
     const PyramidView p = grid_view(shape);
     Walk walk = walk_along(s);
@@ -46,13 +46,13 @@ static inline Flight fly_through_grid(PyramidShape shape, const DensityView* den
     return f;
 }
 
-/// Flies along the segments of the `active` lanes up to where density times t sums up to `sought`.
-static inline Flight fly(PyramidShape shape, const DensityView* density, const Segment* s,
-                         lane_float sought, lane_int active) {
-    if (VXL_MEDIUM_GRID) return fly_through_grid(shape, density, s, sought, active);
+/// Follows the segments of the `active` lanes up to where density times t sums up to `sought`.
+static inline FreePath travel_until(PyramidShape shape, const DensityView* density,
+                                    const Segment* s, lane_float sought, lane_int active) {
+    if (VXL_MEDIUM_GRID) return travel_through_grid(shape, density, s, sought, active);
     const Segment inside = part_in_world(shape, *s);
     const lane_float length = fmax(inside.t_last - inside.t_first, 0.0f);
-    Flight f;
+    FreePath f;
     f.ends = active & LANE_MASK(sought < length);
     f.depth = LANES_SELECT(f.ends, sought, LANES_SELECT(active, length, (lane_float)0.0f));
     f.t = LANES_SELECT(f.ends, inside.t_first + sought, s->t_last);
