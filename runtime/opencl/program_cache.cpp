@@ -27,7 +27,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint64_t kMaxCacheBytes = 256u << 20;
-constexpr const char* kCacheVersion = "voxelume programs 3";
+constexpr const char* kCacheVersion = "voxelume programs 4";
 
 DiskCache program_store() {
     const std::filesystem::path folder = cache_folder();

@@ -6,11 +6,13 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <future>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -34,8 +36,7 @@ constexpr const char* kLock = "lock";
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// True if a folder's name is one that make_folder() gives, or gave it in older versions: nothing
-/// else is ever removed.
+/// True for a name that make_folder() gives, or gave in older versions: only these are removed.
 bool is_of_process(const std::string& name) {
     static const std::regex pattern(R"(pocl(-[0-9]+|\..+\.[0-9]+\.[0-9]+)-[A-Za-z0-9]{6})");
     return std::regex_match(name, pattern);
@@ -74,8 +75,7 @@ fs::path make_folder(const fs::path& parent) {
     return mkdtemp(name.data()) ? fs::path(name) : fs::path();
 }
 
-/// The files of a program that a later run needs, by path from `root`: its bitcode, its kernels and
-/// the compiler's messages.
+/// The files of a program that later runs need, by path from `root`: bitcode, kernels, messages.
 std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& folder) {
     std::set<fs::path> files;  // sorted, so that equal contents make equal entries
     std::error_code error;
@@ -122,6 +122,13 @@ std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
     return paths;
 }
 
+/// The one folder that is in `after` alone; empty if there is none, or another.
+fs::path only_new(const std::set<fs::path>& before, const std::set<fs::path>& after) {
+    std::vector<fs::path> found;
+    std::ranges::set_difference(after, before, std::back_inserter(found));
+    return found.size() == 1 ? found[0] : fs::path();
+}
+
 }  // namespace
 
 void PoclFolder::allow(bool is_allowed) {
@@ -136,8 +143,7 @@ PoclFolder& PoclFolder::instance() {
 void PoclFolder::remove() {
     const PoclFolder* const folder = existing_folder;
     if (folder == nullptr || folder->folder_.empty()) return;
-    // PoCL may be compiling in another thread, and makes its folders again where they are missing.
-    // A file in their place prevents that.
+    // PoCL may be compiling in another thread, and makes its folders again, unless it finds a file.
     const fs::path moved = folder->folder_.string() + "-ended";
     constexpr int kAttempts = 20;
     std::error_code error;
@@ -154,8 +160,7 @@ void PoclFolder::remove() {
 
 PoclFolder::PoclFolder() : process_(getpid()) {
     if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
-    // PoCL loads compiled kernels from this folder. Some systems forbid programs in the temporary
-    // folder but allow them at home, so the cache folder is tried first.
+    // Some systems forbid programs, such as kernels, in the temporary folder, so it is tried last.
     std::error_code error;
     for (const fs::path& parent : {cache_folder(), fs::temp_directory_path(error)}) {
         if (parent.empty()) continue;
@@ -183,19 +188,17 @@ PoclFolder::~PoclFolder() {
     if (lock_ >= 0) close(lock_);
 }
 
-/// The folder that PoCL used in the build that just ended, unless it is another program's. PoCL
-/// names it by a hash of its own, two letters and the rest, and leaves `last_accessed` in it.
-fs::path PoclFolder::new_program_folder() const {
-    std::set<fs::path> known;
-    for (const auto& [key, files] : programs_) known.insert(files.folder);
+/// The folders of the programs that PoCL has built. It names each by a hash of its own, two letters
+/// and the rest, and leaves `last_accessed` in it, but no bitcode where a build failed.
+std::set<fs::path> PoclFolder::built_folders() const {
+    std::set<fs::path> built;
     std::error_code error;
     for (const fs::directory_entry& letters : fs::directory_iterator(folder_, error))
-        for (const fs::directory_entry& rest : fs::directory_iterator(letters.path(), error)) {
-            fs::path folder = rest.path().lexically_relative(folder_);
-            if (fs::exists(rest.path() / "last_accessed", error) && !known.contains(folder))
-                return folder;
-        }
-    return {};
+        for (const fs::directory_entry& rest : fs::directory_iterator(letters.path(), error))
+            if (fs::exists(rest.path() / "last_accessed", error) &&
+                fs::exists(rest.path() / "program.bc", error))
+                built.insert(rest.path().lexically_relative(folder_));
+    return built;
 }
 
 /// Restores the kernels of the program's parts that were compiled for other programs.
@@ -212,8 +215,7 @@ void PoclFolder::take_kernels(const DiskCache& cache, ProgramFiles& program) con
 bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
                                   const std::function<std::vector<ProgramPart>()>& parts,
                                   const std::function<void()>& build) {
-    // One build at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
-    const std::lock_guard guard(mutex_);
+    const std::lock_guard guard(mutex_);  // one build at a time, to know whose folder is new
     if (folder_.empty() || programs_.contains(key)) {
         build();
         return !folder_.empty();
@@ -226,9 +228,10 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     } catch (const std::exception&) {
         unpacked.clear();  // the disk is full by now: PoCL compiles the missing files
     }
+    const std::set<fs::path> before = built_folders();
     build();
     // An entry for a folder other than PoCL's is useless, and is replaced.
-    const fs::path folder = new_program_folder();
+    const fs::path folder = only_new(before, built_folders());
     if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
         unpacked.clear();
     ProgramFiles program = {folder, unpacked.size(), {}};

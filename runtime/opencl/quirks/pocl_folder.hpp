@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,7 @@ class PoclFolder {
         size_t published = 0;          ///< number of files in our cache's entries
         std::vector<ProgramPart> parts;
     };
-    std::filesystem::path new_program_folder() const;
+    std::set<std::filesystem::path> built_folders() const;
     void take_kernels(const DiskCache& cache, ProgramFiles& program) const;
     void publish_kernels(const DiskCache& cache, ProgramFiles& program) const;
     void publish_changes(const DiskCache& cache);
