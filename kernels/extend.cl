@@ -161,7 +161,7 @@ static inline void send_on(PyramidShape shape, const Surroundings* around, const
     put_rays(queue, &ray, &slots);
 }
 
-/// Whether paths can send rays to light: that of the sky, or of an emitter.
+/// True if paths can send rays to light: that of the sky, or of an emitter.
 static inline bool finds_light(const Emitters* table) {
     const bool knows_light = VXL_SKY_RAYS ? true : table->count > 0u;
     return VXL_DIRECT_ALONE ? false : knows_light;

@@ -132,7 +132,8 @@ bool shows_mixed_mesh(const Scene& scene, const Pyramid& world) {
 /// Adds the features of paths that run into lights with an area. In a medium that scatters them,
 /// physically based surfaces leave lights to rays.
 void add_met_lights(const Scene& scene, const Pyramid& world, Features& features) {
-    if (!features.shadows || !may_meet_lights(scene)) return;
+    // Voxels and textures may let filtered shadows through where materials don't.
+    if (!features.shadows || features.filtered_refraction || !may_meet_lights(scene)) return;
     features.area_shares = features.physical && !features.scattering &&
                            emitter_feature(scene.render) != VXL_EMITTERS_RAYS;
     features.meets_lights = features.area_shares || mirrors_lights(scene, world);

@@ -122,7 +122,7 @@ bool may_meet_lights(const Scene& scene) {
     const RenderSettings& render = scene.render;
     const bool shadows_let_light_through =
         render.filtered_shadows && std::ranges::any_of(scene.objects, [&](const Object& object) {
-            return transmits(scene, object);
+            return object.visible && transmits(scene, object);
         });
     return render.light == LightMode::global && render.bounces > 0 && render.shadows &&
            !shadows_let_light_through && has_area_light(scene);

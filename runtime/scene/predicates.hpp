@@ -64,7 +64,7 @@ bool has_area(const Light& light);
 bool has_area_light(const Scene& scene);
 
 /// True if paths may count lights with an area that they run into. They don't where rays to lights
-/// pass what paths don't pass: everything, without shadows, or transmitting objects.
+/// pass what paths don't pass: everything, without shadows, or objects whose materials transmit.
 bool may_meet_lights(const Scene& scene);
 
 /// True if rays see the voxels inside of the object, too: solid cubes that let light through.

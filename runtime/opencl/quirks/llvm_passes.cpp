@@ -4,8 +4,8 @@
 // that run as fast. No setting leaves the others out, but PoCL calls a function of LLVM's library
 // for them, and the dynamic linker takes a program's function of the same name in its place. So
 // programs of ours export it (the link options of voxelume_runtime); the shared library doesn't,
-// since programs of others may want that function for themselves. Where a driver doesn't call it,
-// or LLVM lacks a pass, everything is as without this file.
+// since programs of others may want that function for themselves. Other callers, such as Oclgrind,
+// get all passes of their own LLVM, and so does PoCL where its LLVM lacks one of the seven.
 #include "runtime/opencl/quirks/llvm_passes.hpp"
 
 #include <dlfcn.h>
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <string_view>
 
 namespace voxelume {
 namespace {
@@ -21,10 +22,10 @@ namespace {
 #define VXL_STANDARD_PASSES \
     "_ZN4llvm18PassManagerBuilder25populateModulePassManagerERNS_6legacy15PassManagerBaseE"
 
-/// In the order in which they run: no functions that nothing calls (such as PoCL's own, which could
-/// not be linked), structures in registers, nothing computed twice, simpler operations, nothing in
-/// loops that stays the same, fewer branches, and equal operations as one of vectors, without which
-/// fog takes a tenth longer.
+/// The passes, in the order in which they run. They remove functions that nothing calls (such as
+/// PoCL's own, which could not be linked), move structures to registers, compute nothing twice,
+/// simplify operations, move what stays the same out of loops, remove branches, and join equal
+/// operations to one of vectors, without which fog takes a tenth longer.
 constexpr std::array kPasses = {"LLVMAddGlobalDCEPass",      "LLVMAddScalarReplAggregatesPass",
                                 "LLVMAddEarlyCSEMemSSAPass", "LLVMAddInstructionCombiningPass",
                                 "LLVMAddLICMPass",           "LLVMAddCFGSimplificationPass",
@@ -38,21 +39,29 @@ Function function_of(void* library, const char* name) {
     return reinterpret_cast<Function>(dlsym(library, name));
 }
 
-/// LLVM as PoCL sees it.
+/// The LLVM of the library that asks for passes. A process may have several: PoCL's, Oclgrind's.
 struct Llvm {
     StandardPasses standard = nullptr;
     std::array<AddPass, kPasses.size()> passes{};
+    bool is_pocls = false;
 
-    /// `caller` is an address inside PoCL.
-    explicit Llvm(const void* caller) {
+    /// `caller` is an address inside that library, and `ours` our own function.
+    Llvm(const void* caller, StandardPasses ours) {
         Dl_info found{};
-        if (dladdr(caller, &found) == 0) return;
-        void* const library = dlopen(found.dli_fname, RTLD_LAZY | RTLD_NOLOAD);  // never closed
-        if (!library) return;
-        standard = function_of<StandardPasses>(library, VXL_STANDARD_PASSES);
-        std::ranges::transform(kPasses, passes.begin(), [&](const char* name) {
-            return function_of<AddPass>(library, name);
-        });
+        void* library = nullptr;
+        if (dladdr(caller, &found) != 0 && found.dli_fname) {
+            library = dlopen(found.dli_fname, RTLD_LAZY | RTLD_NOLOAD);  // never closed
+            const std::string_view path = found.dli_fname;
+            is_pocls = path.substr(path.rfind('/') + 1).starts_with("libpocl");
+        }
+        if (library) {
+            standard = function_of<StandardPasses>(library, VXL_STANDARD_PASSES);
+            std::ranges::transform(kPasses, passes.begin(), [&](const char* name) {
+                return function_of<AddPass>(library, name);
+            });
+        }
+        if (!standard || standard == ours)
+            standard = function_of<StandardPasses>(RTLD_NEXT, VXL_STANDARD_PASSES);
     }
     bool has_all() const {
         return std::ranges::none_of(passes, [](AddPass add) { return add == nullptr; });
@@ -64,9 +73,9 @@ std::atomic<uint64_t>& times_taken() {
     return count;
 }
 
-void add_passes(void* builder, void* manager, const void* caller) {
-    static const Llvm llvm(caller);
-    if (llvm.has_all()) {
+void add_passes(void* builder, void* manager, const void* caller, StandardPasses ours) {
+    const Llvm llvm(caller, ours);  // PoCL asks once for a device
+    if (llvm.is_pocls && llvm.has_all()) {
         for (const AddPass add : llvm.passes) add(manager);
         ++times_taken();
     } else if (llvm.standard) {
@@ -86,6 +95,6 @@ extern "C" {
 [[gnu::visibility("default")]] void voxelume_add_passes(void* builder,
                                                         void* manager) asm(VXL_STANDARD_PASSES);
 void voxelume_add_passes(void* builder, void* manager) {
-    voxelume::add_passes(builder, manager, __builtin_return_address(0));
+    voxelume::add_passes(builder, manager, __builtin_return_address(0), voxelume_add_passes);
 }
 }

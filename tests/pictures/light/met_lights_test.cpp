@@ -221,6 +221,8 @@ TEST(MetLights, AreLeftOutWhereNoPathRunsIntoOne) {
     // They let nothing through where nothing transmits light.
     filtered["objects"].back()["material"] = "mirror";
     EXPECT_GT(meetings_of(filtered), 0u);
+    add_thing(filtered, glass_ball("exact"), "glass", {0, 0.2, 0.1}, {{"visible", false}});
+    EXPECT_GT(meetings_of(filtered), 0u);
 }
 
 TEST(MetLights, HaveTheSameBitsOnAnyNumberOfLanes) {
