@@ -176,7 +176,7 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
     }
 }
 
-// Whether a voxel with the packed attributes `before` that is painted `packed` stays a cube: an
+// True if a voxel with the packed attributes `before` that is painted `packed` stays a cube: an
 // exact object leaves cubes where they are, behind its surface. Voxels with colours have one for
 // all that they hold, so there the cubes make way.
 static inline bool stays_cube(uint before, uint packed) {

@@ -70,7 +70,7 @@ endfunction()
 # exact answers, and what compiling takes. The optimizer changes no bit (matrix_test, determinism_test), and takes half
 # of the time of most tests.
 set(optimized_tests voxelize_open_test
-                    matrix_test kernels_tests verify_tests opencl_tests device_test program_cache_test
+                    matrix_test kernels_tests verify_tests opencl_tests device_test pocl_folder_test program_cache_test
                     cli_cache_test cli_interrupt_test)
 
 set(not_optimized VOXELUME_BUILD_OPTIONS=set:-cl-opt-disable)

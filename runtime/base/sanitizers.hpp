@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether this program was built with a sanitizer, which needs memory and system calls of its own.
+// Tells if this program was built with a sanitizer, which needs memory and system calls of its own.
 #pragma once
 
 namespace voxelume {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether text is UTF-8, and text of unknown encoding, as old files have it -> UTF-8.
+// Tells UTF-8 from other text, and turns text of unknown encoding, as old files have it, into it.
 #pragma once
 
 #include <string>

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/renderer.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 #include "runtime/analysis/culling.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
-#include "runtime/memory/plan.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/light_passes.hpp"
-#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/rendered_channels.hpp"
 #include "runtime/stages/resolve/matte.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
@@ -64,7 +61,7 @@ void note_counts(const Illumination& illumination, const std::optional<BeamStage
     report.world_bytes = bytes_of(world);
 }
 
-/// The pixels of all tiles, with those of the mattes.
+/// The pixels of all tiles, with those of the mattes. Notes how many weren't finite.
 Image finished_image(const Scene& scene, ResolveStage& resolve, MatteStage& mattes,
                      RenderReport& report) {
     Image image = resolve.image();

@@ -9,13 +9,13 @@
 #include <fstream>
 #include <thread>
 
-#include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/base/files/process_tag.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/stages/features.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/own_process.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {
@@ -26,31 +26,24 @@ using ProgramCacheFiles = FileTest;
 namespace fs = std::filesystem;
 
 /// The work of a process of these tests: builds two programs and launches one kernel of each,
-/// `scale` unless VXL_TEST_KERNEL names the other. With VXL_TEST_FAULT a build fails before; their
-/// texts begin with the comment VXL_TEST_NOTE. Returns how many were compiled.
+/// `scale` unless VXL_TEST_KERNEL names the other. Returns how many were compiled.
 int build_and_run() {
     const char* name = std::getenv("VXL_TEST_KERNEL");
     const std::string kernel = name ? name : "scale";
-    const char* comment = std::getenv("VXL_TEST_NOTE");
-    const std::string note = comment ? comment : "";
     const Device device = test_device();
-    if (std::getenv("VXL_TEST_FAULT")) {
-        EXPECT_THROW(Program::from_text(device, "kernel void scale(uint x) { y = x; }\n"), Error);
-    }
     const uint32_t count = 37;
     for (int factor = 3; factor < 5; ++factor) {
         const Program program =
             Program::from_text(device,
-                               note +
-                                   "\n#include \"lib/lanes/work_item.h\"\n"
-                                   "kernel void scale(uint count, global uint* numbers) {\n"
-                                   "    if (work_item() >= count) return;\n"
-                                   "    numbers[work_item()] = FACTOR * work_item();\n"
-                                   "}\n"
-                                   "kernel void shift(uint count, global uint* numbers) {\n"
-                                   "    if (work_item() >= count) return;\n"
-                                   "    numbers[work_item()] = FACTOR + work_item();\n"
-                                   "}\n",
+                               "#include \"lib/lanes/work_item.h\"\n"
+                               "kernel void scale(uint count, global uint* numbers) {\n"
+                               "    if (work_item() >= count) return;\n"
+                               "    numbers[work_item()] = FACTOR * work_item();\n"
+                               "}\n"
+                               "kernel void shift(uint count, global uint* numbers) {\n"
+                               "    if (work_item() >= count) return;\n"
+                               "    numbers[work_item()] = FACTOR + work_item();\n"
+                               "}\n",
                                {{"FACTOR", factor}});
         Buffer<uint32_t> numbers(device, "numbers", count);
         program.kernel(kernel).launch(WorkItem::light, count, count, numbers);
@@ -129,17 +122,12 @@ TEST(ProgramCacheProcess, DISABLED_JoinsAndRuns) {
 /// -1 for a failure.
 std::vector<int> compiled_by_processes(int processes, const std::string& environment,
                                        const char* work = "BuildsAndRuns") {
-    const std::string self = fs::read_symlink("/proc/self/exe").string();
-    const std::string command = fmt::format(
-        "env -u POCL_CACHE_DIR {} \"{}\" --gtest_also_run_disabled_tests "
-        "--gtest_filter=ProgramCacheProcess.DISABLED_{} >/dev/null",
-        environment, self, work);
+    const std::string test = fmt::format("ProgramCacheProcess.DISABLED_{}", work);
     std::vector<int> results(size_t(processes), -1);
     std::vector<std::thread> threads;
     for (int& result : results)
-        threads.emplace_back([&command, &result] {
-            const int status = std::system(command.c_str());
-            const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+        threads.emplace_back([&test, &environment, &result] {
+            const int code = run_own_test(test, environment);
             result = code < 10 ? -1 : code - 10;
         });
     for (std::thread& thread : threads) thread.join();
@@ -155,16 +143,6 @@ TEST_F(ProgramCacheFiles, ASecondRunCompilesNothing) {
     const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
-}
-
-/// Another comment makes another program of equal kernels, which are taken from where they are
-/// kept.
-TEST_F(ProgramCacheFiles, AfterABuildThatFailedKernelsAreKeptAsWhatTheyAre) {
-    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
-    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
-    EXPECT_EQ(compiled_by_processes(1, environment + " VXL_TEST_FAULT=1"), std::vector<int>{2});
-    EXPECT_EQ(compiled_by_processes(1, environment + " VXL_TEST_NOTE=//again"),
-              std::vector<int>{2});
 }
 
 /// The content of an entry must also serve kernels that no earlier run has launched.

@@ -7,6 +7,7 @@
 
 namespace voxelume {
 
+/// Scenes as files, each key in at least one of them.
 inline constexpr const char* kFullSceneTexts[] = {
     R"({"$schema": "x", "voxelume": 1,
             "world": {"voxel_size": [0.1, 0.2, 0.3], "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]},

@@ -6,7 +6,7 @@
 #include "lib/lanes/lanes.h"
 #include "shared/voxel.h"
 
-// Whether voxels may be exact and cubes at once.
+// 1 if voxels may be exact and cubes at once.
 #define VXL_SHARED_CUBES (VXL_CUBES && (VXL_EXACT || VXL_FIELD_LISTS))
 
 /// A mask for each kind. Smooth voxels hold fields: one, or as many as their list says.

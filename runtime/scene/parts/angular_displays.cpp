@@ -109,10 +109,6 @@ std::optional<glm::dvec2> ball_ray_through(const Display& display, const glm::dv
     return -angles / ball_half_extent(display);
 }
 
-glm::dvec2 no_ball_slopes(const Display&) {
-    return glm::dvec2(0);
-}
-
 bool ball_looks_ahead(const Display&) {
     return false;
 }
@@ -137,7 +133,7 @@ constexpr DisplayShapeRow kBall = {.shape = DisplayShape::ball,
                                    .ray_through = ball_ray_through,
                                    .looks_ahead = ball_looks_ahead,
                                    .start_radius = near_surface,
-                                   .clip_slopes = no_ball_slopes,
+                                   .clip_slopes = no_slopes,
                                    .flat_sides = ball_sides};
 
 }  // namespace

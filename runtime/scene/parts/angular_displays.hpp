@@ -9,7 +9,10 @@ namespace voxelume {
 const DisplayShapeRow& sector_row();
 const DisplayShapeRow& ball_row();
 
-/// `near` and `far` of a pyramid or sector, which without a `far` shows the whole world.
+/// The slopes of a shape that a lattice isn't clipped to.
+glm::dvec2 no_slopes(const Display& display);
+
+/// Sets `near` and `far` of a pyramid or sector, which without a `far` shows the whole world.
 void set_depths(const DisplayParameters& p, double world_end, const Refuse& refuse,
                 Display& display);
 

@@ -128,10 +128,6 @@ std::optional<glm::dvec2> box_ray_through(const Display& display, const glm::dve
     return glm::dvec2(-p.x, -p.y) / box_half_extent(display);
 }
 
-glm::dvec2 no_box_slopes(const Display&) {
-    return glm::dvec2(0);
-}
-
 double box_start_radius(const Display& display) {
     const glm::dvec2 half = display.half_size;
     return std::sqrt(display.near * display.near + glm::dot(half, half));
@@ -157,12 +153,16 @@ constexpr DisplayShapeRow kBox = {.shape = DisplayShape::box,
                                   .ray_through = box_ray_through,
                                   .looks_ahead = always_looks_ahead,
                                   .start_radius = box_start_radius,
-                                  .clip_slopes = no_box_slopes,
+                                  .clip_slopes = no_slopes,
                                   .flat_sides = box_sides,
                                   .widen = widen_box,
                                   .make_square = make_box_square};
 
 }  // namespace
+
+glm::dvec2 no_slopes(const Display&) {
+    return glm::dvec2(0);
+}
 
 void set_depths(const DisplayParameters& p, double world_end, const Refuse& refuse,
                 Display& display) {
