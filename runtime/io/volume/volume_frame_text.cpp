@@ -2,6 +2,7 @@
 #include "runtime/io/volume/volume_frame_text.hpp"
 
 #include <array>
+#include <climits>
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
@@ -22,13 +23,26 @@ Json numbers(const Vector& v) {
     return list;
 }
 
+[[noreturn]] void refuse(const char* key) {
+    throw Json::other_error::create(501, key, nullptr);
+}
+
+/// The library would convert any number, and what is too large for its type is undefined then.
+void take_number(const Json& value, const char* key, int& number) {
+    if (!value.is_number_unsigned() || value.get<uint64_t>() > INT_MAX) refuse(key);
+    number = value.get<int>();
+}
+
+void take_number(const Json& value, const char*, double& number) {
+    number = value.get<double>();
+}
+
 template <class Vector>
 Vector take(const Json& json, const char* key) {
     const Json& list = json.at(key);
-    if (list.size() != size_t(Vector::length())) throw Json::other_error::create(501, key, nullptr);
+    if (list.size() != size_t(Vector::length())) refuse(key);
     Vector v;
-    for (int i = 0; i < Vector::length(); ++i)
-        v[i] = list.at(size_t(i)).template get<typename Vector::value_type>();
+    for (int i = 0; i < Vector::length(); ++i) take_number(list.at(size_t(i)), key, v[i]);
     return v;
 }
 
@@ -37,14 +51,14 @@ Enum take_name(const Json& json, const char* key, const std::array<const char*, 
     const auto& name = json.at(key).get_ref<const std::string&>();
     for (size_t i = 0; i < count; ++i)
         if (name == names[i]) return static_cast<Enum>(i);
-    throw Json::other_error::create(501, key, nullptr);
+    refuse(key);
 }
 
 DisplayShape take_shape(const Json& json) {
     const auto& name = json.at("shape").get_ref<const std::string&>();
     for (const DisplayShapeRow& row : display_shapes())
         if (name == row.name) return row.shape;
-    throw Json::other_error::create(501, "shape", nullptr);
+    refuse("shape");
 }
 
 VolumeFrame take_frame(const Json& json) {

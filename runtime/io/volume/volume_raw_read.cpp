@@ -35,7 +35,10 @@ class RawArray {
     RawArray(const InputFile& file, const VolumeJson& entry, const char* name, uint64_t bytes)
         : file_(file), state_(XXH3_createState(), XXH3_freeState) {
         XXH3_64bits_reset(state_.get());
-        position_ = entry.at("offset").get<uint64_t>();
+        const VolumeJson& offset = entry.at("offset");
+        if (!offset.is_number_unsigned())
+            file.refuse(fmt::format("no array begins at {}", offset.dump()));
+        position_ = offset.get<uint64_t>();
         checksum_ = entry.at("xxh3_64").get<std::string>();
         if (entry.at("name") != name || entry.at("bytes") != bytes || position_ > file.size() ||
             bytes > file.size() - position_)

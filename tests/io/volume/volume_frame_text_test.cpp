@@ -28,13 +28,17 @@ TEST(VolumeFrameTextTest, WhatIsNoFrameIsAnInputError) {
         changed.replace(changed.find(old), old.size(), by);
         return error_of([&] { read_frame_text(changed, "a.vdb"); });
     };
-    for (const auto& [old, by] :
-         std::vector<std::pair<std::string, std::string>>{{"\"lattice\"", "\"cube\""},
-                                                          {"\"size\":[7,5,3]", "\"size\":[7,5]"},
-                                                          {"\"size\":[7,5,3]", "\"size\":[7,0,3]"},
-                                                          {"[0.5,0.25,2.0]", "[0.5,-1,2.0]"},
-                                                          {"\"edge\"", "\"edges\""},
-                                                          {"10.5", "1e999"}})
+    for (const auto& [old, by] : std::vector<std::pair<std::string, std::string>>{
+             {"\"lattice\"", "\"cube\""},
+             {"\"size\":[7,5,3]", "\"size\":[7,5]"},
+             {"\"size\":[7,5,3]", "\"size\":[7,0,3]"},
+             {"[0.5,0.25,2.0]", "[0.5,-1,2.0]"},
+             {"\"edge\"", "\"edges\""},
+             {"\"size\":[7,5,3]", "\"size\":[7,5,3e51]"},
+             {"\"size\":[7,5,3]", "\"size\":[7,5,3.5]"},
+             {"\"size\":[7,5,3]", "\"size\":[7,5,-3]"},
+             {"\"size\":[7,5,3]", "\"size\":[7,5,4294967299]"},
+             {"10.5", "1e999"}})
         EXPECT_EQ(refusal(old, by).exit_code(), 4) << by;
     EXPECT_THAT(refusal("\"size\":[7,5,3]", "\"size\":[7,5,99999]").what(),
                 HasSubstr("a.vdb: it has 99999 voxels along an axis"));

@@ -97,6 +97,17 @@ TEST_F(VolumeRawTest, ALieAboutTheSizeTakesNoMemory) {
     EXPECT_THAT(error_of([&] { read_volume(header()); }).what(), HasSubstr("doesn't hold"));
 }
 
+TEST_F(VolumeRawTest, AnArrayBeginsAtAWholeNumber) {
+    write_volume(data(), lattice_volume());
+    for (const double offset : {0.5, -1.0, 1e300}) {
+        Json json = read_header();
+        json["arrays"][1]["offset"] = offset;
+        put_bytes(header(), json.dump());
+        EXPECT_THAT(error_of([&] { read_volume(header()); }).what(), HasSubstr("no array begins"));
+        write_volume(data(), lattice_volume());
+    }
+}
+
 TEST_F(VolumeRawTest, AHeaderLeadsToNoOtherFolder) {
     write_volume(data(), lattice_volume());
     Json json = read_header();
