@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // samples -> mattes: which objects, or materials, cover most of each pixel, and by how much.
 //
+// With VXL_EARLIER the ranks of samples before are there already, with the sums of what they cover,
+// and those behind the ones that are named. Of more objects in a pixel a new one takes the place
+// and the share of the last: none that covers more than a 24th of the pixel is lost.
+//
 // Source: Friedman, Jones: "Fully Automatic ID Mattes with Support for Motion Blur and
-// Transparency", 2015, whose ranks are Cryptomatte's.
+// Transparency", 2015, whose ranks are Cryptomatte's. Metwally, Agrawal, El Abbadi: "Efficient
+// Computation of Frequent and Top-k Elements in Data Streams", 2005.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/matte.h"
@@ -41,13 +46,15 @@ static inline bool was_met_before(const PixelSamples* s, uint sample, uint numbe
 }
 
 /// The numbers that cover most of a pixel, and their shares; ties go to the lower number.
+#define VXL_RANKS (VXL_EARLIER ? VXL_MATTE_HELD : VXL_MATTE_RANKS)
+
 typedef struct {
-    uint number[VXL_MATTE_RANKS];
-    float share[VXL_MATTE_RANKS];
+    uint number[VXL_RANKS];
+    float share[VXL_RANKS];
 } Ranks;
 
 static inline void insert_rank(Ranks* ranks, uint number, float share) {
-    for (uint i = 0; i < VXL_MATTE_RANKS; ++i) {
+    for (uint i = 0; i < VXL_RANKS; ++i) {
         const bool is_before =
             share > ranks->share[i] ||
             (share == ranks->share[i] && (ranks->number[i] == 0u || number < ranks->number[i]));
@@ -58,6 +65,21 @@ static inline void insert_rank(Ranks* ranks, uint number, float share) {
         if (other == 0u) return;
         number = other, share = its_share;
     }
+}
+
+/// Takes a number out of the ranks, or the last one if there is no place for it. Returns what share
+/// that leaves to it.
+static inline float take_rank(Ranks* ranks, uint number) {
+    float share = 0.0f;
+    for (uint i = 0; i < VXL_RANKS; ++i) {
+        const bool is_place = ranks->number[i] == number || i + 1u == VXL_RANKS;
+        if (share == 0.0f && is_place) share = ranks->share[i];
+        if (share == 0.0f) continue;
+        const bool is_end = i + 1u == VXL_RANKS;
+        ranks->number[i] = is_end ? 0u : ranks->number[i + 1u];
+        ranks->share[i] = is_end ? 0.0f : ranks->share[i + 1u];
+    }
+    return share;
 }
 
 /// One work-item ranks what one pixel shows. Rank r of a pixel is `pixels` * r behind its first, in
@@ -74,20 +96,27 @@ kernel void rank_matte(Camera camera, VXL_BATCH_PARAMETERS, uint first_tile, uin
     const RayBatch batch = VXL_BATCH;
     const uint samples = (uint)camera.samples;
     const PixelSamples s = {&batch, item / 16u * samples * 16u + item % 16u, {shift, mask}};
+    const size_t pixels = (size_t)camera.width * (size_t)camera.height;
+    const size_t place = row * (size_t)camera.width + column;
     Ranks ranks;
-    for (uint i = 0; i < VXL_MATTE_RANKS; ++i) ranks.number[i] = 0u, ranks.share[i] = 0.0f;
+    for (uint i = 0; i < VXL_RANKS; ++i) {
+        ranks.number[i] = VXL_EARLIER ? numbers[i * pixels + place] : 0u;
+        ranks.share[i] = VXL_EARLIER ? shares[i * pixels + place] : 0.0f;
+    }
+    const float weight = VXL_EARLIER ? 1.0f : camera.sample_weight;
     for (uint sample = 0; sample < samples; ++sample) {
         const uint number = sample_number(&s, sample);
         if (number == 0u || was_met_before(&s, sample, number)) continue;
         float share = 0.0f;
         for (uint other = sample; other < samples; ++other)
             if (sample_number(&s, other) == number) share += sample_coverage(&s, other);
-        if (share > 0.0f) insert_rank(&ranks, number, share * camera.sample_weight);
+        if (share == 0.0f) continue;
+        if (VXL_EARLIER) share += take_rank(&ranks, number);
+        insert_rank(&ranks, number, share * weight);
     }
-    const size_t pixels = (size_t)camera.width * (size_t)camera.height;
-    const size_t place = row * (size_t)camera.width + column;
-    for (uint i = 0; i < VXL_MATTE_RANKS; ++i) {
+    for (uint i = 0; i < VXL_RANKS; ++i) {
         numbers[i * pixels + place] = ranks.number[i];
-        shares[i * pixels + place] = ranks.share[i];
+        shares[i * pixels + place] =
+            VXL_EARLIER ? ranks.share[i] * camera.sample_weight : ranks.share[i];
     }
 }

@@ -3,9 +3,10 @@
 //
 // The build constants VXL_SHOWS_COLOR, VXL_SHOWS_VARIANCE, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE,
 // VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, in addition to the
-// features', are the channels asked for. With VXL_EARLIER the image holds what the samples before
-// the camera's first one, whose number is a power of two, came to: their sums are its values times
-// their number, without rounding, and go on as if all samples had been added up in one run.
+// features', are the channels asked for. With VXL_EARLIER the image holds what samples before came
+// to: their sums, or, of an image that was finished, means of a number of them that is a power of
+// two, which make sums without rounding. They go on as if all had been added up in one run. Where
+// others follow, the image becomes the sums, and variance the sum of the squares of deviations.
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
@@ -95,17 +96,17 @@ typedef struct {
     lane_uint shown;  // the first sample's ray that met something, VXL_NO_VOXEL for none
 } Samples;
 
-/// The sums of the samples before the camera's first one.
+/// The sums of the samples that the image holds.
 static inline Samples earlier_samples(const Camera* camera, const Pixels* at, size_t pixels,
                                       global const float* image) {
     const lane_float zero = (lane_float)0.0f;
     Samples s = {{zero, zero, zero}, zero, (lane_uint)VXL_NO_VOXEL};
     if (!VXL_EARLIER) return s;
     if (!VXL_SHOWS_COLOR) return s;
-    const float count = (float)camera->first_sample;
+    const float weight = camera->earlier_weight;
     for (uint channel = 0; channel < 3; ++channel)
-        s.color[channel] = load_pixels(at, image + channel * pixels) * count;
-    s.covered = load_pixels(at, image + 3 * pixels) * count;
+        s.color[channel] = load_pixels(at, image + channel * pixels) * weight;
+    s.covered = load_pixels(at, image + 3 * pixels) * weight;
     return s;
 }
 
@@ -127,7 +128,7 @@ static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint sa
     return s;
 }
 
-/// Stores the mean of a channel's samples. Values that are not finite are counted and stored as 0.
+/// Stores a channel of the image. Values that are not finite are counted and stored as 0.
 static inline void store_color(lane_float value, const Pixels* at, global float* restrict plane,
                                global uint* restrict not_finite) {
     const lane_int finite = LANE_MASK(fabs(value) < INFINITY);
@@ -138,25 +139,60 @@ static inline void store_color(lane_float value, const Pixels* at, global float*
     store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), at, plane);
 }
 
-/// Stores the variance of the `mean` of a channel's samples, as if they were independent: the mean
-/// square of their deviations over the number of samples, less one. It is infinite for one sample,
-/// of which nothing is known, and finite for others.
-static inline void store_variance(const RayBatch* batch, uint first_ray, uint samples, uint channel,
-                                  lane_float mean, const Pixels* at, size_t pixels,
-                                  global float* restrict image) {
-    lane_float variance = (lane_float)INFINITY;
-    if (samples > 1) {
-        lane_float squares = (lane_float)0.0f;
-        for (uint sample = 0; sample < samples; ++sample) {
-            const uint ray = first_ray + sample * 16u;
-            const lane_float off =
-                LANES_LOAD(batch->radiance, channel * batch->stride + ray) - mean;
-            squares = fma(off, off, squares);
-        }
-        const float pairs = (float)samples * (float)(samples - 1u);
-        variance = fmin(exact_divide(squares, (lane_float)pairs), (lane_float)FLT_MAX);
+/// The sum of the squares of the deviations of the samples of a channel from their `mean`.
+static inline lane_float squares_from(const RayBatch* batch, uint first_ray, uint samples,
+                                      uint channel, lane_float mean) {
+    lane_float squares = (lane_float)0.0f;
+    for (uint sample = 0; sample < samples; ++sample) {
+        const uint ray = first_ray + sample * 16u;
+        const lane_float off = LANES_LOAD(batch->radiance, channel * batch->stride + ray) - mean;
+        squares = fma(off, off, squares);
     }
-    store_pixels(variance, at, image + (VXL_PLANE_VARIANCE + channel) * pixels);
+    return squares;
+}
+
+/// The sum of the squares of the deviations of all samples, whose sum is `sum`, from their mean.
+/// `before` is that of the samples before, and `own` the sum of the others.
+///
+/// Source: Chan, Golub, LeVeque: "Updating Formulae and a Pairwise Algorithm for Computing Sample
+/// Variances", 1979.
+static inline lane_float joined_squares(const Camera* camera, lane_float before, lane_float sum,
+                                        lane_float own, lane_float own_squares) {
+    const float m = (float)camera->earlier_samples, n = (float)camera->samples;
+    if (m == 0.0f) return own_squares;
+    const lane_float off =
+        exact_divide(own, (lane_float)n) - exact_divide(sum - own, (lane_float)m);
+    const lane_float weight = exact_divide((lane_float)(m * n), (lane_float)(m + n));
+    return before + fma(off * off, weight, own_squares);
+}
+
+/// Stores the variance of the mean of a channel's samples, as if they were independent: the mean
+/// square of their deviations over the number of samples, less one. It is infinite for one sample,
+/// of which nothing is known, and finite for others. `sum` is that of all samples.
+static inline void store_variance(const Camera* camera, const RayBatch* batch, uint first_ray,
+                                  uint channel, lane_float sum, const Pixels* at, size_t pixels,
+                                  global float* restrict image) {
+    global float* const plane = image + (VXL_PLANE_VARIANCE + channel) * pixels;
+    const uint samples = (uint)camera->samples;
+    uint all = samples;
+    lane_float value;
+    if (VXL_EARLIER) {
+        lane_float own = (lane_float)0.0f;
+        for (uint sample = 0; sample < samples; ++sample)
+            own += LANES_LOAD(batch->radiance, channel * batch->stride + first_ray + sample * 16u);
+        const lane_float mean = exact_divide(own, (lane_float)(float)samples);
+        value = joined_squares(camera, load_pixels(at, plane), sum, own,
+                               squares_from(batch, first_ray, samples, channel, mean));
+        all += (uint)camera->earlier_samples;
+    } else {
+        value = squares_from(batch, first_ray, samples, channel, sum * camera->sample_weight);
+    }
+    if (camera->is_last) {
+        const float pairs = (float)all * (float)(all - 1u);
+        value = all > 1u ? fmin(exact_divide(value, (lane_float)pairs), (lane_float)FLT_MAX)
+                         : (lane_float)INFINITY;
+    }
+    store_pixels(value, at, plane);
 }
 
 /// The distances of points in metres along their sight rays. `depth` is that along Z_E, and
@@ -233,10 +269,9 @@ kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origi
                                   earlier_samples(&camera, &at, pixels, image));
     const float sample_weight = camera.sample_weight;
     for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel) {
-        const lane_float mean = s.color[channel] * sample_weight;
-        store_color(mean, &at, image + channel * pixels, not_finite);
+        store_color(s.color[channel] * sample_weight, &at, image + channel * pixels, not_finite);
         if (VXL_SHOWS_VARIANCE)
-            store_variance(&batch, first_ray, (uint)camera.samples, channel, mean, &at, pixels,
+            store_variance(&camera, &batch, first_ray, channel, s.color[channel], &at, pixels,
                            image);
     }
     if (VXL_SHOWS_COLOR) store_pixels(s.covered * sample_weight, &at, image + 3 * pixels);

@@ -6,4 +6,7 @@
 // Those that cover most of the pixel, two in each of Cryptomatte's layers of channels.
 #define VXL_MATTE_RANKS 6
 
+// Those whose parts of a pixel are known while samples are added to others.
+#define VXL_MATTE_HELD 24
+
 #endif

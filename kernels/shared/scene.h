@@ -50,7 +50,8 @@ typedef struct Camera {
     int width, height;  // pixels of the image
     int samples;        // per pixel
     int shape;
-    float sample_weight;  // 1 / samples, with those that are added to an earlier image's
+    float sample_weight;  // by which the sum of the samples becomes the image: 1 / all of them, or
+                          // 1 where others follow
     float lead;  // metres along Z_E from the observer to `origin`, where a pyramid's rays are
                  // spread out already; near_plane and far_plane count from there
     int first_column, first_row;    // of the image in its frame, which it may be a part of
@@ -59,9 +60,12 @@ typedef struct Camera {
     float lens_slope;               // lens_radius over the depth of what is sharp
     int first_sample;               // of the samples' sequence
     int blades;                     // VXL_BLADES: corners of the lens, at least 3
-    int unused[2];
+    int earlier_samples;            // that the image holds before these
+    float earlier_weight;           // by which what it holds becomes their sum
+    int is_last;                    // 1: no more samples follow
+    int unused[3];
 } Camera;
-VXL_SIZE_IS(Camera, 160);
+VXL_SIZE_IS(Camera, 176);
 
 // In a list of pixels: none.
 #define VXL_NO_PIXEL 0xFFFFFFFFu

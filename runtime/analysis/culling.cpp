@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
 
 #include "runtime/analysis/cube_steps.hpp"
 #include "runtime/analysis/culling_hull.hpp"
@@ -15,6 +17,7 @@
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -195,6 +198,10 @@ void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<
             potentially_visible[i] || (instances && is_shown_instance(scene, objects[i]));
 }
 
+/// Where moments are more than these, all objects count as potentially visible: looking at each
+/// would take as long as rendering.
+constexpr size_t kMaxSeenMoments = 1 << 16;
+
 /// The objects of models that change. Their files may be many, and aren't read before their frames.
 std::vector<bool> objects_of_moving_models(const Scene& scene) {
     std::vector<bool> found(scene.objects.size());
@@ -209,15 +216,25 @@ std::vector<bool> objects_of_moving_models(const Scene& scene) {
 }  // namespace
 
 void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetStore& meshes) {
-    const std::vector<bool> unread = frames.size() > 1 ? objects_of_moving_models(scene)
-                                                       : std::vector<bool>(scene.objects.size());
+    const bool are_many = frames.size() > 1 || has_moments(scene);
+    const std::vector<bool> unread =
+        are_many ? objects_of_moving_models(scene) : std::vector<bool>(scene.objects.size());
     std::vector<bool> potentially_visible = unread;
-    for (const int frame : frames) {
-        if (std::ranges::find(potentially_visible, false) == potentially_visible.end()) return;
-        in_frame(scene, frame, [&] {
-            add_potentially_visible(scene_at(scene, frame), meshes, unread, potentially_visible);
-        });
-    }
+    size_t moments = 0;
+    for (const int frame : frames) moments += moments_of(scene, frame).size();
+    if (has_moments(scene) && moments > kMaxSeenMoments)
+        potentially_visible.assign(scene.objects.size(), true);
+    std::optional<Scene> before;
+    for (const int frame : frames)
+        for (const double moment : moments_of(scene, frame)) {
+            if (std::ranges::find(potentially_visible, false) == potentially_visible.end()) return;
+            in_frame(scene, moment, [&] {
+                Scene now = scene_at(scene, moment);
+                if (before == now) return;
+                add_potentially_visible(now, meshes, unread, potentially_visible);
+                before = std::move(now);
+            });
+        }
     for (size_t i = 0; i < potentially_visible.size(); ++i)
         scene.objects[i].potentially_visible = potentially_visible[i];
 }

@@ -10,9 +10,10 @@
 
 namespace voxelume {
 
-/// Sets Object::potentially_visible of all objects for a run of these `frames`. A culled object
-/// isn't voxelized. No bit of a picture or volume that the observer sees in these frames depends on
-/// culling.
+/// Sets Object::potentially_visible of all objects for a run of these `frames`, with the moments
+/// that their samples show: where these are more than 65,536, all objects count as potentially
+/// visible. A culled object isn't voxelized. No bit of a picture or volume that the observer sees
+/// in these frames depends on culling.
 ///
 /// In a frame where nothing potentially visible reflects or lets light through, rays stay within
 /// the convex hull of what the display sees of the world and, with shadows, of the lights. An

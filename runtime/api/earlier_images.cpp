@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "runtime/api/frame_hash.hpp"
+#include "runtime/api/render.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/stamp.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/scene/first_samples.hpp"
+#include "runtime/scene/rendered_channels.hpp"
 
 namespace voxelume::api {
 namespace {
@@ -39,8 +41,7 @@ void check_channels(const RenderSettings& render, const v1::Channels& channels) 
                     "samples are added by noise or time where the image has channels RGBA, samples "
                     "and noise, which tell what it lacks: ask for them, too");
     }
-    if (channels.position && !channels.depth && !channels.distance && !channels.normal &&
-        !channels.object && !channels.material)
+    if (shows_points_alone(inside(channels)))
         throw Error(ErrorKind::usage,
                     "samples are added to channels P only where Z, distance, N, objectId or "
                     "materialId tells which pixels show something: ask for one of them, too");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/api/frame_hash.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <vector>
@@ -19,6 +20,8 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/voxel_file_table.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene/shutter.hpp"
 #include "runtime/voxelume/render.hpp"
 
 namespace voxelume::api {
@@ -46,6 +49,15 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
         for (const GridDensity& other : grid->others) hashes.add_voxels(other.file);
     }
     if (scene.world.sky && !scene.world.sky->file.empty()) hashes.add_voxels(scene.world.sky->file);
+}
+
+/// True if some file may be another one at other moments.
+bool files_change(const Scene& scene) {
+    return any_part_changes(scene, [](const MovingPart& part) {
+        return !part.sequences.empty() || std::ranges::any_of(part.tracks, [](const Track& track) {
+            return !track.files.empty();
+        });
+    });
 }
 
 /// The hash of a mesh's file and of the libraries, textures and buffers that it leads to; empty for
@@ -122,7 +134,11 @@ std::string FrameHashes::hash(int frame, bool is_of_volume) {
         if (is_new) entry->second = hash_of_voxels(*model.given);
         key.add_text(entry->second);
     };
-    add_files(scene_at(scene, frame), {adder(read_mesh_hash), adder(read_voxels_hash), add_given});
+    const FileHashes hashes{adder(read_mesh_hash), adder(read_voxels_hash), add_given};
+    add_files(scene_at(scene, frame), hashes);
+    if (!is_of_volume && files_change(scene))
+        for (const double moment : moments_of(scene, frame))
+            add_files(scene_at(scene, moment), hashes);
     const std::array<std::string_view, 1> parts = {key.bytes()};
     return cache_key(parts);
 }

@@ -59,6 +59,8 @@ PngOptions png_options(const v1::Image::Implementation& image, const api::Attrib
     PngOptions png;
     if (const auto stamp = attributes.find(api::kStamp); stamp != attributes.end())
         png.stamp = stamp->second;
+    png.pixel_aspect = attributes.contains(kPixelAspect) ? pixel_aspect_in(attributes)
+                                                         : pixel_aspect_in(image.image->attributes);
     png.exposure = api::exposure_inside(options.exposure);
     png.view_transform = transform_of(options.view_transform);
     if (options.png_bits != 8 && options.png_bits != 16)

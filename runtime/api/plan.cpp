@@ -21,6 +21,7 @@
 #include "runtime/memory/image_bands.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -72,7 +73,7 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
     result.frame = planned.frame;
     result.chosen_frames = planned.is_of_all ? 0 : planned.plans;
     result.min_bytes = plan.min_bytes;
-    result.max_bytes = plan.run_bytes(frames, double(device.memory));
+    result.max_bytes = plan.run_bytes(worlds_of(scene, frames), double(device.memory));
     result.device_bytes = double(device.memory);
     result.verdict = result.refusal                            ? v1::Verdict::does_not_fit
                      : result.max_bytes <= result.device_bytes ? v1::Verdict::fits

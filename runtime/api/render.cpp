@@ -105,10 +105,11 @@ class Run {
     v1::Statistics render() {
         const auto start = Clock::now();
         check_names(job_);
+        if (wanted_.channels.motion) check_motion(scene_);
         for (const Device& device : devices_) device.time_kernels(options_.time_kernels);
         const CompilerWatch watch(devices_, api::callback(options_.compiling));
-        const BatchOutcome outcome = render_frames(
-            devices_, scene_, batch_options(), [this](const FrameResult& result) { take(result); });
+        const FrameOutput output = [this](const FrameResult& result) { take(result); };
+        const BatchOutcome outcome = render_frames(devices_, scene_, batch_options(), output);
         if (options_.time_kernels)
             for (const Device& device : devices_) device.finish();
         if (outcome.is_cancelled)
@@ -167,6 +168,8 @@ class Run {
         if (!noise && measures_noise(scene_)) texts["noise"] = api::noise_text({});
         if (noise && noise->tiles > 0) texts["noise"] = api::noise_text(*noise);
         texts.merge(api::sampling_texts(scene_));
+        if (scene_.render.pixel_aspect != 1)
+            texts[kPixelAspect] = fmt::format("{}", scene_.render.pixel_aspect);
         if (scene_.render.transparent) texts[api::kTransparent] = "true";
         texts[api::kFrameHash] = hashes_.of(frame);
         return texts;

@@ -108,6 +108,7 @@ v1::FrameStatistics api::statistics_of(const FrameReport& frame) {
     result.instances_moved = report.world.instances.moved;
     result.instance_models_indexed = report.world.instances.indexed;
     result.keeps_nothing = report.world.lacks_room;
+    result.moments = std::max(report.moments, 1u);
     result.seconds = seconds_of(report);
     return result;
 }

@@ -28,6 +28,7 @@ Json json_of(const FrameStatistics& frame) {
             {"painted_bricks", frame.painted_bricks},
             {"world_from_cache", frame.world_from_cache},
             {"instances_moved", frame.instances_moved},
+            {"moments", frame.moments},
             {"instance_models_indexed", frame.instance_models_indexed},
             {"seconds", seconds_of(frame.seconds)}};
 }

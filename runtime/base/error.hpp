@@ -75,7 +75,8 @@ auto with_limits_of(const std::string& subject, const Action& action,
     try {
         return action();
     } catch (const Error& error) {
-        if (error.kind() != ErrorKind::limit) throw;
+        const bool has_subject = place.empty() && !error.place().empty();
+        if (error.kind() != ErrorKind::limit || has_subject) throw;
         throw Error(place.empty() ? error.place() : place, ErrorKind::limit,
                     fmt::format("{}: {}", subject, error.what()));
     }

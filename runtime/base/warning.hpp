@@ -33,6 +33,7 @@ enum class WarningKind : uint8_t {
     ignored_scattering,   ///< the medium's, in local light
     rounded_edges,        ///< of a smooth solid whose formula is too deep
     local_volume,         ///< a volumetric image in local light, where global light is asked for
+    one_moment,           ///< of an open shutter
 };
 
 /// A finished sentence in two parts: where, and what is wrong and what to do. `text` begins with a

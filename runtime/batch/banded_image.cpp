@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/batch/banded_image.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
 namespace voxelume {
 
 void BandedImage::render(const Device& device, const Scene& scene, const BuiltWorld& world,
-                         RenderReport& report) {
+                         RenderReport& report, const Moments* moments) {
     Renderer renderer(device, false);
+    renderer.set_moments(moments);
     Scene whole = scene;
     whole.render.size = whole_.size;
     whole.render.crop = whole_.crop;
@@ -21,6 +23,7 @@ void BandedImage::render(const Device& device, const Scene& scene, const BuiltWo
             renderer.new_image(band_of(whole, bands_, *band), world, of_band, progress));
         add_counts(of_band, report);
         report.image_seconds += of_band.image_seconds;
+        report.moments = std::max(report.moments, of_band.moments);
         report.voxels = of_band.voxels;
         report.world_bytes = of_band.world_bytes;
         put(*band, std::move(image));

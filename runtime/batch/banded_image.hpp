@@ -41,9 +41,9 @@ class BandedImage {
           done_(size_t(bands.count)) {}
 
     /// Renders bands until none is left, and hands each on when those above it were. `scene` may be
-    /// that of any band. Adds what they took to `report`.
+    /// that of any band, whose samples may show `moments`. Adds what they took to `report`.
     void render(const Device& device, const Scene& scene, const BuiltWorld& world,
-                RenderReport& report);
+                RenderReport& report, const Moments* moments = nullptr);
 
     /// No more bands are wanted: devices end with the one that they have.
     void close();

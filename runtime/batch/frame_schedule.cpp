@@ -31,14 +31,36 @@ struct Run {
     std::mutex scenes = {};                      ///< held while a scene is made
     std::optional<size_t> one_by_one_from = {};  ///< as in the outcome
 
-    bool retains() const { return mode != Mode::one_each && count > 1; }
+    bool retains() const { return (mode != Mode::one_each && count > 1) || steps.moment; }
 };
+
+/// Adds the time and work of building another world, and its warnings, to `sum`.
+void add_build(const WorldReport& report, WorldReport& sum) {
+    sum.load_seconds += report.load_seconds;
+    sum.voxelize_seconds += report.voxelize_seconds;
+    sum.place_seconds += report.place_seconds;
+    sum.index_seconds += report.index_seconds;
+    sum.keep_seconds += report.keep_seconds;
+    sum.meshes_read += report.meshes_read;
+    sum.voxelized += report.voxelized;
+    sum.from_cache += report.from_cache;
+    sum.painted_bricks += report.painted_bricks;
+    sum.change = std::max(sum.change, report.change);
+    if (report.change == WorldChange::built) sum.is_from_cache &= report.is_from_cache;
+    sum.lacks_room |= report.lacks_room;
+    sum.instances.indexed += report.instances.indexed;
+    sum.instances.moved += report.instances.moved;
+    sum.instances.seconds += report.instances.seconds;
+    for (const Warning& warning : report.warnings) add_once(warning, sum.warnings);
+}
 
 /// A frame whose world is built.
 struct BuiltFrame {
     Scene scene;
+    Scene shown = {};  ///< with moments: the scene whose world it has
     BuiltWorld world;
     WorldReport report;
+    bool has_moments = false;
 };
 
 /// Takes frames from the queue for one device, and gives them back rendered.
@@ -76,10 +98,10 @@ class Lane {
         auto next = std::async(std::launch::deferred, build_next);
         for (size_t frame = 0; frame < run_.count; ++frame) {
             RenderedFrame rendered = attempt(frame, [&] {
-                const std::optional<BuiltFrame> built = next.get();
+                std::optional<BuiltFrame> built = next.get();
                 if (!built) return OutputStep();  // the queue is closed
                 next = std::async(std::launch::async, build_next);
-                return render(frame, *built);
+                return render(frame, std::move(*built));
             });
             if (run_.queue.is_closed()) return;
             if (rendered.is_limit && run_.steps.forget) {
@@ -134,18 +156,62 @@ class Lane {
         {
             const std::lock_guard lock(run_.scenes);
             built.scene = steps.scene(frame);
+            built.has_moments = steps.has_moments && steps.has_moments(frame);
         }
-        built.world = builder_->build(built.scene, built.report,
-                                      steps.retained ? steps.retained(frame) : std::vector<bool>());
+        if (built.has_moments) {
+            built.world = moment_world(built.scene, built.report);
+            built.shown = built.scene;
+        } else {
+            built.world =
+                builder_->build(built.scene, built.report,
+                                steps.retained ? steps.retained(frame) : std::vector<bool>());
+        }
         built.report.lacks_room |= lacks_room_;
         return built;
     }
 
-    OutputStep render(size_t frame, const BuiltFrame& built) {
-        OutputStep output = run_.steps.render(
-            {frame, index_, built.scene, built.world, built.report, run_.queue.closed()});
+    OutputStep render(size_t frame, BuiltFrame built) {
+        const Moments moments = moments_of(frame, built);
+        OutputStep output =
+            run_.steps.render({frame, index_, built.scene, built.world, built.report,
+                               built.has_moments ? &moments : nullptr, run_.queue.closed()});
         has_any_ = true;
         return output;
+    }
+
+    /// The moments of a frame, whose worlds replace each other.
+    Moments moments_of(size_t frame, BuiltFrame& built) {
+        const auto scene = [this, frame](int sample) {
+            const std::lock_guard lock(run_.scenes);
+            return run_.steps.moment(frame, sample);
+        };
+        const auto world = [this, &built](Scene now) -> const BuiltWorld& {
+            now.render = built.scene.render;
+            if (now == built.shown) return built.world;
+            WorldReport report;
+            built.world = {};
+            built.world = moment_world(now, report);
+            add_build(report, built.report);
+            built.shown = std::move(now);
+            return built.world;
+        };
+        return {scene, world};
+    }
+
+    /// The world of a moment. Without memory for what is retained of those before, that is
+    /// forgotten.
+    BuiltWorld moment_world(const Scene& now, WorldReport& report) {
+        const std::vector<bool> all(now.models.size(), true);
+        try {
+            return builder_->build(now, report, all);
+        } catch (const Error& error) {
+            if (error.kind() != ErrorKind::limit || !retains_) throw;
+        }
+        lacks_room_ = true;
+        retains_ = false;
+        builder_.emplace(device_, false, AssetStore(cache_));
+        report = {};
+        return builder_->build(now, report, all);
     }
 
     void forget(bool retains) {
@@ -189,6 +255,7 @@ size_t frames_ahead(Mode mode, size_t devices) {
 ScheduleOutcome run_frames(const std::vector<Device>& devices, size_t count,
                            const FrameSteps& steps, ScheduleOptions options) {
     const size_t used = std::min(devices.size(), count);
+    if (steps.moment) options.overlap = false;  // which needs the builder for the next frame
     const Mode mode = count > 1 ? mode_of(used, options) : Mode::one_by_one;
     Run run{steps, mode, count, FrameQueue(count, frames_ahead(mode, used))};
     const std::stop_callback cancel(options.stop, [&run] { run.queue.close(); });

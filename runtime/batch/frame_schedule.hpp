@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/batch/frame_queue.hpp"
+#include "runtime/render/moments.hpp"
 #include "runtime/render/renderer.hpp"
 
 namespace voxelume {
@@ -17,8 +18,9 @@ struct FrameInput {
     size_t frame = 0;   ///< its index in the run
     size_t device = 0;  ///< index of the device that has its world
     const Scene& scene;
-    const BuiltWorld& world;
-    const WorldReport& report;  ///< of building the world
+    const BuiltWorld& world;    ///< that of the moment which was built last
+    const WorldReport& report;  ///< of building the world, or those of all moments
+    const Moments* moments;     ///< null if the frame's samples show one moment
     std::stop_token stop;       ///< requested when the frame is not wanted any more
 };
 
@@ -36,6 +38,10 @@ struct FrameSteps {
     /// Frees what `render` retains on a device, by its index, for frames that follow. Without it no
     /// frame is tried again when memory lacks.
     std::function<void(size_t)> forget = {};
+    /// The scene when one of a frame's samples is taken. Called by one thread at a time.
+    std::function<Scene(size_t, int sample)> moment = {};
+    /// True if the samples of a frame's image show several moments; without it no frame's do.
+    std::function<bool(size_t)> has_moments = {};
     /// Hears of an error at once, on a thread of the device.
     std::function<void()> failed = {};
 };
@@ -56,9 +62,10 @@ struct ScheduleOutcome {
 /// Takes `count` frames through their steps. The outputs are the same with all options.
 ///
 /// Each device has a thread, and several devices take frames as they become free, no more than two
-/// for each beyond what is output. One device overlaps frames as long as it has the memory for two
-/// worlds; from the first frame on for which it hasn't, frames follow each other one by one. An
-/// error is thrown once the frames before it are output; what is rendered then is told to stop.
+/// for each beyond what is output. One device overlaps frames of one moment each as long as it has
+/// the memory for two worlds; from the first frame on for which it hasn't, frames follow each other
+/// one by one. An error is thrown once the frames before it are output; what is rendered then is
+/// told to stop.
 ScheduleOutcome run_frames(const std::vector<Device>& devices, size_t count,
                            const FrameSteps& steps, ScheduleOptions options);
 

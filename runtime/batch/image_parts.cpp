@@ -44,6 +44,7 @@ void add_report(const RenderReport& part, RenderReport& sum) {
     if (seconds_of(part.world) > seconds_of(sum.world)) sum.world = part.world;
     sum.world.meshes_read = meshes_read;
     sum.image_seconds = std::max(sum.image_seconds, part.image_seconds);
+    sum.moments = std::max(sum.moments, part.moments);
     sum.voxels = part.voxels;
     sum.world_bytes = part.world_bytes;
     add_counts(part, sum);

@@ -11,6 +11,7 @@
 #include "runtime/analysis/scene_choices.hpp"
 #include "runtime/analysis/warnings/scene_warnings.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/batch/frame_scenes.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/batch/image_parts.hpp"
 #include "runtime/batch/run_warnings.hpp"
@@ -108,25 +109,8 @@ class Batch {
         return voxelume::need_of_whole(scene_.render);
     }
 
-    /// A frame's scene, whose image is the first of its bands, and has the samples alone that it
-    /// lacks.
-    Scene scene_of(int frame) const {
-        Scene scene = band_of(scene_at(scene_, frame), bands_, 0);
-        if (!options_.earlier) return scene;
-        const auto [image, samples] = options_.earlier(frame);
-        if (!image) return scene;
-        scene.render.earlier = image;
-        scene.render.first_sample = samples;
-        scene.render.samples -= samples;
-        return scene;
-    }
-
-    /// The steps that show these frames.
     FrameSteps steps_of(std::vector<int> frames) const {
-        FrameSteps steps;
-        steps.scene = [this, frames](size_t n) { return scene_of(frames[n]); };
-        if (moves(scene_)) steps.number = [frames](size_t n) { return double(frames[n]); };
-        return steps;
+        return steps_that_show({scene_, bands_, options_.earlier}, std::move(frames));
     }
 
     ScheduleOptions schedule(bool one_each) {
@@ -173,14 +157,18 @@ class Batch {
             };
         };
         if (options_.image && bands_.are_one()) {
+            renderers.image.set_moments(input.moments);
             result.image =
                 renderers.image.image(input.scene, input.world, report, progress_after(0));
         } else if (options_.image) {
             result.bands = options_.bands(input.frame);
             BandedImage image(bands_, scene_.render, *result.bands, progress_after(0));
-            image.render(devices_[input.device], input.scene, input.world, report);
+            image.render(devices_[input.device], input.scene, input.world, report, input.moments);
             result.shown = image.shown();
         }
+        // A volumetric image shows the frame itself.
+        if (options_.volume && input.moments) input.moments->world(input.scene);
+        report.world = input.report;
         if (options_.volume)
             result.volume = renderers.volume.volume(input.scene, input.world, report,
                                                     progress_after(int(options_.image)));
@@ -198,10 +186,11 @@ class Batch {
         steps.render = [&](const FrameInput& input) -> OutputStep {
             const std::stop_callback cancel(input.stop, [&] { share.close(); });
             ImagePart& part = parts[input.device];
-            part.report.world = input.report;
+            Renderer renderer(devices_[input.device], false);
+            renderer.set_moments(input.moments);
             part.image =
-                Renderer(devices_[input.device], false)
-                    .part_of_image(input.scene, input.world, part.report, {share, part.tiles});
+                renderer.part_of_image(input.scene, input.world, part.report, {share, part.tiles});
+            part.report.world = input.report;
             return [] {};
         };
         steps.failed = [&] { share.close(); };
@@ -232,8 +221,9 @@ class Batch {
         FrameSteps steps = steps_of(std::vector(count, options_.frames[0]));
         steps.render = [&](const FrameInput& input) -> OutputStep {
             const std::stop_callback cancel(input.stop, [&] { image.close(); });
-            reports[input.device].world = input.report;
-            image.render(devices_[input.device], input.scene, input.world, reports[input.device]);
+            RenderReport& report = reports[input.device];
+            image.render(devices_[input.device], input.scene, input.world, report, input.moments);
+            report.world = input.report;
             return [] {};
         };
         steps.failed = [&] { image.close(); };

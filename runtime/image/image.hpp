@@ -27,4 +27,11 @@ struct Image {
     glm::ivec2 frame{0};  ///< pixels of that picture; 0 for an image that is whole
 };
 
+/// The key of an image's attribute with the width of its pixels over their height, if that isn't 1.
+/// Files have it as a number of their own.
+inline constexpr const char* kPixelAspect = "pixelAspectRatio";
+
+/// That number, which is 1 without the attribute.
+double pixel_aspect_in(const std::map<std::string, std::string>& attributes);
+
 }  // namespace voxelume

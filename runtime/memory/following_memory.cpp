@@ -136,6 +136,7 @@ class FollowingWalk {
     size_t hit_bytes(const Pyramid& world) const {
         const Features features = features_of(scene_, world);
         const RenderSettings render = retained_settings(scene_);
+        if (render.all_samples > 0) return 0;  // another moment's hits follow
         const double rays = 16.0 * tile_count(render.size.x, render.size.y) * render.samples;
         return size_t(rays * sight_bytes(features));
     }

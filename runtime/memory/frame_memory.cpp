@@ -94,7 +94,7 @@ class FrameWalk {
     double retained_hits(const Features& features) const {
         const RenderSettings render = retained_settings(scene_);
         if (estimate_ == Estimate::minimum || !render.channels.has_passes() ||
-            render.noise.is_given())
+            render.noise.is_given() || render.all_samples > 0)
             return 0;
         const double rays = 16.0 * tile_count(render.size.x, render.size.y) * render.samples;
         const double bytes = rays * sight_bytes(features);

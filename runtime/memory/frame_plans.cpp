@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/scene_features.hpp"
@@ -10,9 +11,15 @@
 #include "runtime/memory/frames_to_plan.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
+
+/// Leaves the samples of one moment to an image, and notes that it has more.
+void take_at_once(int samples, RenderSettings& render) {
+    if (samples < render.samples) render.all_samples = std::exchange(render.samples, samples);
+}
 
 /// True if both frames show the same meshes and voxels.
 bool has_files_of(const Scene& a, const Scene& b) {
@@ -32,8 +39,8 @@ void forget_largest(const Scene& scene, const DeviceInfo& device, AssetStore& me
 /// Plans frames one after the other, and keeps the plan that takes the most.
 class FramePlanner {
   public:
-    FramePlanner(const Scene& scene, AssetStore& meshes, const DeviceInfo& device)
-        : scene_(scene), meshes_(meshes), device_(device) {}
+    FramePlanner(const Scene& scene, AssetStore& meshes, const DeviceInfo& device, size_t frames)
+        : scene_(scene), meshes_(meshes), device_(device), worlds_(worlds_of(scene, frames)) {}
 
     FramePlan run(std::span<const int> frames, const std::function<void(size_t)>& progress) {
         // Where frames are chosen, seeing them all is half of the way.
@@ -53,13 +60,23 @@ class FramePlanner {
     }
 
   private:
-    /// Plans the frame unless it is planned like the one before. False if it doesn't fit.
+    /// Plans the frame, and others of its moments. False if one doesn't fit.
     bool plan(const FramesToPlan& found, size_t place) {
         const int frame = found.changed[place];
-        Scene now = in_frame(scene_, frame, [&] { return scene_at(scene_, frame); });
+        const int at_once = samples_at_once(scene_, frame);
+        for (const double moment : some_moments_of(scene_, frame))
+            if (!plan(found, place, moment, at_once)) return false;
+        return true;
+    }
+
+    /// Plans a moment of the frame unless it is planned like the one before. False if it doesn't
+    /// fit.
+    bool plan(const FramesToPlan& found, size_t place, double moment, int at_once) {
+        Scene now = in_frame(scene_, moment, [&] { return scene_at(scene_, moment); });
+        take_at_once(at_once, now.render);
         if (before_ && is_planned_like(*before_, now)) return true;
-        FramePlan planned = in_frame(scene_, frame, [&] {
-            FramePlan made{frame, std::move(now), {}};
+        FramePlan planned = in_frame(scene_, moment, [&] {
+            FramePlan made{found.changed[place], std::move(now), {}};
             check_placements(made.scene);
             made.plan = plan_scene(made.scene, meshes_, device_, solids_);
             return made;
@@ -71,11 +88,15 @@ class FramePlanner {
             refused_ = std::move(planned);
             return false;
         }
-        if (!maximum_ || planned.plan.peak_bytes() > maximum_->plan.peak_bytes()) {
+        if (!maximum_ || bytes_of(planned.plan) > bytes_of(maximum_->plan)) {
             maximum_ = std::move(planned);
             place_ = place;
         }
         return true;
+    }
+
+    double bytes_of(const ScenePlan& plan) const {
+        return plan.run_bytes(worlds_, double(device_.memory));
     }
 
     /// Plans a frame that wasn't chosen. False if it doesn't fit.
@@ -98,6 +119,7 @@ class FramePlanner {
     const Scene& scene_;
     AssetStore& meshes_;
     const DeviceInfo& device_;
+    size_t worlds_;
     SolidExtents solids_;
     std::optional<Scene> before_;
     std::optional<FramePlan> maximum_, refused_;
@@ -118,7 +140,7 @@ bool is_refused(const FramePlan& planned, const DeviceInfo& device) {
 
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                       const DeviceInfo& device, const std::function<void(size_t)>& progress) {
-    return FramePlanner(scene, meshes, device).run(frames, progress);
+    return FramePlanner(scene, meshes, device, frames.size()).run(frames, progress);
 }
 
 void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
@@ -126,19 +148,22 @@ void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& m
     std::optional<Scene> first, before;
     SolidExtents solids;
     const FramesToPlan found = frames_to_plan(scene, frames);
+    const auto check = [&](double moment, int at_once) {
+        Scene now = scene_at(scene, moment);
+        take_at_once(at_once, now.render);
+        if (before && is_planned_like(*before, now)) return;
+        check_placements(now);
+        if (!first) first = now;
+        if (has_files_of(now, *first)) {
+            check_memory(now, plan_scene(now, meshes, device, solids), device);
+            forget_largest(now, device, meshes);
+        }
+        before = std::move(now);
+    };
     for (const size_t place : found.chosen) {
-        const int frame = found.changed[place];
-        in_frame(scene, frame, [&] {
-            Scene now = scene_at(scene, frame);
-            if (before && is_planned_like(*before, now)) return;
-            check_placements(now);
-            if (!first) first = now;
-            if (has_files_of(now, *first)) {
-                check_memory(now, plan_scene(now, meshes, device, solids), device);
-                forget_largest(now, device, meshes);
-            }
-            before = std::move(now);
-        });
+        const int frame = found.changed[place], at_once = samples_at_once(scene, frame);
+        for (const double moment : some_moments_of(scene, frame))
+            in_frame(scene, moment, [&] { check(moment, at_once); });
     }
 }
 

@@ -12,6 +12,7 @@
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -100,7 +101,8 @@ void fill_evenly(FramesToPlan& found) {
 }  // namespace
 
 bool is_planned_like(const Scene& a, const Scene& b) {
-    return (a.render.channels.color || a.observer == b.observer) && a.objects == b.objects &&
+    return a.render.samples == b.render.samples &&
+           (a.render.channels.color || a.observer == b.observer) && a.objects == b.objects &&
            a.models == b.models && a.materials == b.materials &&
            std::ranges::equal(a.lights, b.lights, {}, shines, shines) &&
            a.world.medium == b.world.medium;
@@ -118,7 +120,7 @@ FramesToPlan frames_to_plan(const Scene& scene, std::span<const int> frames,
         if (progress) progress(i);
         in_frame(scene, frames[i], [&] {
             Scene now = scene_at(scene, frames[i]);
-            if (before && is_planned_like(*before, now)) return;
+            if (before && !has_moments(scene) && is_planned_like(*before, now)) return;
             check_placements(now);
             if (known.adds(now) || keys.contains(frames[i]))
                 found.chosen.push_back(found.changed.size());

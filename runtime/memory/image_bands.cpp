@@ -9,6 +9,7 @@
 #include "runtime/base/main_memory.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/memory/count/solid_extents.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -42,7 +43,8 @@ double writing_bytes(const Scene& scene) {
 /// True if all that a run is expected to take is there.
 bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
                  const DeviceInfo& device) {
-    const double memory = double(device.memory), max_bytes = plan.run_bytes(frames, memory);
+    const double memory = double(device.memory);
+    const double max_bytes = plan.run_bytes(worlds_of(scene, frames), memory);
     const double host = plan.host_bytes + writing_bytes(scene) + kDriverBytes +
                         (device.kind == DeviceKind::cpu ? max_bytes : 0);
     return max_bytes <= memory && host <= double(main_memory()) &&

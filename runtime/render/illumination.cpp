@@ -91,7 +91,7 @@ void build_programs(const Device& device, const Features& features, const Scene&
         files.push_back("matte.cl");
     Program::build_together(
         device, files,
-        resolve_defines(device, features, scene.render.channels, scene.render.earlier != nullptr));
+        resolve_defines(device, features, scene.render.channels, adds_samples(scene.render)));
 }
 
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/error.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -67,6 +69,13 @@ void add_motion(const Scene& scene, int frame, Image& image) {
     const Scene now = scene_at(scene, frame);
     add_movement(now, scene_at(scene, frame + 1), "forward", image);
     add_movement(now, scene_at(scene, frame - 1), "backward", image);
+}
+
+void check_motion(const Scene& scene) {
+    if (!has_moments(scene)) return;
+    throw Error(ErrorKind::usage,
+                "channels motion are of images that show one moment: leave the observer's shutter "
+                "out, or render them in a run of their own with one sample");
 }
 
 }  // namespace voxelume

@@ -21,4 +21,7 @@ std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3&
 /// Pixels that show nothing have 0.
 void add_motion(const Scene& scene, int frame, Image& image);
 
+/// Throws Error::usage for a scene whose images' samples show several moments.
+void check_motion(const Scene& scene);
+
 }  // namespace voxelume

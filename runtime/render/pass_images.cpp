@@ -56,17 +56,26 @@ bool Renderer::lends_hits(const View& view, uint32_t max_tiles) const {
     return view_ && !hits_.empty() && tiles_in_batch_ <= max_tiles && have_equal_hits(view, *view_);
 }
 
+/// Lets the samples show the moments of an image, or of one of its passes.
+void Renderer::show_moments_of(const Renderer& image, std::optional<size_t> pass) {
+    moments_ = image.moments_;
+    image_settings_ = image.image_settings_;
+    pass_ = pass;
+}
+
 /// Adds the channels that show parts of the light, of the tiles that were rendered, with as many
 /// samples.
 void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
                           const Tiles& tiles, Sampled& sampled, RenderReport& report,
                           Image& image) const {
-    for (const LightPass& pass : passes) {
+    for (size_t i = 0; i < passes.size(); ++i) {
+        const LightPass& pass = passes[i];
         RenderReport of_pass;
         TileShare share(tiles.share, tiles.taken, first_weight(pass.scene, tiles.weight));
         std::vector<TileRange> taken;
         Renderer renderer(device_, false);
         renderer.is_white_ = pass.is_white;
+        renderer.show_moments_of(*this, i);
         if (has_passes_) renderer.lender_ = this;
         renderer.dilated_occupancy_ = dilated_occupancy_;
         Image light = renderer.sampled_image(pass.scene, world, of_pass,

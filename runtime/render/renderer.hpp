@@ -20,6 +20,7 @@ namespace voxelume {
 
 class Illumination;
 struct LightPass;
+struct Moments;
 
 /// The work and time of a frame, for the summary line, --stats-json and the tests.
 struct RenderReport {
@@ -42,6 +43,7 @@ struct RenderReport {
     uint64_t medium_overflows = 0;  ///< rays that entered more overlapping objects than they can
                                     ///< remember: the image is wrong there
     uint32_t not_finite = 0;        ///< values that became 0; more than 0 is a fault of the program
+    uint32_t moments = 0;           ///< at which samples were taken; 0: at the frame's alone
     NoiseReached noise;             ///< only for images with a target
     bool is_kept = false;           ///< true if the frame shows the image of the frame before
     bool hits_are_kept = false;  ///< true if its sight rays meet what they met in the frame before
@@ -58,6 +60,9 @@ class Renderer {
     /// With `follows` = false no second frame follows the first, and nothing is retained.
     explicit Renderer(const Device& device, bool follows = true)
         : device_(device), follows_(follows) {}
+
+    /// Lets the samples of the images that follow show these moments, or with null the frame alone.
+    void set_moments(const Moments* moments) { moments_ = moments; }
 
     /// The image of the scene's observer in the scene's world. Throws Error as the stages do.
     std::shared_ptr<const Image> image(const Scene& scene, const BuiltWorld& world,
@@ -128,7 +133,7 @@ class Renderer {
                         int samples, const TileShare& share);
     void take_known(const ViewHits& hits, uint32_t first, RayBatch& batch) const;
     WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
-    void note_done(const TileRange& range, const Tiles& tiles) const;
+    void note_done(const TileRange& range, const Tiles& tiles, double part) const;
     static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
     Image sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                         const Tiles& tiles, Sampled& sampled);
@@ -138,6 +143,13 @@ class Renderer {
                        const Tiles& tiles) const;
     Image adaptive_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles, Sampled& sampled);
+    struct Sums;
+    Sums begin_sums(const Scene& scene, const Tiles& tiles) const;
+    void add_moment(const Scene& scene, const BuiltWorld& world, const Tiles& tiles,
+                    const Sums& sums, RenderReport& report);
+    Scene scene_of_moment(Scene now, const Scene& asked) const;
+    double add_moments(const Scene& scene, const Tiles& tiles, Sums& sums, RenderReport& report);
+    void show_moments_of(const Renderer& image, std::optional<size_t> pass);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
     void add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
@@ -145,7 +157,10 @@ class Renderer {
 
     Device device_;
     bool follows_;
-    bool is_white_ = false;    ///< voxels show no colours of their own
+    bool is_white_ = false;  ///< voxels show no colours of their own
+    const Moments* moments_ = nullptr;
+    RenderSettings image_settings_;  ///< with moments: those of the image, also in its passes
+    std::optional<size_t> pass_;     ///< with moments: number of the pass, which is rendered
     bool has_passes_ = false;  ///< hits are retained until the passes of the light are rendered
     const Renderer* lender_ = nullptr;  ///< of a pass: who has the hits of the image's sight rays
     std::optional<Scene> scene_;        ///< the scene whose image is retained

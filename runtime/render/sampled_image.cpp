@@ -246,6 +246,7 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
             if (!needs_more(tile)) tell_of_all(tile);
         });
         add_counts(of_more, report);
+        report.moments += of_more.moments;
         report.image_seconds += of_more.image_seconds;
     }
     if (is_sampled_again(scene)) for_each_tile(tiles.taken, tell_of_all);
@@ -263,6 +264,7 @@ Image Renderer::more_samples(const Scene& part, const BuiltWorld& world, RenderR
                              const Tiles& tiles) const {
     Renderer renderer(device_, false);
     renderer.is_white_ = is_white_;
+    renderer.show_moments_of(*this, pass_);
     return renderer.image_of_tiles(part, world, report, tiles);
 }
 

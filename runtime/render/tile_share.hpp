@@ -53,6 +53,7 @@ class TileShare {
     void done(const TileRange& range) { add_work(range.count * weight_); }
     /// Reports that work is done, or needn't be: 1 is a tile with all of its weights.
     void add_work(double tiles);
+    double weight() const { return weight_; }  ///< of a tile's work
     /// Says that its own tiles are only `weight` of the work.
     void set_weight(double weight) { weight_ = weight; }
     /// Ends the work: no more tiles are handed out.

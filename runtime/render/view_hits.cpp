@@ -52,13 +52,14 @@ Renderer::ViewHits Renderer::begin_view(const Scene& scene, const BuiltWorld& wo
                                         const TileShare& share) {
     ViewHits hits{view_of(scene, world, features)};
     hits.in_batch = batch_tiles(device_, features, samples, share.maximum());
-    hits.are_lent = lender_ && lender_->lends_hits(hits.view, hits.in_batch);
+    hits.are_lent = lender_ && !moments_ && lender_->lends_hits(hits.view, hits.in_batch);
     if (hits.are_lent) hits.in_batch = lender_->tiles_in_batch_;
-    hits.are_known = hits.are_lent || (view_ == hits.view && !hits_.empty());
+    hits.are_known = hits.are_lent || (!moments_ && view_ == hits.view && !hits_.empty());
     view_.reset();  // an error may leave the hits incomplete
     if (!hits.are_known) hits_.clear();
     tiles_in_batch_ = hits.in_batch;
-    hits.are_kept = has_room(scene, features, 16ull * share.tiles() * uint32_t(samples));
+    hits.are_kept =
+        !moments_ && has_room(scene, features, 16ull * share.tiles() * uint32_t(samples));
     return hits;
 }
 

@@ -147,7 +147,7 @@ void frame_observer(Scene& scene) {
     Observer& observer = scene.observer;
     Display display;
     display.shape = DisplayShape::pyramid;
-    DisplaySetting setting{INFINITY, scene.render.size};
+    DisplaySetting setting{INFINITY, proportions(scene.render)};
     const DisplayShapeRow& shape = shape_row(display);
     shape.measure({}, setting, refused, display);
 

@@ -111,7 +111,7 @@ void MovedPart::form_model() {
 
 void MovedPart::form_display(Observer& observer) {
     const DisplaySetting setting{distance_to_farthest_corner(scene_.world, observer.position),
-                                 frame_size(scene_.render)};
+                                 proportions(scene_.render)};
     if (observer.projection != Projection::display)
         return project(observer_, setting, refusal(""), observer);
     Display display;

@@ -10,6 +10,11 @@ bool adds_color(const RenderSettings& render) {
     return channels.variance || (render.noise.is_given() && shows_noise);
 }
 
+bool shows_points_alone(const ImageChannels& channels) {
+    return channels.position && !channels.depth && !channels.distance && !channels.normal &&
+           !channels.object && !channels.material;
+}
+
 ImageChannels rendered_channels(const RenderSettings& render) {
     ImageChannels channels = render.channels;
     channels.color |= adds_color(render);

@@ -10,6 +10,10 @@ namespace voxelume {
 /// it.
 bool adds_color(const RenderSettings& render);
 
+/// True if channels have points where sight rays meet something, and no other channel tells where
+/// they do.
+bool shows_points_alone(const ImageChannels& channels);
+
 /// The channels that an image is made of: those that are asked for, and colour where it is added.
 ImageChannels rendered_channels(const RenderSettings& render);
 

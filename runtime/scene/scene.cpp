@@ -42,7 +42,7 @@ void resize(Scene& scene, glm::ivec2 size) {
     scene.render.size = size;
     scene.render.crop = {};
     if (scene.fitted.observer) return frame_observer(scene);
-    make_pixels_square(size, scene.observer.display);
+    make_pixels_square(proportions(scene.render), scene.observer.display);
 }
 
 void check_tiles(const RenderSettings& render) {

@@ -90,12 +90,14 @@ struct NoiseTarget {
 
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels of the image
+    double pixel_aspect = 1;    ///< the width of a pixel over its height
     ImageCrop crop;             ///< not in scene files
     int samples = 1;            ///< per pixel, 1..4096; the most that `noise` may take
     /// In local light, pixels whose neighbours differ by more than this contrast get all samples,
     /// others one, 0..1; 0: all pixels get all.
     double adaptive = 0;
     int first_sample = 0;  ///< of the sequence of samples; not in scene files
+    int all_samples = 0;   ///< with those of other moments; 0: there are none; not in scene files
     ReconstructionFilter filter;
     int depth = 5;  ///< reflections and refractions in a row, 0..64
     bool shadows = true;
@@ -146,9 +148,24 @@ inline glm::ivec2 frame_size(const RenderSettings& render) {
     return render.crop.is_whole() ? render.size : render.crop.frame;
 }
 
+/// The sides of the whole picture as it is shown, in heights of a pixel.
+inline glm::dvec2 proportions(const RenderSettings& render) {
+    return glm::dvec2(frame_size(render)) * glm::dvec2(render.pixel_aspect, 1);
+}
+
 /// Makes the image a part of the picture that it was: `size` pixels from column and row `first` on,
 /// which must lie in it. Displays and observers stay those of the whole picture.
 void crop(Scene& scene, glm::ivec2 first, glm::ivec2 size);
+
+/// The samples of a pixel, with those of other moments.
+inline int all_samples(const RenderSettings& render) {
+    return render.all_samples > 0 ? render.all_samples : render.samples;
+}
+
+/// True if samples are added to those that the image has already.
+inline bool adds_samples(const RenderSettings& render) {
+    return render.earlier || render.all_samples > 0;
+}
 
 /// Throws Error::usage for a part of a picture that cuts tiles whose noise is to be measured.
 void check_tiles(const RenderSettings& render);

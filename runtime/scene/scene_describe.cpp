@@ -99,12 +99,15 @@ std::string observer_text(const Observer& observer) {
                                  ? fmt::format(", lens of {:.6g} m{}, sharp at {:.6g} m",
                                                observer.aperture, blades, observer.focus)
                                  : "";
+    const std::string shutter =
+        observer.shutter > 0 ? fmt::format(", shutter open for {:.6g} frames", observer.shutter)
+                             : "";
     return fmt::format(
         "observer: at {}, looking along {}, {}{} display of {}x{}x{} voxels, from {:.6g} to "
-        "{:.6g} m{}",
+        "{:.6g} m{}{}",
         vector_text(observer.position), vector_text(observer.world_from_observer[2]),
         projection_text(observer), shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near,
-        d.far, lens);
+        d.far, lens, shutter);
 }
 
 std::string filter_text(const ReconstructionFilter& filter) {

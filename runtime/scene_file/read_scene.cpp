@@ -131,6 +131,16 @@ bool shows_emission(const Scene& scene, const SceneMotion& motion) {
     return false;
 }
 
+/// Throws for settings that look at one moment, where a shutter shows several.
+void check_shutter(const SceneFields& fields, const Scene& scene) {
+    if (scene.observer.shutter == 0 || scene.render.adaptive == 0) return;
+    SceneFields(fields.get("render"), "render")
+        .get("adaptive")
+        .fail(
+            "compares pixels at one moment, and the observer's \"shutter\" shows several: leave "
+            "one of them out");
+}
+
 /// Adds the light that a scene has which says nothing of lights, and some ambient light with it.
 void add_default_light(const SceneFields& fields, Scene& scene) {
     constexpr float kAmbient = 0.15f;
@@ -190,6 +200,7 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     scene.fitted.observer = !fields.has("observer");
     fit_to_objects(motion, boxes, scene);
     read_or_frame_observer(fields, scene);
+    check_shutter(fields, scene);
     for (const DocumentPart& part : parts)
         if (is_observer(part)) add_part(part, search, scene, motion);
     if (!fields.has("lights") && !scene.world.sky && !shows_emission(scene, motion))

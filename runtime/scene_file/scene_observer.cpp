@@ -88,7 +88,7 @@ Display read_display(const SceneValue& value, const Scene& scene, glm::dvec3 pos
     Display display;
     display.shape = shape.shape;
     shape.measure(read_display_parameters(value),
-                  {distance_to_farthest_corner(scene.world, position), scene.render.size},
+                  {distance_to_farthest_corner(scene.world, position), proportions(scene.render)},
                   fields.refusal(), display);
     read_volume(fields, display);
     read_voxels(fields, scene.render.size, display);
@@ -123,7 +123,7 @@ Observer read_observer(const SceneValue& value, const Scene& scene) {
         observer.display = read_display(fields.get("display"), scene, observer.position);
     } else {
         const DisplaySetting setting{distance_to_farthest_corner(scene.world, observer.position),
-                                     scene.render.size};
+                                     proportions(scene.render)};
         project(place, setting, fields.refusal(), observer);
         observer.display.voxels = {scene.render.size, 256};
     }

@@ -120,6 +120,7 @@ ReconstructionFilter read_filter(const SceneFields& fields) {
 }  // namespace
 
 RenderSettings read_render(const SceneValue& value) {
+    constexpr Range kPixelAspects{0.1, 10};
     const SceneFields fields(value, "render");
     RenderSettings render;
     if (const auto size = fields.find("size")) {
@@ -127,6 +128,7 @@ RenderSettings read_render(const SceneValue& value) {
         if (parts.size() != 2) size->fail(fmt::format("needs 2 numbers, not {}", parts.size()));
         render.size = {parts[0].integer(1, kMaxImageSide), parts[1].integer(1, kMaxImageSide)};
     }
+    render.pixel_aspect = fields.number("pixel_aspect", kPixelAspects, render.pixel_aspect);
     render.samples = fields.integer("samples", 1, 4096, render.samples);
     render.adaptive = fields.number("adaptive", kRatio, render.adaptive);
     render.filter = read_filter(fields);

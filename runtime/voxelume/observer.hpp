@@ -93,6 +93,9 @@ struct Observer {
     std::optional<double> width{};                ///< metres that an orthographic image shows
     std::optional<double> height{};               ///< metres of its height, for square pixels
     std::optional<int> blades{};  ///< blades of the lens, which is a polygon then; 3 to 16
+    /// Frames for which the shutter is open, from each frame on: samples of flat images show
+    /// moments of this time.
+    std::optional<double> shutter{};
 };
 
 /// The light that reaches surfaces of a flat image.
@@ -134,6 +137,7 @@ struct RenderSettings {
     /// Observers see nothing where no object is: A is 0 there, and PNG files are transparent.
     /// Mirrors and glass show the background or the sky as without it.
     bool transparent = false;
+    double pixel_aspect = 1;  ///< width of a pixel over its height, 0.1..10
 };
 
 }  // namespace voxelume::v1

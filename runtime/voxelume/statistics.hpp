@@ -86,6 +86,7 @@ struct FrameStatistics {
     /// True: nothing is kept for the device's next frame, for want of memory.
     bool keeps_nothing = false;
     StageSeconds seconds{};  ///< waiting included, where frames overlap
+    uint32_t moments = 1;    ///< moments that the image's samples show, while a shutter is open
 };
 
 /// A device that took part.

@@ -2,6 +2,7 @@
 #include "runtime/world/world.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "runtime/analysis/culling.hpp"
@@ -27,6 +28,12 @@ auto for_world(const World& world, const Part& part) {
     const std::string size = size_text(world.voxels);
     return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part,
                           world.where);
+}
+
+/// A number that no other world of this process has.
+uint64_t new_version() {
+    static std::atomic<uint64_t> last = 0;
+    return ++last;
 }
 
 /// Adds to a report the number of models that are voxelized while it lives, and their time.
@@ -90,7 +97,7 @@ BuiltWorld WorldBuilder::kept_world(const Scene& scene, WorldReport& report) {
     Stopwatch moving(report.instances.seconds);
     move_instances(device_, scene, world_.pyramid);
     instance_places_ = std::move(places);
-    ++world_.version;
+    world_.version = new_version();
     moving.stop();
     return world_;
 }
@@ -155,7 +162,7 @@ BuiltWorld WorldBuilder::rebuilt_world(const Scene& scene, const Origin& origin,
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     BuiltWorld built{kept_or_new_world({scene, retained, keeps_, room, report}, indexer),
-                     ++world_.version};
+                     world_.version = new_version()};
     load_seconds_ = meshes_.load_seconds(), meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
     models.forget_unused(listed, keeps_ ? room - grids_->retained_bytes() : 0);

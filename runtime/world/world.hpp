@@ -50,7 +50,7 @@ struct WorldReport {
 /// S on a device.
 struct BuiltWorld {
     Pyramid pyramid;
-    uint64_t version = 0;  ///< its builder's count; equal versions are equal worlds
+    uint64_t version = 0;  ///< equal versions are equal worlds
 };
 
 /// Builds the worlds of successive frames, and of each only the parts that differ from the one

@@ -143,6 +143,23 @@ TEST(BandedImage, OfPixelsThatContrastAndAreBlurredHasTheBitsOfTheWhole) {
     }
 }
 
+TEST(BandedImage, OfSeveralMomentsHasTheBitsOfTheWhole) {
+    Scene scene = large_scene();
+    scene.render.samples = 3;
+    scene.observer.shutter = 0.5;
+    std::shared_ptr<const Image> whole;
+    render_frames({test_device()}, scene, {.frames = {3}}, [&](const FrameResult& result) {
+        EXPECT_EQ(result.report.report.moments, 3u);
+        whole = result.image;
+    });
+    ASSERT_TRUE(whole);
+    for (const size_t devices : {1, 2}) {
+        const auto joined = run_in_bands(
+            std::vector<Device>(devices, device_with_memory(kMegabytes)), scene, {.frames = {3}});
+        joined.at(3)->expect_like(*whole);
+    }
+}
+
 TEST(BandedImage, WarnsOfWhatTheWholeLacks) {
     Scene scene = large_scene();
     std::vector<WarningKind> kinds;

@@ -14,6 +14,7 @@
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/shutter.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/display_fixture.hpp"
@@ -34,7 +35,7 @@ double promised(Scene scene, const std::vector<int>& frames, const Device& devic
     find_potentially_visible(scene, frames, meshes);
     const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
     EXPECT_LE(planned.plan.min_bytes, planned.plan.peak_bytes());
-    return planned.plan.run_bytes(frames.size(), double(device.info().memory));
+    return planned.plan.run_bytes(worlds_of(scene, frames.size()), double(device.info().memory));
 }
 
 void expect_kept(const std::string& name, double promise, const Device& device, double max_ratio) {
@@ -98,6 +99,26 @@ TEST_P(ShippedScene, TakesWhatIsPromised) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::ValuesIn(shipped_scenes()),
                          [](const auto& name) { return name.param; });
+
+TEST(BuiltScene, OfSeveralMomentsTakesWhatIsPromised) {
+    using Case = std::pair<const char*, const char*>;
+    for (const auto& [surface, placement] :
+         {Case{"cubes", "instance"}, Case{"smooth", "world"}, Case{"exact", "world"}}) {
+        nlohmann::json json = nlohmann::json::parse(R"({"voxelume": 1,
+"world": {"voxel_size": 0.01, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
+"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.01}},
+"objects": [{"name": "a", "model": "ball"}, {"model": "ball", "position": [0.5, 0.5, 0]}],
+"observer": {"position": [0, 0, -4], "shutter": 0.5, "display": {"shape": "pyramid", "angle": 40}},
+"render": {"size": [200, 150], "samples": 8},
+"animation": {"frames": 3, "tracks": [{"target": "objects.a.position",
+    "keys": [{"frame": 1, "value": [-0.5, -0.3, 0]}, {"frame": 3, "value": [0.5, -0.2, 0]}]}]}})");
+        json["models"]["ball"]["surface"] = surface;
+        for (auto& object : json["objects"]) object["placement"] = placement;
+        const Scene scene = parse_scene(json.dump(), "shutter.json", {});
+        for (const std::vector<int>& frames : {std::vector{2}, std::vector{1, 2, 3}})
+            expect_frames_kept(fmt::format("moments {} {}", surface, placement), scene, frames);
+    }
+}
 
 TEST(BuiltScene, OfObjectsOfEachSurfaceInTheWorldAndAsInstancesTakesWhatIsPromised) {
     for (const char* surface : {"cubes", "smooth", "exact"})

@@ -29,7 +29,7 @@
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) \
     I(first_column) I(first_row) I(frame_width) I(frame_height) F(lens_radius) F(lens_slope) \
-    I(first_sample) I(blades) IA(unused, 2)
+    I(first_sample) I(blades) I(earlier_samples) F(earlier_weight) I(is_last) IA(unused, 3)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \

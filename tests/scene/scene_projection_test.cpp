@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glm/trigonometric.hpp>
+
 #include "runtime/base/error.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
@@ -53,6 +55,40 @@ TEST(SceneProjection, KeepsPixelsSquareInImagesOfOtherSizes) {
     Scene box = projected(R"("display": {"shape": "box", "size": [2, 4, 6]})");
     resize(box, {100, 300});
     EXPECT_EQ(box.observer.display.half_size, glm::dvec2(1, 2)) << "that of a display stays";
+}
+
+/// The width of what a pixel spans over its height.
+double aspect_of(const Scene& scene) {
+    const Display& display = scene.observer.display;
+    const glm::dvec2 half =
+        display.shape == DisplayShape::box ? display.half_size : glm::tan(display.half_angles);
+    return half.x / scene.render.size.x / (half.y / scene.render.size.y);
+}
+
+TEST(SceneProjection, PixelsHaveTheAspectThatIsAskedFor) {
+    const std::string wide = R"(, "render": {"size": [300, 400], "pixel_aspect": 2})";
+    for (const char* members : {R"("display": {"shape": "pyramid", "angle": 40})",
+                                R"("projection": "orthographic", "width": 8)",
+                                R"("projection": "orthographic", "height": 8)"}) {
+        Scene scene = projected(members, wide);
+        EXPECT_NEAR(aspect_of(scene), 2, 1e-12) << members;
+        resize(scene, {123, 45});
+        EXPECT_NEAR(aspect_of(scene), 2, 1e-12) << members;
+    }
+    Scene moving = projected(R"("display": {"shape": "pyramid", "angle": 40})",
+                             wide + R"(, "animation": {"frames": 2, "tracks": [
+        {"target": "observer.display.angle", "keys": [{"frame": 1, "value": 40},
+                                                      {"frame": 2, "value": 60}]}]})");
+    EXPECT_NEAR(aspect_of(scene_at(moving, 2)), 2, 1e-12);
+    Scene fitted =
+        parse_scene(R"({"voxelume": 1, "models": {"a": {"shape": "box", "size": [1, 2, 3]}},
+        "objects": [{"model": "a"}], "render": {"size": [300, 400], "pixel_aspect": 0.5}})",
+                    "room.json", {});
+    EXPECT_NEAR(aspect_of(fitted), 0.5, 1e-12);
+    // Both angles of a display say what a pixel spans.
+    EXPECT_NEAR(
+        aspect_of(projected(R"("display": {"shape": "pyramid", "angles": [90, 90]})", wide)),
+        400.0 / 300, 1e-12);
 }
 
 TEST(SceneProjection, PanoramicIsABallToTheWorldsEnd) {

@@ -12,6 +12,7 @@
 #include "runtime/analysis/warnings/object_warnings.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/shutter.hpp"
 
 namespace voxelume {
 namespace {
@@ -69,6 +70,16 @@ void add_scattering_warning(const Scene& scene, std::vector<Warning>& warnings) 
                  warnings);
 }
 
+void add_shutter_warning(const Scene& scene, std::vector<Warning>& warnings) {
+    const bool is_open = moves(scene) && scene.observer.shutter > 0 && scene.render.shows_image;
+    if (!is_open || has_moments(scene)) return;
+    add_once(
+        {WarningKind::one_moment, scene.observer.where,
+         "its shutter stays open, and images with one sample show the moment alone at which it "
+         "opens: give \"render\" more \"samples\""},
+        warnings);
+}
+
 void add_volume_warning(const Scene& scene, std::vector<Warning>& warnings) {
     if (scene.render.shows_volume && drops_global_light(scene))
         add_once(local_volume_warning(scene), warnings);
@@ -111,6 +122,7 @@ std::vector<Warning> still_true(const Scene& first, const Scene& now,
     add_light_warning(now, found);
     add_scattering_warning(now, found);
     add_volume_warning(now, found);
+    add_shutter_warning(now, found);
     return found;
 }
 
@@ -141,6 +153,7 @@ std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> fra
             add_light_warning(now, warnings);
             add_scattering_warning(now, warnings);
             add_volume_warning(now, warnings);
+            add_shutter_warning(now, warnings);
             first = std::move(now);
         });
     }

@@ -157,7 +157,7 @@ JsonValue tree(const v1::Observer& observer) {
     object.add("position", observer.position).add("look_at", observer.look_at);
     object.add("up", observer.up).add("turn", observer.turn);
     object.add("aperture", observer.aperture).add("focus", observer.focus);
-    object.add("blades", observer.blades);
+    object.add("blades", observer.blades).add("shutter", observer.shutter);
     if (observer.projection == v1::Projection::display)
         return object.put("display", tree_of_display(observer.display)).take();
     constexpr std::array kProjections = {"perspective", "orthographic", "panoramic"};
@@ -190,6 +190,7 @@ JsonValue tree(const v1::RenderSettings& render) {
     constexpr std::array kFilters = {"box", "tent", "gaussian", "blackman-harris"};
     ObjectTree object;
     object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
+    object.add("pixel_aspect", render.pixel_aspect);
     object.add("adaptive", render.adaptive);
     object.add("shadows", render.shadows);
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");

@@ -41,7 +41,7 @@ void ExrChunkWriter::header(const ImageWindow& window, const Attributes& attribu
     for (size_t i = 0; i < parts.size(); ++i) {
         int part = 0;
         check(exr_add_part(context_, parts[i].name.c_str(), EXR_STORAGE_SCANLINE, &part));
-        set_windows(part, window);
+        set_windows(part, window, pixel_aspect_in(attributes));
         constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                                        0.15f, 0.06f, 0.3127f, 0.3290f};
         check(exr_attr_set_chromaticities(context_, part, "chromaticities", &kRec709));
@@ -95,12 +95,12 @@ void ExrChunkWriter::add_channels(int part, const std::vector<ExrPlane>& planes)
 void ExrChunkWriter::add_texts(int part, const Attributes& texts) {
     for (const bool of_mattes : {false, true})
         for (const auto& [name, text] : texts)
-            if (name.starts_with(kMatteKey) == of_mattes)
+            if (name != kPixelAspect && name.starts_with(kMatteKey) == of_mattes)
                 check(exr_attr_set_string(context_, part, name.c_str(), text.c_str()));
 }
 
 /// A part of a picture has its place in that as its data window.
-void ExrChunkWriter::set_windows(int part, const ImageWindow& image) {
+void ExrChunkWriter::set_windows(int part, const ImageWindow& image, double pixel_aspect) {
     const auto window = [](glm::ivec2 first, glm::ivec2 size) {
         exr_attr_box2i_t box{};
         box.min.x = first.x, box.min.y = first.y;
@@ -110,8 +110,9 @@ void ExrChunkWriter::set_windows(int part, const ImageWindow& image) {
     const exr_attr_box2i_t data = window(image.first, image.size);
     const exr_attr_box2i_t display = image.frame.x > 0 ? window({0, 0}, image.frame) : data;
     const exr_attr_v2f_t center{};
-    check(exr_initialize_required_attr(context_, part, &display, &data, 1.0f, &center, 1.0f,
-                                       EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
+    check(exr_initialize_required_attr(context_, part, &display, &data, float(pixel_aspect),
+                                       &center, 1.0f, EXR_LINEORDER_INCREASING_Y,
+                                       EXR_COMPRESSION_ZIP));
     first_row_ = image.first.y;
 }
 

@@ -47,7 +47,7 @@ class ExrChunkWriter {
     void allow_long_names(const std::vector<ExrPart>& parts);
     void add_channels(int part, const std::vector<ExrPlane>& planes);
     void add_texts(int part, const Attributes& texts);
-    void set_windows(int part, const ImageWindow& window);
+    void set_windows(int part, const ImageWindow& window, double pixel_aspect);
     int64_t write(const void* bytes, uint64_t size, uint64_t position) noexcept;
     void check(exr_result_t result);
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
+
+#include "runtime/image/image.hpp"
 
 namespace voxelume {
 namespace {
@@ -154,6 +157,9 @@ void ExrHeaderReader::add_attributes(int part, ExrHeader& header) const {
         if (attribute->type == EXR_ATTR_STRING) {
             if (!is_of_format(attribute->name, part_count() > 1))
                 header.attributes.emplace(attribute->name, attribute->string->str);
+        } else if (attribute->type == EXR_ATTR_FLOAT &&
+                   std::string_view(attribute->name) == kPixelAspect && attribute->f != 1) {
+            header.attributes.emplace(attribute->name, fmt::format("{}", attribute->f));
         } else if (attribute->type == EXR_ATTR_CHROMATICITIES) {
             const exr_attr_chromaticities_t& c = *attribute->chromaticities;
             header.attributes.emplace(

@@ -6,6 +6,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfStringAttribute.h>
+#include <fmt/format.h>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/input_file.hpp"
@@ -74,6 +75,8 @@ void set_place(const Imf::Header& header, Image& image) {
 }
 
 void add_texts(const Imf::Header& header, bool has_parts, Image& image) {
+    if (const float aspect = header.pixelAspectRatio(); aspect != 1)
+        image.attributes[kPixelAspect] = fmt::format("{}", aspect);
     for (auto a = header.begin(); a != header.end(); ++a) {
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
         if (text && !is_of_format(a.name(), has_parts))

@@ -102,6 +102,7 @@ class PngEncoder {
             options.keep_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
         check(spng_set_ihdr(context_.get(), &header));
         put_meaning(options.view_transform);
+        if (options.pixel_aspect != 1) put_aspect(options.pixel_aspect);
         put_stamp();
         check(spng_encode_image(context_.get(), nullptr, 0, SPNG_FMT_PNG,
                                 SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
@@ -144,6 +145,16 @@ class PngEncoder {
             check(spng_set_gama(context_.get(), 1.0));
         else
             check(spng_set_srgb(context_.get(), kPerceptual));
+    }
+
+    /// A pixel of width 1 is 1 / `aspect` high: as many pixels to a unit as these are to each
+    /// other.
+    void put_aspect(double aspect) {
+        constexpr double kPixels = 1e6;
+        spng_phys pixels{};
+        pixels.ppu_x = uint32_t(kPixels);
+        pixels.ppu_y = uint32_t(std::lround(kPixels * aspect));
+        check(spng_set_phys(context_.get(), &pixels));
     }
 
     /// The library passes on some kilobytes at a time.

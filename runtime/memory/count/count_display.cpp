@@ -112,7 +112,7 @@ class DisplayCounter {
 
     /// Counts the sums of paths' light.
     Buffer<float> count_mean(uint32_t rays) const {
-        if (!features_.global || scene_.render.samples == 1) return {};
+        if (!features_.global || all_samples(scene_.render) == 1) return {};
         return allocate_light_sums(device_, rays);
     }
 
@@ -179,7 +179,7 @@ class DisplayCounter {
         }
         SampleSums sums;
         std::array<ProbePoints, 3> of_axes;
-        if (scene_.render.samples > 1) {
+        if (all_samples(scene_.render) > 1) {
             for (ProbePoints& points : of_axes) points = allocate_points(device_, shown);
             sums = allocate_sample_sums(device_, shown, rays);
         }

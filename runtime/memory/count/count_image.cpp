@@ -133,7 +133,8 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     }
     if (features.medium_grid) memory.density = allocate_density(device, medium.size);
     memory.image = allocate_image(device, scene.render.size, scene.render.channels);
-    memory.mattes = allocate_mattes(device, scene.render.size, scene.render.channels);
+    memory.mattes = allocate_mattes(device, scene.render.size, scene.render.channels,
+                                    scene.render.all_samples > 0);
     if (is_adaptive(scene.render)) count_first_samples(device, scene, memory);
     return memory;
 }

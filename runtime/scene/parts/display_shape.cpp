@@ -21,7 +21,7 @@ bool always_looks_ahead(const Display&) {
 
 // Pyramid.
 
-void make_pyramid_square(glm::ivec2 size, Display& display) {
+void make_pyramid_square(glm::dvec2 size, Display& display) {
     display.half_angles.y = std::atan(std::tan(display.half_angles.x) * size.y / size.x);
 }
 
@@ -37,7 +37,7 @@ void measure_pyramid(const DisplayParameters& p, const DisplaySetting& setting,
     } else {
         display.square_pixels = true;
         display.half_angles.x = p.angle ? glm::radians(*p.angle / 2) : glm::radians(20.0);
-        make_pyramid_square(setting.image_size, display);
+        make_pyramid_square(setting.proportions, display);
     }
     set_depths(p, setting.world_end, refuse, display);
 }
@@ -92,7 +92,7 @@ constexpr DisplayShapeRow kPyramid = {.shape = DisplayShape::pyramid,
 
 // Box.
 
-void make_box_square(glm::ivec2 size, Display& display) {
+void make_box_square(glm::dvec2 size, Display& display) {
     glm::dvec2& half = display.half_size;
     if (display.keeps_height)
         half.x = half.y * size.x / size.y;

@@ -52,7 +52,7 @@ struct Display {
     double far = 0;   ///< metres, > near; ball: its radius
     glm::ivec3 voxels{0};        ///< u, v, k
     bool square_pixels = false;  ///< of a pyramid given by one angle, or a box by one side, for
-                                 ///< flat images: the other one follows the image's size
+                                 ///< flat images: the other one follows the image's proportions
     bool keeps_height = false;   ///< box with square pixels: its width is the one that follows
     VolumeLayout layout = VolumeLayout::rays;
     Visibility visibility = Visibility::observer;  ///< always `observer` for rays
@@ -78,8 +78,8 @@ std::span<const ValueRow<DisplayParameters>> display_rows();
 
 /// What a display's measures depend on besides its own.
 struct DisplaySetting {
-    double world_end;       ///< metres from the observer to the world's farthest corner
-    glm::ivec2 image_size;  ///< pixels
+    double world_end;        ///< metres from the observer to the world's farthest corner
+    glm::dvec2 proportions;  ///< of the sides of its image
 };
 
 /// How the sight rays of a display lead to its image.
@@ -128,8 +128,8 @@ struct DisplayShapeRow {
     std::optional<FlatSides> (*flat_sides)(const Display& display);
     /// Widens the image about its middle by a factor for u and one for v; null where it can't.
     void (*widen)(Display& display, glm::dvec2 scale) = nullptr;
-    /// Lets the measure that follows the image's size make its pixels square; null without one.
-    void (*make_square)(glm::ivec2 size, Display& display) = nullptr;
+    /// Gives the image these proportions by the measure that follows its size; null without one.
+    void (*make_square)(glm::dvec2 proportions, Display& display) = nullptr;
 };
 
 /// In the order of DisplayShape.

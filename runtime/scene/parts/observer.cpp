@@ -17,7 +17,7 @@ constexpr double kMaxLensRatio = 1000;
 
 std::span<const ValueRow<ObserverParameters>> observer_rows() {
     using O = ObserverParameters;
-    static constexpr std::array<ValueRow<O>, 9> rows = {
+    static constexpr std::array<ValueRow<O>, 10> rows = {
         {{"position", &O::position, kCoordinate},
          {"look_at", &O::look_at, kCoordinate},
          {"up", &O::up, kCoordinate},
@@ -25,6 +25,7 @@ std::span<const ValueRow<ObserverParameters>> observer_rows() {
          {"aperture", &O::aperture, kNotNegative},
          {"focus", &O::focus, kLength},
          {"blades", &O::blades, {0, 16}, false, false},
+         {"shutter", &O::shutter, {0, 100}, false, false},
          {"width", &O::width, kLength},
          {"height", &O::height, kLength}}};
     return rows;
@@ -36,6 +37,7 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
     refuse_both(p.up.has_value(), "up", p.turn.has_value(), "turn", refuse);
     observer.aperture = p.aperture;
     observer.blades = p.blades;
+    observer.shutter = p.shutter;
     if (p.blades == 1 || p.blades == 2)
         refuse("blades", "a lens has 3 to 16 blades, or 0 to be round");
     observer.focus = p.focus.value_or(p.look_at ? glm::distance(*p.look_at, p.position) : 0);
@@ -60,9 +62,9 @@ void place_observer(const ObserverParameters& p, const Refuse& refuse, Observer&
     observer.world_from_observer = {x / sine, glm::cross(z, x / sine), z};
 }
 
-void make_pixels_square(glm::ivec2 size, Display& display) {
+void make_pixels_square(glm::dvec2 proportions, Display& display) {
     const auto make_square = shape_row(display).make_square;
-    if (display.square_pixels && make_square) make_square(size, display);
+    if (display.square_pixels && make_square) make_square(proportions, display);
 }
 
 void project(const ObserverParameters& p, const DisplaySetting& setting, const Refuse& refuse,
@@ -82,7 +84,7 @@ void project(const ObserverParameters& p, const DisplaySetting& setting, const R
     display.square_pixels = true;
     display.keeps_height = p.height.has_value();
     display.half_size = glm::dvec2(p.height.value_or(p.width.value_or(0)) / 2);
-    make_pixels_square(setting.image_size, display);
+    make_pixels_square(setting.proportions, display);
 }
 
 }  // namespace voxelume

@@ -27,6 +27,7 @@ struct Observer {
     double aperture = 0;  ///< metres: diameter of the lens; 0: flat images are sharp everywhere
     double focus = 0;     ///< metres along Z_E to what the lens shows sharp
     int blades = 0;       ///< corners of the lens, from 3 on; 0: it is round
+    double shutter = 0;   ///< frames for which it is open, from a frame on; 0: that moment alone
     Projection projection = Projection::display;
     Display display;
     SourcePlace where;
@@ -45,6 +46,7 @@ struct ObserverParameters {
     double aperture = 0;                  ///< metres
     std::optional<double> focus;          ///< metres; otherwise the distance of `look_at`
     int blades = 0;                       ///< from 3 on; 0: round
+    double shutter = 0;                   ///< frames
     std::optional<double> width, height;  ///< metres that an orthographic image shows
     DisplayParameters display;
 
@@ -56,8 +58,8 @@ std::span<const ValueRow<ObserverParameters>> observer_rows();
 /// Sets where an observer stands and looks.
 void place_observer(const ObserverParameters& parameters, const Refuse& refuse, Observer& observer);
 
-/// Lets the measure of a display with square pixels that follows the image's size do so.
-void make_pixels_square(glm::ivec2 size, Display& display);
+/// Lets the measure of a display with square pixels that follows the image's proportions do so.
+void make_pixels_square(glm::dvec2 proportions, Display& display);
 
 /// Sets shape and measures of the display of an observer whose projection decides them.
 void project(const ObserverParameters& parameters, const DisplaySetting& setting,

@@ -82,8 +82,9 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"track", {"target", "keys", "interpolation"}});
     tables.push_back({"key", {"frame", "time", "value", "in", "out"}});
     tables.push_back({"render",
-                      {"size", "samples", "adaptive", "depth", "shadows", "shadow", "least_weight",
-                       "light", "bounces", "emitters", "filter", "filter_width", "transparent"}});
+                      {"size", "pixel_aspect", "samples", "adaptive", "depth", "shadows", "shadow",
+                       "least_weight", "light", "bounces", "emitters", "filter", "filter_width",
+                       "transparent"}});
     return tables;
 }
 

@@ -21,7 +21,7 @@ Footprint footprint_of(const Scene& scene, const GridFrame& world) {
     const DisplayShapeRow& shape = shape_row(observer.display);
     const glm::dvec2 pixel =
         2.0 * shape.half_extent(observer.display) / glm::dvec2(frame_size(scene.render));
-    const double samples = scene.render.samples, all = std::sqrt(samples);
+    const double samples = all_samples(scene.render), all = std::sqrt(samples);
     const ReconstructionFilter& filter = scene.render.filter;
     // Rays through a lens, and samples outside of their pixel, don't tell which pixel they belong
     // to.

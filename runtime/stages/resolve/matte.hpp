@@ -21,37 +21,38 @@ struct MatteArrays {
     Buffer<float> shares;      ///< of the pixel
 };
 
-/// The arrays of the mattes that the channels have.
+/// The arrays of the mattes that the channels have. Where `adds_samples`, they have more ranks than
+/// are named.
 std::vector<MatteArrays> allocate_mattes(const Device& device, const glm::ivec2& size,
-                                         const ImageChannels& channels);
+                                         const ImageChannels& channels, bool adds_samples = false);
 
 /// Kernels of matte.cl and the mattes they fill, batch by batch. Nothing is compiled or allocated
 /// where the channels have no matte.
 class MatteStage {
   public:
+    /// Makes the mattes in these arrays. With `adds_samples` the camera's samples are added to
+    /// those that they hold.
     MatteStage(const Device& device, const Features& features, const Camera& camera,
-               const Scene& scene);
+               const Scene& scene, std::vector<MatteArrays> arrays, bool adds_samples);
 
     /// Ranks what the pixels of `tiles` tiles from `first_tile` on show.
     void pixels(const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
-    /// Adds the planes and their attributes to an image, after every tile was ranked.
-    void add_to(Image& image) const;
-
   private:
-    struct Matte {
-        std::string layer;               ///< of channels: "CryptoObject"
-        uint32_t shift = 0, mask = 0;    ///< of its field of packed attributes
-        std::vector<std::string> names;  ///< by number
+    struct Field {
+        uint32_t shift, mask;
     };
 
-    static std::vector<Matte> mattes_of(const Scene& scene);
+    static std::vector<Field> fields_of(const ImageChannels& channels);
 
     Camera camera_;
-    std::vector<Matte> mattes_;
+    std::vector<Field> fields_;  ///< of packed attributes, of each matte
     std::vector<MatteArrays> arrays_;
     std::optional<Program> program_;
     std::optional<Kernel> rank_;
 };
+
+/// Adds the planes of mattes and their attributes to an image, after every tile was ranked.
+void add_mattes(const std::vector<MatteArrays>& arrays, const Scene& scene, Image& image);
 
 }  // namespace voxelume

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "runtime/base/error.hpp"
@@ -32,10 +32,6 @@ std::vector<const char*> id_plane_names(const ImageChannels& channels) {
     return names;
 }
 
-size_t pixel_count(const Camera& camera) {
-    return size_t(camera.width) * size_t(camera.height);
-}
-
 /// Values below normal ones have lost bits of their sum.
 void check_exact(const Image& earlier, const char* name) {
     const auto plane = earlier.planes.find(name);
@@ -51,7 +47,7 @@ void check_exact(const Image& earlier, const char* name) {
 }  // namespace
 
 Defines resolve_defines(const Device& device, const Features& features,
-                        const ImageChannels& channels, bool has_earlier) {
+                        const ImageChannels& channels, bool adds_samples) {
     Defines defines = features.defines(device);
     defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
                                    {"VXL_SHOWS_VARIANCE", channels.variance},
@@ -61,35 +57,24 @@ Defines resolve_defines(const Device& device, const Features& features,
                                    {"VXL_SHOWS_NORMAL", channels.normal},
                                    {"VXL_SHOWS_OBJECT", channels.object},
                                    {"VXL_SHOWS_MATERIAL", channels.material},
-                                   {"VXL_EARLIER", has_earlier}});
+                                   {"VXL_EARLIER", adds_samples}});
     return defines;
 }
 
 ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
                            const ImageChannels& channels) {
     const size_t pixels = size_t(size.x) * size_t(size.y);
-    return {{device, "image", plane_names(channels).size() * pixels, kSmallerImage},
-            {device, "object numbers", id_plane_names(channels).size() * pixels, kSmallerImage},
-            {device, "not finite", 1}};
+    ImageArrays arrays{
+        {device, "image", plane_names(channels).size() * pixels, kSmallerImage},
+        {device, "object numbers", id_plane_names(channels).size() * pixels, kSmallerImage},
+        {device, "not finite", 1}};
+    arrays.not_finite.fill(0);
+    return arrays;
 }
 
-ResolveStage::ResolveStage(const Device& device, const Features& features, const Camera& camera,
-                           const ImageChannels& channels, const Image* earlier)
-    : camera_(camera),
-      names_(plane_names(channels)),
-      id_names_(id_plane_names(channels)),
-      image_(allocate_image(device, {camera.width, camera.height}, channels)),
-      program_(device, "resolve.cl",
-               resolve_defines(device, features, channels, earlier != nullptr)),
-      pixels_(program_.kernel("resolve_pixels")) {
-    image_.not_finite.fill(0);
-    if (earlier) begin_with(*earlier);
-}
-
-void ResolveStage::begin_with(const Image& earlier) {
-    const size_t pixels = pixel_count(camera_);
-    const auto write = [pixels](const auto& planes, std::span<const char* const> names,
-                                auto& buffer) {
+void begin_with(const Image& earlier, const ImageChannels& channels, const ImageArrays& arrays) {
+    const auto write = [](const auto& planes, const std::vector<const char*>& names, auto buffer) {
+        const size_t pixels = names.empty() ? 0 : buffer.size() / names.size();
         for (size_t i = 0; i < names.size(); ++i) {
             const auto plane = planes.find(names[i]);
             if (plane == planes.end() || plane->second.size() != pixels)
@@ -100,33 +85,42 @@ void ResolveStage::begin_with(const Image& earlier) {
         }
     };
     for (const char* name : {"R", "G", "B", "A"}) check_exact(earlier, name);
-    write(earlier.planes, names_, image_.planes);
-    write(earlier.id_planes, id_names_, image_.ids);
+    write(earlier.planes, plane_names(channels), arrays.planes);
+    write(earlier.id_planes, id_plane_names(channels), arrays.ids);
 }
+
+Image image_in(const ImageArrays& arrays, const glm::ivec2& size, const ImageChannels& channels) {
+    Image image;
+    image.width = size.x;
+    image.height = size.y;
+    const size_t pixels = size_t(size.x) * size_t(size.y);
+    const std::vector<const char*> names = plane_names(channels), ids = id_plane_names(channels);
+    const std::shared_ptr<float> planes = arrays.planes.contents();
+    for (size_t i = 0; i < names.size(); ++i)
+        image.planes[names[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),
+                                  pixels};
+    if (ids.empty()) return image;
+    const std::shared_ptr<uint32_t> numbers = arrays.ids.contents();
+    for (size_t i = 0; i < ids.size(); ++i)
+        image.id_planes[ids[i]] = {std::shared_ptr<uint32_t>(numbers, numbers.get() + i * pixels),
+                                   pixels};
+    return image;
+}
+
+ResolveStage::ResolveStage(const Device& device, const Features& features, const Camera& camera,
+                           const ImageChannels& channels, ImageArrays arrays, bool adds_samples)
+    : camera_(camera),
+      channels_(channels),
+      arrays_(std::move(arrays)),
+      program_(device, "resolve.cl", resolve_defines(device, features, channels, adds_samples)),
+      pixels_(program_.kernel("resolve_pixels")) {}
 
 void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,
                           uint32_t tiles) {
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
     pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch,
-                           first_tile, tiles, image_.planes, image_.ids, image_.not_finite);
-}
-
-Image ResolveStage::image() const {
-    Image image;
-    image.width = camera_.width;
-    image.height = camera_.height;
-    const size_t pixels = pixel_count(camera_);
-    const std::shared_ptr<float> planes = image_.planes.contents();
-    for (size_t i = 0; i < names_.size(); ++i)
-        image.planes[names_[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),
-                                   pixels};
-    if (id_names_.empty()) return image;
-    const std::shared_ptr<uint32_t> ids = image_.ids.contents();
-    for (size_t i = 0; i < id_names_.size(); ++i)
-        image.id_planes[id_names_[i]] = {std::shared_ptr<uint32_t>(ids, ids.get() + i * pixels),
-                                         pixels};
-    return image;
+                           first_tile, tiles, arrays_.planes, arrays_.ids, arrays_.not_finite);
 }
 
 }  // namespace voxelume

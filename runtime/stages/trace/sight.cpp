@@ -64,8 +64,8 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
         camera.lens_slope = float(observer.aperture / 2 / observer.focus);
         camera.blades = observer.blades;
     }
-    const int earlier = scene.render.earlier ? scene.render.first_sample : 0;
-    camera.sample_weight = 1.0f / float(earlier + scene.render.samples);
+    camera.sample_weight = 1.0f / float(scene.render.samples);
+    camera.is_last = 1;
     return camera;
 }
 

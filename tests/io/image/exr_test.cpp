@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/image/exr.hpp"
 
+#include <ImfMultiPartInputFile.h>
+#include <ImfStringAttribute.h>
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -215,6 +217,24 @@ TEST_F(ExrTest, AHeaderThatDeclaresABillionPixelsTakesNoMemory) {
     const Error error = error_of([&] { read_exr(path()); });
     EXPECT_EQ(error.exit_code(), 4);
     EXPECT_THAT(error.what(), HasSubstr("268435456 x 268435456"));
+}
+
+TEST_F(ExrTest, PixelsThatAreNotSquareAreDeclaredInEveryPart) {
+    for (const ExrStorage& storage : {ExrStorage(), ExrStorage(ColorDepth::float32, true)}) {
+        write_exr(path(), random_image(), storage, {{kPixelAspect, "1.5"}});
+        const Imf::MultiPartInputFile file(path().c_str());
+        for (int part = 0; part < file.parts(); ++part) {
+            EXPECT_EQ(file.header(part).pixelAspectRatio(), 1.5f);
+            EXPECT_FALSE(file.header(part).findTypedAttribute<Imf::StringAttribute>(kPixelAspect));
+        }
+        const Image image = read_exr(path());
+        EXPECT_EQ(image.attributes.at(kPixelAspect), "1.5");
+        EXPECT_EQ(read_exr_header(path()).attributes.at(kPixelAspect), "1.5");
+        write_exr(folder / "b.exr", image, storage);
+        EXPECT_TRUE(bytes_of(folder / "b.exr") == bytes_of(path()));
+    }
+    write_exr(path(), random_image());
+    EXPECT_FALSE(read_exr(path()).attributes.contains(kPixelAspect));
 }
 
 }  // namespace voxelume

@@ -12,6 +12,7 @@
 namespace voxelume {
 
 using testing::HasSubstr;
+using testing::Not;
 using Pixel = std::array<uint8_t, 4>;
 
 namespace {
@@ -123,6 +124,13 @@ TEST_F(PngTest, TheSameImageGivesTheSameBytesAndDeclaresSrgb) {
     write_png(folder / "b.png", small_image());
     EXPECT_EQ(bytes_of(path()), bytes_of(folder / "b.png"));
     EXPECT_THAT(bytes_of(path()), HasSubstr("sRGB"));
+}
+
+TEST_F(PngTest, PixelsThatAreNotSquareAreDeclared) {
+    EXPECT_THAT(png_bytes(small_image()), Not(HasSubstr("pHYs")));
+    // 1e6 pixels to a unit across, twice as many along it, and no unit.
+    EXPECT_THAT(png_bytes(small_image(), {.pixel_aspect = 2}),
+                HasSubstr(std::string("pHYs\x00\x0f\x42\x40\x00\x1e\x84\x80\0", 13)));
 }
 
 TEST_F(PngTest, AnImageWithoutColourIsRefused) {
