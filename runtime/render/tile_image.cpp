@@ -210,7 +210,7 @@ double Renderer::add_moments(const Scene& scene, const Tiles& tiles, Sums& sums,
     Scene next = moments_->scene(first);
     for (int sample = first, after = first; sample < end; sample = after) {
         if (sample > first && tiles.taken.empty()) break;  // other devices have them all
-        const Scene now = std::move(next);
+        const Scene now = std::exchange(next, Scene());
         for (after = sample + 1; after < end; ++after) {
             next = moments_->scene(after);
             if (next != now) break;

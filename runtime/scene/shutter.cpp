@@ -59,7 +59,7 @@ std::vector<double> moments_of(const Scene& scene, double frame) {
 }
 
 std::vector<double> some_moments_of(const Scene& scene, double frame) {
-    const std::vector<double> all = moments_of(scene, frame);
+    std::vector<double> all = moments_of(scene, frame);
     if (all.size() < 3) return all;
     return {all.front(), all[all.size() / 2], all.back()};
 }

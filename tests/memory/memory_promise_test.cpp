@@ -71,17 +71,6 @@ void expect_frames_kept(const std::string& name, Scene scene, const std::vector<
     expect_kept(name, promise, device, kMaxOfFrames);
 }
 
-std::vector<std::string> shipped_scenes() {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
-        const std::filesystem::path& file = entry.path();
-        if (file.extension() == ".json" && file.stem().extension() != ".schema")
-            names.push_back(file.stem());
-    }
-    std::ranges::sort(names);
-    return names;
-}
-
 class ShippedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedScene, TakesWhatIsPromised) {

@@ -19,17 +19,6 @@ namespace {
 
 constexpr double kMaxVoxels = 128;  // along an axis of the world
 
-std::vector<std::string> scene_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
-        const std::filesystem::path& file = entry.path();
-        if (file.extension() == ".json" && file.stem().extension() != ".schema")
-            names.push_back(file.stem());
-    }
-    std::ranges::sort(names);
-    return names;
-}
-
 class ShippedScenes : public FileTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
@@ -58,12 +47,12 @@ TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
 }
 
 TEST(ShippedScenesList, IsThatOfTheFolder) {
-    const std::vector<std::string> names = scene_names();
+    const std::vector<std::string> names = shipped_scenes();
     EXPECT_GE(names.size(), 6u);
     EXPECT_TRUE(std::ranges::count(names, "whitted"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScenes, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScenes, testing::ValuesIn(shipped_scenes()),
                          [](const auto& name) {
                              std::string word = name.param;
                              std::ranges::replace_if(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene_file/assets.hpp"
@@ -13,6 +14,18 @@
 namespace voxelume {
 
 inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+
+/// The names of all scenes there.
+inline std::vector<std::string> shipped_scenes() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
+        const std::filesystem::path& file = entry.path();
+        if (file.extension() == ".json" && file.stem().extension() != ".schema")
+            names.push_back(file.stem());
+    }
+    std::ranges::sort(names);
+    return names;
+}
 
 /// Enlarges the world's voxels until none of its axes has more than `maximum`, and the models' own
 /// voxels with them.

@@ -58,6 +58,7 @@ void add_mattes(const std::vector<MatteArrays>& arrays, const Scene& scene, Imag
     auto matte = arrays.begin();
     const auto add = [&](const char* layer, const auto& named) {
         std::vector<std::string> names;
+        names.reserve(named.size());
         for (const auto& part : named) names.push_back(part.name);
         std::vector<uint32_t> numbers = matte->numbers.read();
         std::vector<float> shares = matte->shares.read();

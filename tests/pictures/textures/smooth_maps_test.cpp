@@ -8,15 +8,10 @@
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 
-#include "runtime/io/image/png.hpp"
-#include "tests/pictures/textures/map_pictures.hpp"
-#include "tests/support/file_fixture.hpp"
-#include "tests/support/writers/gltf_writer.hpp"
+#include "tests/pictures/textures/mapped_sheet.hpp"
 
 namespace voxelume {
 namespace {
-
-using Json = nlohmann::json;
 
 oracle::Picture waves() {
     oracle::Picture picture{24, 16, {}};
@@ -28,8 +23,10 @@ oracle::Picture waves() {
     return picture;
 }
 
-class SmoothMaps : public FileTest {
+class SmoothMaps : public MappedSheetTest {
   protected:
+    SmoothMaps() : MappedSheetTest("smooth") {}
+
     /// A slab from -1 to `right` across, from -1 to 1 up, and from z = 0 to 0.5 with texture 0.
     void write(const std::string& name, const std::vector<oracle::Picture>& pictures,
                const Json& material, float right = 1) const {
@@ -47,54 +44,11 @@ class SmoothMaps : public FileTest {
             std::vector<uint16_t>{0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 4, 5, 0, 5, 1,
                                   1, 5, 6, 1, 6, 2, 2, 6, 7, 2, 7, 3, 3, 7, 4, 3, 4, 0},
             "SCALAR", 1);
-        for (size_t k = 0; k < pictures.size(); ++k) {
-            const bool clamps = pictures[k].beyond_u == oracle::Beyond::clamp;
-            const std::string png = GltfWriter::base64(png_bytes(image_of(pictures[k]), {}));
-            writer.json["images"].push_back({{"uri", "data:image/png;base64," + png}});
-            writer.json["textures"].push_back({{"source", k}, {"sampler", clamps ? 1 : 0}});
-        }
-        writer.json["samplers"] = {{{"wrapS", 10497}, {"wrapT", 10497}},
-                                   {{"wrapS", 33071}, {"wrapT", 33071}}};
-        writer.json["materials"] = nlohmann::json::array({material});
+        add_maps(writer, pictures, material);
         writer.show(p, t, i);
         put_bytes(folder / name, writer.gltf());
     }
-
-    Scene scene_of(const std::string& mesh, const Json& material, const std::string& light,
-                   const Json& changes = {}) const {
-        Json scene = {
-            {"voxelume", 1},
-            {"world",
-             {{"voxel_size", 0.1},
-              {"ambient", {0, 0, 0}},
-              {"bounds", {{"min", {-2, -2, -2}}, {"max", {2, 2, 2}}}}}},
-            {"materials", {{"default", material}, {"chalk", {{"color", {0.8, 0.8, 0.8}}}}}},
-            {"models",
-             {{"slab", {{"mesh", mesh}, {"surface", "smooth"}, {"voxel_size", 0.1}}},
-              {"floor", {{"shape", "box"}, {"size", {3, 0.2, 3}}, {"surface", "exact"}}}}},
-            {"objects", {{{"model", "slab"}, {"turn", {0, 20, 8}}}}},
-            {"lights", Json::array()},
-            {"observer",
-             {{"position", {0.3, 0.4, -2.4}},
-              {"look_at", {0, 0, 0}},
-              {"display", {{"shape", "pyramid"}, {"angles", {44, 40}}}}}},
-            {"render", {{"size", {48, 40}}, {"samples", 2}, {"light", light}, {"depth", 1}}}};
-        scene.merge_patch(changes);
-        return parse_scene(scene.dump(), folder / "scene.json", {});
-    }
 };
-
-/// The place on the slab's front, from 0 to 1, that a part of a pixel sees.
-glm::dvec2 place_on_front(const Scene& scene, double column, double row) {
-    const Observer& o = scene.observer;
-    const glm::dvec2 part = 2.0 * glm::dvec2(column, row) / glm::dvec2(scene.render.size) - 1.0;
-    const glm::dmat4 inverse = glm::inverse(scene.objects[0].world_from_object);
-    const glm::dvec3 across = o.world_from_observer * glm::dvec3(-part * half_extent(o.display), 1);
-    const glm::dvec3 from(inverse * glm::dvec4(o.position, 1)),
-        way(inverse * glm::dvec4(across, 0));
-    const glm::dvec3 at = from - way * (from.z / way.z);
-    return {(at.x + 1) / 2, (1 - at.y) / 2};
-}
 
 /// True if a place is on the front, and not where the edges are rounded.
 bool is_flat(const glm::dvec2& place) {
@@ -108,13 +62,13 @@ TEST_F(SmoothMaps, OfEmissionAreTheMeanOverAPixel) {
     const glm::dvec3 factor(0.5, 0.75, 1);
     for (const char* light : {"local", "global"})
         for (const char* placement : {"world", "instance"}) {
-            const Scene scene =
-                scene_of("glow.gltf", {{"color", {0, 0, 0}}, {"emission", {0.5, 0.75, 1}}}, light,
-                         {{"objects",
-                           {{{"model", "slab"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
+            const Scene scene = scene_of(
+                "glow.gltf", {{"color", {0, 0, 0}}, {"emission", {0.5, 0.75, 1}}}, light,
+                {{"objects",
+                  {{{"model", "sheet"}, {"turn", {0, 20, 8}}, {"placement", placement}}}}});
             const Image image = image_of_scene(scene);
             const auto value = [&](double column, double row) -> std::optional<glm::dvec3> {
-                const glm::dvec2 at = place_on_front(scene, column, row);
+                const glm::dvec2 at = place_seen(scene, column, row);
                 if (!is_flat(at)) return std::nullopt;
                 return factor * oracle::bilinear(picture, at);
             };
@@ -139,7 +93,7 @@ TEST_F(SmoothMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
             material["roughness"] = 0.8 * (is_right ? 200 : 60) / 255;
             const Image expected = image_of_scene(scene_of("plain.gltf", material, light, lit));
             const auto counts = [&](double column, double row) {
-                const glm::dvec2 at = place_on_front(scene, column, row);
+                const glm::dvec2 at = place_seen(scene, column, row);
                 return is_flat(at) && (is_right ? at.x >= 0.6 : at.x <= 0.4);
             };
             EXPECT_LT(relative_rms(image, expected, 300u, counts),
@@ -158,9 +112,9 @@ TEST_F(SmoothMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
         for (const char* light : {"local", "global"}) {
             const Json room = {
                 {"world", {{"voxel_size", 0.05}}},  // a slab loses its edges, half a voxel of them
-                {"models", {{"slab", {{"voxel_size", 0.05}}}}},
+                {"models", {{"sheet", {{"voxel_size", 0.05}}}}},
                 {"objects",
-                 {{{"model", "slab"},
+                 {{{"model", "sheet"},
                    {"position", {0.213, 1.017, 0.011}},
                    {"turn", {0, 90, 0}},
                    {"spots", 200},

@@ -6,15 +6,10 @@
 
 #include <cmath>
 
-#include "runtime/io/image/png.hpp"
-#include "tests/pictures/textures/map_pictures.hpp"
-#include "tests/support/file_fixture.hpp"
-#include "tests/support/writers/gltf_writer.hpp"
+#include "tests/pictures/textures/mapped_sheet.hpp"
 
 namespace voxelume {
 namespace {
-
-using Json = nlohmann::json;
 
 oracle::Picture stripes() {
     oracle::Picture picture{48, 32, {}};
@@ -26,12 +21,10 @@ oracle::Picture stripes() {
     return picture;
 }
 
-std::string data_uri(const oracle::Picture& picture) {
-    return "data:image/png;base64," + GltfWriter::base64(png_bytes(image_of(picture), {}));
-}
-
-class TextureMaps : public FileTest {
+class TextureMaps : public MappedSheetTest {
   protected:
+    TextureMaps() : MappedSheetTest("exact") {}
+
     /// A sheet from -1 to `right` across and from -1 to 1 up, at z = 0, with texture number 0 for
     /// base colours and number 1 for maps.
     void write(const std::string& name, const std::vector<oracle::Picture>& pictures,
@@ -42,54 +35,11 @@ class TextureMaps : public FileTest {
             std::vector<float>{-1, -1, 0, -1, 1, 0, right, 1, 0, right, -1, 0}, "VEC3", 3);
         const int t = writer.accessor(std::vector<float>{0, 1, 0, 0, u, 0, u, 1}, "VEC2", 2);
         const int i = writer.accessor(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", 1);
-        for (size_t k = 0; k < pictures.size(); ++k) {
-            writer.json["images"].push_back({{"uri", data_uri(pictures[k])}});
-            const bool clamps = pictures[k].beyond_u == oracle::Beyond::clamp;
-            writer.json["textures"].push_back({{"source", k}, {"sampler", clamps ? 1 : 0}});
-        }
-        writer.json["samplers"] = {{{"wrapS", 10497}, {"wrapT", 10497}},
-                                   {{"wrapS", 33071}, {"wrapT", 33071}}};
-        writer.json["materials"] = nlohmann::json::array({material});
+        add_maps(writer, pictures, material);
         writer.show(p, t, i);
         put_bytes(folder / name, writer.gltf());
     }
-
-    Scene scene_of(const std::string& mesh, const Json& material, const std::string& light,
-                   const Json& changes = {}) const {
-        Json scene = {
-            {"voxelume", 1},
-            {"world",
-             {{"voxel_size", 0.1},
-              {"ambient", {0, 0, 0}},
-              {"bounds", {{"min", {-2, -2, -2}}, {"max", {2, 2, 2}}}}}},
-            {"materials", {{"default", material}, {"chalk", {{"color", {0.8, 0.8, 0.8}}}}}},
-            {"models",
-             {{"sheet", {{"mesh", mesh}, {"surface", "exact"}, {"voxel_size", 0.1}}},
-              {"floor", {{"shape", "box"}, {"size", {3, 0.2, 3}}, {"surface", "exact"}}}}},
-            {"objects", {{{"model", "sheet"}, {"turn", {0, 20, 8}}}}},
-            {"lights", Json::array()},
-            {"observer",
-             {{"position", {0.3, 0.4, -2.4}},
-              {"look_at", {0, 0, 0}},
-              {"display", {{"shape", "pyramid"}, {"angles", {44, 40}}}}}},
-            {"render", {{"size", {48, 40}}, {"samples", 2}, {"light", light}, {"depth", 1}}}};
-        scene.merge_patch(changes);
-        return parse_scene(scene.dump(), folder / "scene.json", {});
-    }
 };
-
-/// The place on the sheet, from 0 to 1, that a part of a pixel sees; outside of these beside it.
-glm::dvec2 place_seen(const Scene& scene, double column, double row) {
-    const Observer& o = scene.observer;
-    const glm::dvec2 half = half_extent(o.display);
-    const glm::dvec2 part = 2.0 * glm::dvec2(column, row) / glm::dvec2(scene.render.size) - 1.0;
-    const glm::dmat4 inverse = glm::inverse(scene.objects[0].world_from_object);
-    const glm::dvec3 from(inverse * glm::dvec4(o.position, 1));
-    const glm::dvec3 way(inverse *
-                         glm::dvec4(o.world_from_observer * glm::dvec3(-part * half, 1), 0));
-    const glm::dvec3 at = from - way * (from.z / way.z);
-    return {(at.x + 1) / 2, (1 - at.y) / 2};
-}
 
 bool is_on(const glm::dvec2& place) {
     return place.x > 0 && place.x < 1 && place.y > 0 && place.y < 1;
