@@ -153,7 +153,8 @@ TEST(ShutterChannels, DirectLightIsThatOfEachMoment) {
                        {"direction", {0, -1, 1}},
                        {"radius", 1},
                        {"intensity", 20}}};
-    json["animation"]["tracks"] = {track("lights.key.intensity", 0, 50, kFrame, kFrame + 1)};
+    json["animation"]["tracks"] =
+        Json::array({track("lights.key.intensity", 0, 50, kFrame, kFrame + 1)});
     Scene scene = scene_of(json);
     scene.render.channels.direct = true;
     const Image image = *rendered(scene).image;

@@ -141,7 +141,8 @@ TEST(Shutter, MomentsThatLookAlikeHaveTheBitsOfOne) {
         json["world"]["sky"] = {{"kind", "gradient"}, {"zenith", {0.2, 0.3, 0.5}}};
         json["materials"]["blue"]["reflection"] = 0.3;
         json["materials"]["unused"] = {{"color", {0, 0, 0}}};
-        json["animation"]["tracks"] = {track("materials.unused.color", {0, 0, 0}, {1, 1, 1})};
+        json["animation"]["tracks"] =
+            Json::array({track("materials.unused.color", {0, 0, 0}, {1, 1, 1})});
         Scene open = scene_of(json);
         json["observer"].erase("shutter");
         Scene closed = scene_of(json);
