@@ -45,9 +45,9 @@ static inline bool was_met_before(const PixelSamples* s, uint sample, uint numbe
     return false;
 }
 
-/// The numbers that cover most of a pixel, and their shares; ties go to the lower number.
 #define VXL_RANKS (VXL_EARLIER ? VXL_MATTE_HELD : VXL_MATTE_RANKS)
 
+/// The numbers that cover most of a pixel, and their shares; ties go to the lower number.
 typedef struct {
     uint number[VXL_RANKS];
     float share[VXL_RANKS];

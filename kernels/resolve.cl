@@ -276,6 +276,7 @@ kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origi
     }
     if (VXL_SHOWS_COLOR) store_pixels(s.covered * sample_weight, &at, image + 3 * pixels);
     const lane_int hit = LANE_MASK(s.shown != VXL_NO_VOXEL);
+    // What pixels show that is known stays, and so does nothing where there still is nothing.
     if (VXL_EARLIER && camera.earlier_samples > 0 && !lanes_any(hit & ~at.known)) return;
     const lane_uint ray = s.shown & LANES_AS_UINT(hit);
     store_geometry(&camera, shape.edge, world_origin, &batch, ray, hit, &at, pixels, image);

@@ -222,8 +222,7 @@ void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetSt
     std::vector<bool> potentially_visible = unread;
     size_t moments = 0;
     for (const int frame : frames) moments += moments_of(scene, frame).size();
-    if (has_moments(scene) && moments > kMaxSeenMoments)
-        potentially_visible.assign(scene.objects.size(), true);
+    if (has_moments(scene) && moments > kMaxSeenMoments) return;
     std::optional<Scene> before;
     for (const int frame : frames)
         for (const double moment : moments_of(scene, frame)) {

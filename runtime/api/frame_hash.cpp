@@ -135,10 +135,10 @@ std::string FrameHashes::hash(int frame, bool is_of_volume) {
         key.add_text(entry->second);
     };
     const FileHashes hashes{adder(read_mesh_hash), adder(read_voxels_hash), add_given};
-    add_files(scene_at(scene, frame), hashes);
-    if (!is_of_volume && files_change(scene))
-        for (const double moment : moments_of(scene, frame))
-            add_files(scene_at(scene, moment), hashes);
+    const bool shows_moments = !is_of_volume && files_change(scene);
+    for (const double moment :
+         shows_moments ? moments_of(scene, frame) : std::vector{double(frame)})
+        add_files(scene_at(scene, moment), hashes);
     const std::array<std::string_view, 1> parts = {key.bytes()};
     return cache_key(parts);
 }

@@ -2,7 +2,6 @@
 // Frames rendered for callers, to memory and to files.
 #include "runtime/voxelume/render.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <mutex>
 

@@ -253,6 +253,27 @@ TEST(Culling, OfSeveralFramesIsThatOfAnyOfThem) {
     EXPECT_EQ(visible_names_in(glossy, {1, 2}), "seen left right behind beyond ");
 }
 
+/// The observer turns while a shutter is open, and back.
+TEST(Culling, OfMomentsIsThatOfAnyOfThemUnlessTheyAreVeryMany) {
+    Scene scene = scene_of("", R"({"target": "observer.look_at", "interpolation": "step",
+"keys": [{"frame": 1, "value": [0, 0.1, 0]}, {"frame": 1.5, "value": [0, 0.1, -4]},
+         {"frame": 2, "value": [0, 0.1, 0]}]})");
+    const auto visible_with = [&](double shutter, int samples, std::vector<int> frames) {
+        scene.observer.shutter = shutter;
+        scene.render.samples = samples;
+        Scene found = scene;
+        AssetStore meshes;
+        find_potentially_visible(found, frames, meshes);
+        return std::ranges::count_if(found.objects, &Object::potentially_visible);
+    };
+    EXPECT_EQ(visible_with(0, 4, {1}), 1);
+    EXPECT_EQ(visible_with(0.25, 4, {1}), 1);
+    EXPECT_EQ(visible_with(0.75, 4, {1}), 2);
+    const std::vector<int> many(17, 1);  // 17 times 4,096 are above 65,536
+    EXPECT_EQ(visible_with(0.75, 4096, {1, 1, 1}), 2);
+    EXPECT_EQ(visible_with(0.75, 4096, many), std::ssize(scene.objects));
+}
+
 TEST(Culling, StaysWithObjectsThatTheirTracksReadAnew) {
     Scene scene = scene_of("", R"({"target": "objects.left.material", "interpolation": "step",
 "keys": [{"frame": 1, "value": "red"}, {"frame": 2, "value": "special"}]})");

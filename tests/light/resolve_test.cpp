@@ -33,11 +33,12 @@ struct Batch {
         batch.hit_attributes =
             Buffer<uint32_t>(device_, "hit attributes", std::span<const uint32_t>(hit_attributes));
         batch.radiance = Buffer<float>(device_, "radiance", std::span<const float>(radiance));
-        ResolveStage stage(device_, {}, camera_of(scene, pyramid.frame));
-        stage.pixels(pyramid, batch, 0, 1);
-        const Image image = stage.image();
-        not_finite = stage.not_finite();
-        return image;
+        const Camera camera = camera_of(scene, pyramid.frame);
+        const glm::ivec2 size(camera.width, camera.height);
+        const ImageArrays arrays = allocate_image(device_, size, {});
+        ResolveStage(device_, {}, camera, {}, arrays, false).pixels(pyramid, batch, 0, 1);
+        not_finite = arrays.not_finite.read_one(0);
+        return image_in(arrays, size, {});
     }
 
     Scene scene;

@@ -150,10 +150,11 @@ class PngEncoder {
     /// A pixel of width 1 is 1 / `aspect` high: as many pixels to a unit as these are to each
     /// other.
     void put_aspect(double aspect) {
-        constexpr double kPixels = 1e6;
+        constexpr double kPixels = 1e6, kMaxAspect = 1e3;  // OpenEXR's are up to 1e6
+        const double across = kPixels / std::max(aspect / kMaxAspect, 1.0);
         spng_phys pixels{};
-        pixels.ppu_x = uint32_t(kPixels);
-        pixels.ppu_y = uint32_t(std::lround(kPixels * aspect));
+        pixels.ppu_x = uint32_t(std::max(std::lround(across), 1L));
+        pixels.ppu_y = uint32_t(std::max(std::lround(across * aspect), 1L));
         check(spng_set_phys(context_.get(), &pixels));
     }
 

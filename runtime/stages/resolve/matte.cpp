@@ -60,12 +60,11 @@ void add_mattes(const std::vector<MatteArrays>& arrays, const Scene& scene, Imag
         std::vector<std::string> names;
         names.reserve(named.size());
         for (const auto& part : named) names.push_back(part.name);
-        std::vector<uint32_t> numbers = matte->numbers.read();
-        std::vector<float> shares = matte->shares.read();
         const size_t values = size_t(image.width) * size_t(image.height) * VXL_MATTE_RANKS;
-        numbers.resize(values), shares.resize(values);
-        add_cryptomatte(layer, names, {std::move(numbers), std::move(shares), VXL_MATTE_RANKS},
-                        image);
+        add_cryptomatte(
+            layer, names,
+            {matte->numbers.read(0, values), matte->shares.read(0, values), VXL_MATTE_RANKS},
+            image);
         ++matte;
     };
     if (scene.render.channels.object_matte) add("CryptoObject", scene.objects);

@@ -72,8 +72,8 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
     return arrays;
 }
 
-void begin_with(const Image& earlier, const ImageChannels& channels, const ImageArrays& arrays) {
-    const auto write = [](const auto& planes, const std::vector<const char*>& names, auto buffer) {
+void begin_with(const Image& earlier, const ImageChannels& channels, ImageArrays& arrays) {
+    const auto write = [](const auto& planes, const std::vector<const char*>& names, auto& buffer) {
         const size_t pixels = names.empty() ? 0 : buffer.size() / names.size();
         for (size_t i = 0; i < names.size(); ++i) {
             const auto plane = planes.find(names[i]);
@@ -110,7 +110,6 @@ Image image_in(const ImageArrays& arrays, const glm::ivec2& size, const ImageCha
 ResolveStage::ResolveStage(const Device& device, const Features& features, const Camera& camera,
                            const ImageChannels& channels, ImageArrays arrays, bool adds_samples)
     : camera_(camera),
-      channels_(channels),
       arrays_(std::move(arrays)),
       program_(device, "resolve.cl", resolve_defines(device, features, channels, adds_samples)),
       pixels_(program_.kernel("resolve_pixels")) {}

@@ -20,45 +20,33 @@ Defines resolve_defines(const Device& device, const Features& features,
 struct ImageArrays {
     Buffer<float> planes;         ///< one after another
     Buffer<uint32_t> ids;         ///< planes of the object's and the material's number plus 1
-    Buffer<uint32_t> not_finite;  ///< one value
+    Buffer<uint32_t> not_finite;  ///< how many values became 0; more than 0 is a fault of ours
 };
 ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
                            const ImageChannels& channels);
 
 /// Writes what an earlier image shows, to which samples are to be added, into arrays of its size.
 /// Throws Error::input if it lacks one of the channels, or has other pixels.
-void begin_with(const Image& earlier, const ImageChannels& channels, const ImageArrays& arrays);
+void begin_with(const Image& earlier, const ImageChannels& channels, ImageArrays& arrays);
 
-/// The image of `size` pixels that arrays hold. Waits for the device.
+/// The image of `size` pixels that arrays hold, after every tile was computed. Waits for the
+/// device.
 Image image_in(const ImageArrays& arrays, const glm::ivec2& size, const ImageChannels& channels);
 
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
-    /// Only the `channels` that are asked for are computed. Variance is that of colour, which is
-    /// asked for, too.
-    ResolveStage(const Device& device, const Features& features, const Camera& camera,
-                 const ImageChannels& channels = {})
-        : ResolveStage(device, features, camera, channels,
-                       allocate_image(device, {camera.width, camera.height}, channels), false) {}
-
-    /// Makes the image in these arrays. With `adds_samples` the camera's samples are added to those
-    /// that they hold.
+    /// Makes the image in these arrays, of the `channels` that are asked for. Variance is that of
+    /// colour, which is asked for, too. With `adds_samples` the camera's samples are added to those
+    /// that the arrays hold.
     ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels, ImageArrays arrays, bool adds_samples);
 
     /// Computes the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
-    /// The image, after every tile was computed. Waits for the device.
-    Image image() const { return image_in(arrays_, {camera_.width, camera_.height}, channels_); }
-
-    /// Values that were not finite and became 0; anything but 0 is a fault of ours.
-    uint32_t not_finite() const { return arrays_.not_finite.read_one(0); }
-
   private:
     Camera camera_;
-    ImageChannels channels_;
     ImageArrays arrays_;
     Program program_;
     Kernel pixels_;

@@ -6,7 +6,9 @@
 
 #include <cmath>
 
+#include "runtime/batch/render_frames.hpp"
 #include "tests/pictures/textures/mapped_sheet.hpp"
+#include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {
@@ -78,6 +80,33 @@ TEST_F(TextureMaps, OfEmissionAreTheMeanOverAPixelAtPlacesOfTheirOwn) {
             };
             EXPECT_LT(rms_of_means(image, 500u, value), 1) << light << placement;
         }
+}
+
+/// Something changes while a shutter is open, but nothing that is seen: each sample sees as much of
+/// a texture as all samples of one moment leave to it.
+TEST_F(TextureMaps, LookTheSameAtAllMoments) {
+    write("striped.gltf", {stripes()},
+          {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    const auto image_with = [&](double shutter) {
+        const Scene scene =
+            scene_of("striped.gltf", {{"color", {1, 1, 1}}}, "local",
+                     {{"world", {{"ambient", {1, 1, 1}}}},
+                      {"observer", {{"shutter", shutter}}},
+                      {"render", {{"samples", 16}}},
+                      {"animation",
+                       {{"frames", 2},
+                        {"tracks", Json::array({{{"target", "materials.chalk.diffuse"},
+                                                 {"keys",
+                                                  {{{"frame", 1}, {"value", 0}},
+                                                   {{"frame", 2}, {"value", 1}}}}}})}}}});
+        std::shared_ptr<const Image> image;
+        render_frames({test_device()}, scene, {}, [&](const FrameResult& result) {
+            EXPECT_EQ(result.report.report.moments, shutter > 0 ? 16u : 0u);
+            image = result.image;
+        });
+        return image;
+    };
+    EXPECT_TRUE(image_with(0.5)->planes == image_with(0)->planes);
 }
 
 TEST_F(TextureMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
