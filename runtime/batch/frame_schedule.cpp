@@ -203,9 +203,12 @@ class Lane {
     BuiltWorld moment_world(const Scene& now, WorldReport& report) {
         const std::vector<bool> all(now.models.size(), true);
         try {
-            return builder_->build(now, report, all);
+            BuiltWorld world = builder_->build(now, report, all);
+            has_built_ = true;
+            return world;
         } catch (const Error& error) {
-            if (error.kind() != ErrorKind::limit || !retains_) throw;
+            const bool makes_room = retains_ && (has_built_ || builder_->keeps());
+            if (error.kind() != ErrorKind::limit || !makes_room) throw;
         }
         lacks_room_ = true;
         retains_ = false;
@@ -229,6 +232,7 @@ class Lane {
     bool retains_;             ///< frames may leave something for those that follow
     bool lacks_room_ = false;  ///< for that
     bool has_any_ = false;     ///< of frames before
+    bool has_built_ = false;   ///< the world of a moment
 };
 
 /// Threads that end, and are waited for, when the run does.

@@ -88,17 +88,17 @@ TEST_F(TextureMaps, LookTheSameAtAllMoments) {
     write("striped.gltf", {stripes()},
           {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     const auto image_with = [&](double shutter) {
-        const Scene scene =
-            scene_of("striped.gltf", {{"color", {1, 1, 1}}}, "local",
-                     {{"world", {{"ambient", {1, 1, 1}}}},
-                      {"observer", {{"shutter", shutter}}},
-                      {"render", {{"samples", 16}}},
-                      {"animation",
-                       {{"frames", 2},
-                        {"tracks", Json::array({{{"target", "materials.chalk.diffuse"},
-                                                 {"keys",
-                                                  {{{"frame", 1}, {"value", 0}},
-                                                   {{"frame", 2}, {"value", 1}}}}}})}}}});
+        const Scene scene = scene_of(
+            "striped.gltf", {{"color", {1, 1, 1}}}, "local",
+            {{"world", {{"ambient", {1, 1, 1}}}},
+             {"observer", {{"shutter", shutter}}},
+             {"render", {{"samples", 16}, {"filter", "tent"}}},  // it parts pixels by samples
+             {"animation",
+              {{"frames", 2},
+               {"tracks", Json::array({{{"target", "materials.chalk.diffuse"},
+                                        {"keys",
+                                         {{{"frame", 1}, {"value", 0}},
+                                          {{"frame", 2}, {"value", 1}}}}}})}}}});
         std::shared_ptr<const Image> image;
         render_frames({test_device()}, scene, {}, [&](const FrameResult& result) {
             EXPECT_EQ(result.report.report.moments, shutter > 0 ? 16u : 0u);
