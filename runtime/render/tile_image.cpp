@@ -235,8 +235,6 @@ double Renderer::add_moments(const Scene& scene, const Tiles& tiles, Sums& sums,
         report.voxels = of_moment.voxels;
         report.world_bytes = of_moment.world_bytes;
         ++report.moments;
-        // That of a world which ends takes room that the next one needs.
-        if (next.objects != now.objects || next.models != now.models) dilated_occupancy_.reset();
         sums.before += after - sample;
         sums.before_weight = 1;
     }
