@@ -214,7 +214,9 @@ class Lane {
         retains_ = false;
         builder_.emplace(device_, false, AssetStore(cache_));
         report = {};
-        return builder_->build(now, report, all);
+        BuiltWorld world = builder_->build(now, report, all);
+        report.lacks_room = true;
+        return world;
     }
 
     void forget(bool retains) {

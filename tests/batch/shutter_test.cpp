@@ -178,14 +178,14 @@ std::optional<Rendered> shared_image(const Scene& scene, uint64_t megabytes) {
 /// Where memory doesn't suffice for what is retained of the moments before, that is forgotten.
 TEST(Shutter, MomentsNeedNoMoreMemoryThanOne) {
     Json json = blurred_json();
-    json["world"]["voxel_size"] = json["models"]["ball"]["voxel_size"] = 0.02;
+    json["world"]["voxel_size"] = json["models"]["ball"]["voxel_size"] = 0.01;
     for (Json& object : json["objects"]) object["placement"] = "world";
     const Scene open = scene_of(json);
     json["observer"].erase("shutter");
     const Scene closed = scene_of(json);
     const uint64_t hash = hash_of(open);
     int fits = 0, forgets = 0;
-    for (uint64_t megabytes = 4; megabytes < 14; ++megabytes) {
+    for (uint64_t megabytes = 22; megabytes < 30; ++megabytes) {
         if (!shared_image(closed, megabytes)) continue;
         const std::optional<Rendered> blurred = shared_image(open, megabytes);
         ASSERT_TRUE(blurred) << megabytes;
