@@ -185,7 +185,7 @@ TEST(Shutter, MomentsNeedNoMoreMemoryThanOne) {
     const Scene closed = scene_of(json);
     const uint64_t hash = hash_of(open);
     int fits = 0, forgets = 0;
-    for (uint64_t megabytes = 22; megabytes < 30; ++megabytes) {
+    for (uint64_t megabytes = 26; megabytes < 29; ++megabytes) {
         if (!shared_image(closed, megabytes)) continue;
         const std::optional<Rendered> blurred = shared_image(open, megabytes);
         ASSERT_TRUE(blurred) << megabytes;
