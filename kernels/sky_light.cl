@@ -9,7 +9,7 @@
 static inline lane_uint seed_of_place(Vector position) {
     const lane_uint place =
         mixed_bits(mixed_bits(LANES_AS_UINT(position.x)) + LANES_AS_UINT(position.y));
-    return decision_seed(place, LANES_AS_UINT(position.z));
+    return decision_seed(mixed_number(place), LANES_AS_UINT(position.z));
 }
 
 /// A direction to a sky map, chosen in turn in proportion to the map's brightness and to the cosine

@@ -38,9 +38,10 @@ kernel void scatter_surface(global const float* materials, uint count, float out
     if (first >= count) return;
     const lane_uint number = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     const PhysicalView s = view_at(materials, (lane_float)out);
-    const SquarePoint at = sobol_point(number, decision_seed((lane_uint)seed, (lane_uint)0));
+    const lane_uint case_number = mixed_number((lane_uint)seed);
+    const SquarePoint at = sobol_point(number, decision_seed(case_number, (lane_uint)0));
     const lane_float layer =
-        sobol_point(number, decision_seed((lane_uint)seed, (lane_uint)1)).x;
+        sobol_point(number, decision_seed(case_number, (lane_uint)1)).x;
     lane_int down;
     const Vector way = physical_direction(&s, at, layer, &down);
     store_vector(into_frame(&s.frame, way), ways, stride, first);

@@ -11,7 +11,8 @@
 
 /// The pixels and samples of a packet's paths, and the surfaces that these have met.
 typedef struct {
-    lane_uint pixel, sample, met;
+    PixelSamples of;
+    lane_uint met;
 } PathSamples;
 
 /// `target` numbers the paths' sight rays in their batch.
@@ -22,7 +23,7 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     const lane_uint row = tile / tiles_x;
     const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u) + of->first_column;
     const lane_uint y = row * 4u + ((target >> 2) & 3u) + of->first_row;
-    const PathSamples s = {x | (y << 16), of->first_sample + group % of->samples,
+    const PathSamples s = {pixel_samples(x | (y << 16), of->first_sample + group % of->samples),
                            state & VXL_STATE_MET};
     return s;
 }
@@ -36,12 +37,12 @@ static inline PathSamples samples_of_paths(const PathSampling* of, const RayBatc
 
 /// The paths' points for a decision, one of VXL_DECISION_*.
 static inline SquarePoint path_point(const PathSamples* s, uint decision) {
-    return pixel_point(s->sample, s->pixel, (s->met << 16) | decision);
+    return pixel_point(&s->of, (s->met << 16) | decision);
 }
 
 /// The paths' points for a decision, as 32-bit fractions.
 static inline SquareBits path_bits(const PathSamples* s, uint decision) {
-    return pixel_bits(s->sample, s->pixel, (s->met << 16) | decision);
+    return pixel_bits(&s->of, (s->met << 16) | decision);
 }
 
 #endif

@@ -64,9 +64,14 @@ static inline lane_float unit_interval(lane_uint v) {
     return LANES_FLOAT(v >> 8) * (1.0f / 16777216.0f);
 }
 
-/// The seed of one decision on the paths of a pixel, or of another thing with a number.
-static inline lane_uint decision_seed(lane_uint pixel, lane_uint decision) {
-    return mixed_bits(mixed_bits(pixel + 0x9E3779B9u) + decision);
+/// A number whose neighbours have others with no likeness. 0 isn't its own.
+static inline lane_uint mixed_number(lane_uint number) {
+    return mixed_bits(number + 0x9E3779B9u);
+}
+
+/// The seed of one decision about what has this mixed number.
+static inline lane_uint decision_seed(lane_uint mixed, lane_uint decision) {
+    return mixed_bits(mixed + decision);
 }
 
 /// The sample in whose place another is taken: 2^k successive ones take the places of such.

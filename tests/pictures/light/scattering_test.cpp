@@ -130,7 +130,7 @@ TEST(Scattering, IsNotSeenInAWhiteFurnace) {
         add_thing(scene, {{"shape", "sphere"}, {"radius", 0.15}}, "glass", {0.2, 0.1, 0});
         add_thing(scene, {{"shape", "box"}, {"size", {0.3, 0.1, 0.2}}, {"surface", "exact"}},
                   "veil", {0.2, -0.2, 0}, {{"placement", "instance"}});
-        send_rays(scene, {0, 0, -0.55}, {0.05, 0.1, 1}, 0.8, 12);
+        send_rays(scene, {0, 0, -0.55}, {0.05, 0.1, 1}, 0.8, 36);
         for (int channel = 0; channel < 3; ++channel)
             expect_mean(estimate_of(channel_of(sense(scene), channel)), 1,
                         fmt::format("anisotropy {}, channel {}", g, channel));
