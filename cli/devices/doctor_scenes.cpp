@@ -226,7 +226,7 @@ std::vector<KnownPicture> known_pictures() {
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
-         false, "fc055d0fccfd2a27"},
+         false, "7051d1b4bb16561d"},
         {"meshes", kMeshes, false, "9bc19e96b72b2350"},
         {"mixed meshes", kMixed, false, "791a11d119da55c7"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
@@ -243,7 +243,7 @@ std::vector<KnownPicture> known_pictures() {
                {"{\"model\": \"box\", ", kBrassBox},
                {"\"lights\": [", kDisk},
                {"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
-         true, "b84e34bc4ca73c4f"},
+         true, "4b04981855d33620"},
     };
 }
 

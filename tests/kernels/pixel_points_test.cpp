@@ -26,7 +26,7 @@ kernel void sample_pixels(uint count, global const uint* samples, global const u
                           global const uint* decisions, uint stride, global float* points) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const PixelSamples s = pixel_samples(LANES_LOAD(pixels, first), LANES_LOAD(samples, first));
+    const SampledPixels s = sampled_pixels(LANES_LOAD(pixels, first), LANES_LOAD(samples, first));
     const SquarePoint p = pixel_point(&s, LANES_LOAD(decisions, first));
     LANES_STORE(p.x, points, first);
     LANES_STORE(p.y, points, stride + first);

@@ -11,7 +11,7 @@
 
 /// The pixels and samples of a packet's paths, and the surfaces that these have met.
 typedef struct {
-    PixelSamples of;
+    SampledPixels of;
     lane_uint met;
 } PathSamples;
 
@@ -23,7 +23,7 @@ static inline PathSamples path_samples(const PathSampling* of, lane_uint target,
     const lane_uint row = tile / tiles_x;
     const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u) + of->first_column;
     const lane_uint y = row * 4u + ((target >> 2) & 3u) + of->first_row;
-    const PathSamples s = {pixel_samples(x | (y << 16), of->first_sample + group % of->samples),
+    const PathSamples s = {sampled_pixels(x | (y << 16), of->first_sample + group % of->samples),
                            state & VXL_STATE_MET};
     return s;
 }

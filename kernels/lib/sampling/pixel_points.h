@@ -48,20 +48,20 @@ typedef struct {
     lane_uint pixel, sample;
     lane_uint before;                // ones up to below the sample's highest one
     lane_uint own, quarter, square;  // mixed numbers of the pixel and of its squares
-} PixelSamples;
+} SampledPixels;
 
-static inline PixelSamples pixel_samples(lane_uint pixel, lane_uint sample) {
+static inline SampledPixels sampled_pixels(lane_uint pixel, lane_uint sample) {
     lane_uint ones = sample | (sample >> 1);
     ones |= ones >> 2;
     ones |= ones >> 4;
     ones |= ones >> 8;
     ones |= ones >> 16;
-    const PixelSamples s = {pixel,
-                            sample,
-                            ones >> 1,
-                            mixed_number(pixel),
-                            mixed_number((pixel & ~VXL_PIXELS_OF_QUARTER) ^ 0x80000000u),
-                            mixed_number(pixel & ~VXL_PIXELS_OF_SQUARE)};
+    const SampledPixels s = {pixel,
+                             sample,
+                             ones >> 1,
+                             mixed_number(pixel),
+                             mixed_number((pixel & ~VXL_PIXELS_OF_QUARTER) ^ 0x80000000u),
+                             mixed_number(pixel & ~VXL_PIXELS_OF_SQUARE)};
     return s;
 }
 
@@ -71,7 +71,7 @@ static inline lane_uint random_for(lane_uint mixed, lane_uint seed) {
 }
 
 /// What pixels add to the digits of Sobol's points, the first digit of each coordinate lowest.
-static inline SquareBits digits_of_pixel(const PixelSamples* s, lane_uint seed) {
+static inline SquareBits digits_of_pixel(const SampledPixels* s, lane_uint seed) {
     const PlaceDigit fine = rearranged_digit(s->pixel, 0u, random_for(s->quarter, seed));
     const PlaceDigit coarse = rearranged_digit(s->pixel, 1u, seed >> 16);
     // 1 / (1 + z + z^2) as a power series, 1 + z + z^3 + z^4 + z^6 ..., and its square.
@@ -87,7 +87,7 @@ static inline SquareBits digits_of_pixel(const PixelSamples* s, lane_uint seed) 
 ///
 /// Each pixel exchanges samples 2^k to 2^(k + 1) - 1 with each other, for each k, so that the
 /// pixels of a square pair the points of different decisions differently.
-static inline SquareBits pixel_bits(const PixelSamples* s, lane_uint decision) {
+static inline SquareBits pixel_bits(const SampledPixels* s, lane_uint decision) {
     const lane_uint seed = decision_seed(s->square, decision);
     const SquareBits added = digits_of_pixel(s, seed);
     const lane_uint exchanged = s->sample ^ (random_for(s->own, ~seed) & s->before);
@@ -96,7 +96,7 @@ static inline SquareBits pixel_bits(const PixelSamples* s, lane_uint decision) {
 }
 
 /// The same as numbers from 0 to 1.
-static inline SquarePoint pixel_point(const PixelSamples* s, lane_uint decision) {
+static inline SquarePoint pixel_point(const SampledPixels* s, lane_uint decision) {
     return point_of_bits(pixel_bits(s, decision));
 }
 

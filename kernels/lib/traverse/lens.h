@@ -26,7 +26,7 @@ static inline SquarePoint polygon_point(SquarePoint p, int corners) {
 /// passes. Columns and rows are those of the whole frame, so that parts of a picture agree.
 static inline SquarePoint lens_point(const Camera* camera, lane_uint column, lane_uint row,
                                      uint sample) {
-    const PixelSamples samples = pixel_samples(column | (row << 16), (lane_uint)sample);
+    const SampledPixels samples = sampled_pixels(column | (row << 16), (lane_uint)sample);
     const SquarePoint p = pixel_point(&samples, (lane_uint)VXL_DECISION_LENS);
     if (VXL_BLADES) return polygon_point(p, camera->blades);
     return disk_point(p);
