@@ -12,6 +12,7 @@
 #include <climits>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <thread>
@@ -125,6 +126,15 @@ void open_closed_streams() {
 
 }  // namespace
 
+/// The helper processes that compile beside this one: VOXELUME_COMPILERS, or else one for each
+/// other core, up to the number from which more don't help.
+int kernel_compilers() {
+    constexpr int kMost = 3;
+    if (const char* const value = std::getenv("VOXELUME_COMPILERS"); value && *value)
+        return std::clamp(std::atoi(value), 0, kMaxKernelCompilers);
+    return std::clamp(int(std::thread::hardware_concurrency()) - 1, 0, kMost);
+}
+
 /// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
 /// every frame on a CPU, and the system would clear each of their pages again. Measured at 1024 x
 /// 1024 pixels: 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers
@@ -152,6 +162,7 @@ int main(int count, char** arguments) {
         cli::handle_interrupts();  // before there are threads: all are to ignore what this one does
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
+                             .kernel_compilers = cli::kernel_compilers(),
                              .image_threads = int(std::thread::hardware_concurrency())});
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();
