@@ -222,11 +222,11 @@ std::vector<KnownFile> known_files() {
 
 std::vector<KnownPicture> known_pictures() {
     return {
-        {"matt", kMatt, false, "a8c66176c2b60964"},
+        {"matt", kMatt, false, "9ea2d98f96f15dcb"},
         {"local light", with(kLocal, {{"LIGHT", "local"}}), false, "e7caa540c340fb66"},
         {"global light",
          with(kLocal, {{"LIGHT", "global"}, {"\"medium\": {", kMist}, {"\"lights\": [", kPoint}}),
-         false, "a470ccea21315588"},
+         false, "fc055d0fccfd2a27"},
         {"meshes", kMeshes, false, "9bc19e96b72b2350"},
         {"mixed meshes", kMixed, false, "791a11d119da55c7"},
         {"moving block", kMotion, false, "f032b75863aa4f4e"},
@@ -243,7 +243,7 @@ std::vector<KnownPicture> known_pictures() {
                {"{\"model\": \"box\", ", kBrassBox},
                {"\"lights\": [", kDisk},
                {"\"samples\": 2", "\"samples\": 2, \"light\": \"global\""}}),
-         true, "4d8521a507a5afc3"},
+         true, "b84e34bc4ca73c4f"},
     };
 }
 

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 #include <set>
 
 #include "runtime/opencl/program.hpp"
+#include "tests/kernels/owen_points.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {
@@ -33,11 +33,9 @@ kernel void number_parts(uint count, global const uint* fractions, uint parts,
 }
 )";
 
-using Point = std::array<double, 2>;
-using Bits = std::array<bool, 32>;  ///< the highest first
-
 /// The points of the device for samples 0 .. count-1 of each seed, seed after seed.
-std::vector<Point> points_of(uint32_t count, const std::vector<uint32_t>& seeds, int lanes = 0) {
+std::vector<SquarePoint> points_of(uint32_t count, const std::vector<uint32_t>& seeds,
+                                   int lanes = 0) {
     const Device device = test_device(lanes);
     std::vector<uint32_t> samples, all_seeds;
     for (const uint32_t seed : seeds)
@@ -52,68 +50,14 @@ std::vector<Point> points_of(uint32_t count, const std::vector<uint32_t>& seeds,
                         Buffer<uint32_t>(device, "seeds", std::span<const uint32_t>(all_seeds)),
                         stride, points);
     const std::vector<float> values = points.read();
-    std::vector<Point> result;
+    std::vector<SquarePoint> result;
     for (uint32_t i = 0; i < all; ++i) result.push_back({values[i], values[stride + i]});
     return result;
 }
 
-Bits bits_of(uint32_t value) {
-    Bits bits;
-    for (int i = 0; i < 32; ++i) bits[size_t(i)] = value >> (31 - i) & 1;
-    return bits;
-}
-
-uint32_t value_of(const Bits& bits) {
-    uint32_t value = 0;
-    for (const bool bit : bits) value = 2 * value + bit;
-    return value;
-}
-
-/// Murmur's and Burley's hashes, the only part that any implementation must repeat.
-uint32_t mixed(uint32_t v) {
-    uint64_t w = v ^ v / 65536;
-    w = w * 0x85EBCA6B % 0x100000000;
-    w = (w ^ w / 8192) * 0xC2B2AE35 % 0x100000000;
-    return uint32_t(w ^ w / 65536);
-}
-uint32_t hashed(uint32_t v, uint32_t seed) {
-    uint64_t w = (uint64_t(v) + seed) % 0x100000000;
-    for (const uint64_t factor : {0x6C50B47Cu, 0xB82F1E52u, 0xC7AFE638u, 0x8D22F6E6u})
-        w ^= w * factor % 0x100000000;
-    return uint32_t(w);
-}
-
-/// Owen's scrambling as a tree: a bit is flipped by what the path of the bits above it decides.
-Bits scrambled(const Bits& bits, uint32_t seed) {
-    Bits result = bits;
-    for (size_t i = 0; i < 32; ++i) {
-        uint32_t above = 0;
-        for (size_t k = 0; k < i; ++k) above |= uint32_t(bits[k]) << k;
-        const bool flip = hashed(above, seed) >> i & 1;
-        result[i] = bits[i] != flip;
-    }
-    return result;
-}
-
-/// Sobol's sequence from its direction numbers: of the second coordinate each is its predecessor,
-/// exclusive-or the predecessor halved.
-std::array<uint32_t, 2> sobol(uint32_t index) {
-    uint32_t x = 0, y = 0, along_x = 1u << 31, along_y = 1u << 31;
-    for (; index != 0; index >>= 1) {
-        if (index & 1) x ^= along_x, y ^= along_y;
-        along_x >>= 1;
-        along_y ^= along_y >> 1;
-    }
-    return {x, y};
-}
-
-Point defined_point(uint32_t sample, uint32_t seed) {
+SquarePoint defined_point(uint32_t sample, uint32_t seed) {
     const auto [x, y] = sobol(value_of(scrambled(bits_of(sample), seed)));
-    const uint32_t seed_x = mixed(seed ^ 0xA511E9B3u), seed_y = mixed(seed_x);
-    const auto coordinate = [](uint32_t value, uint32_t of) {
-        return std::floor(value_of(scrambled(bits_of(value), of)) / 256.0) / 16777216.0;
-    };
-    return {coordinate(x, seed_x), coordinate(y, seed_y)};
+    return owen_point(x, y, seed);
 }
 
 std::vector<uint32_t> random_seeds(size_t count) {
@@ -133,7 +77,7 @@ TEST(Sobol, FirstPointsWithoutScramblingAreThoseOfTheTables) {
 TEST(Sobol, PointsAreThoseOfTheDefinitionOnAnyNumberOfLanes) {
     const std::vector<uint32_t> seeds = random_seeds(7);
     for (const int lanes : {1, 4, 8, 16}) {
-        const std::vector<Point> points = points_of(999, seeds, lanes);
+        const std::vector<SquarePoint> points = points_of(999, seeds, lanes);
         for (size_t i = 0; i < points.size(); ++i)
             ASSERT_EQ(points[i], defined_point(uint32_t(i % 999), seeds[i / 999]))
                 << lanes << " lanes, point " << i;
@@ -165,16 +109,16 @@ TEST(Sobol, AsManyPartsAsThereMayBeEmittersAreAlmostEqual) {
 TEST(Sobol, SuccessiveSamplesFillEveryDivisionIntoEqualBoxes) {
     constexpr uint32_t kCount = 1024;
     const std::vector<uint32_t> seeds = random_seeds(20);
-    const std::vector<Point> points = points_of(kCount, seeds);
+    const std::vector<SquarePoint> points = points_of(kCount, seeds);
     for (size_t seed = 0; seed < seeds.size(); ++seed)
         for (int k = 0; k <= 10; ++k)
             for (uint32_t begin = 0; begin < kCount; begin += 1u << k)
                 for (int along_x = 0; along_x <= k; ++along_x) {
                     std::set<std::pair<int, int>> boxes;
                     for (uint32_t i = begin; i < begin + (1u << k); ++i) {
-                        const Point& p = points[seed * kCount + i];
-                        boxes.emplace(int(std::ldexp(p[0], along_x)),
-                                      int(std::ldexp(p[1], k - along_x)));
+                        const SquarePoint& p = points[seed * kCount + i];
+                        boxes.emplace(int(std::ldexp(p.x, along_x)),
+                                      int(std::ldexp(p.y, k - along_x)));
                     }
                     ASSERT_EQ(boxes.size(), size_t{1} << k)
                         << "seed " << seed << ", samples from " << begin << " on, 2^" << along_x
@@ -184,13 +128,13 @@ TEST(Sobol, SuccessiveSamplesFillEveryDivisionIntoEqualBoxes) {
 
 TEST(Sobol, PointsOfDifferentSeedsAreNotCorrelated) {
     constexpr uint32_t kSeeds = 20000;
-    const std::vector<Point> points = points_of(1, random_seeds(kSeeds));
+    const std::vector<SquarePoint> points = points_of(1, random_seeds(kSeeds));
     double mean_x = 0, mean_y = 0, product = 0, successive = 0;
     for (size_t i = 0; i + 1 < kSeeds; ++i) {
-        mean_x += points[i][0] / kSeeds;
-        mean_y += points[i][1] / kSeeds;
-        product += (points[i][0] - 0.5) * (points[i][1] - 0.5) * 12 / kSeeds;
-        successive += (points[i][0] - 0.5) * (points[i + 1][0] - 0.5) * 12 / kSeeds;
+        mean_x += points[i].x / kSeeds;
+        mean_y += points[i].y / kSeeds;
+        product += (points[i].x - 0.5) * (points[i].y - 0.5) * 12 / kSeeds;
+        successive += (points[i].x - 0.5) * (points[i + 1].x - 0.5) * 12 / kSeeds;
     }
     const double error = 1 / std::sqrt(double(kSeeds));
     EXPECT_NEAR(mean_x, 0.5, 3.5 * error / std::sqrt(12.0));
@@ -201,14 +145,14 @@ TEST(Sobol, PointsOfDifferentSeedsAreNotCorrelated) {
 
 /// The mean square error of the integral of a smooth function from `count` points a seed.
 double square_error(uint32_t count, const std::vector<uint32_t>& seeds) {
-    const std::vector<Point> points = points_of(count, seeds);
+    const std::vector<SquarePoint> points = points_of(count, seeds);
     const double exact = (std::exp(1.0) - 1) * std::sin(1.0);
     double sum = 0;
     for (size_t seed = 0; seed < seeds.size(); ++seed) {
         double mean = 0;
         for (uint32_t i = 0; i < count; ++i) {
-            const Point& p = points[seed * count + i];
-            mean += std::exp(p[0]) * std::cos(p[1]) / count;
+            const SquarePoint& p = points[seed * count + i];
+            mean += std::exp(p.x) * std::cos(p.y) / count;
         }
         sum += (mean - exact) * (mean - exact) / double(seeds.size());
     }

@@ -4,7 +4,7 @@
 #ifndef VXL_PATH_SAMPLES_H
 #define VXL_PATH_SAMPLES_H
 
-#include "lib/sampling/sobol.h"
+#include "lib/sampling/pixel_points.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/paths.h"
 #include "shared/trace.h"
@@ -36,12 +36,12 @@ static inline PathSamples samples_of_paths(const PathSampling* of, const RayBatc
 
 /// The paths' points for a decision, one of VXL_DECISION_*.
 static inline SquarePoint path_point(const PathSamples* s, uint decision) {
-    return sobol_point(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
+    return pixel_point(s->sample, s->pixel, (s->met << 16) | decision);
 }
 
 /// The paths' points for a decision, as 32-bit fractions.
 static inline SquareBits path_bits(const PathSamples* s, uint decision) {
-    return sobol_bits(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
+    return pixel_bits(s->sample, s->pixel, (s->met << 16) | decision);
 }
 
 #endif

@@ -69,20 +69,35 @@ static inline lane_uint decision_seed(lane_uint pixel, lane_uint decision) {
     return mixed_bits(mixed_bits(pixel + 0x9E3779B9u) + decision);
 }
 
+/// The sample in whose place another is taken: 2^k successive ones take the places of such.
+static inline lane_uint shuffled_sample(lane_uint sample, lane_uint seed) {
+    return reversed_bits(flipped_from_below(reversed_bits(sample), seed));
+}
+
+/// Coordinates of which the first digits are the lowest bits, scrambled, as 32-bit fractions.
+static inline SquareBits scrambled_digits(lane_uint x, lane_uint y, lane_uint seed) {
+    const lane_uint seed_x = mixed_bits(seed ^ 0xA511E9B3u);
+    const lane_uint seed_y = (seed_x >> 16) | (seed_x << 16);
+    const SquareBits p = {reversed_bits(flipped_from_below(x, seed_x)),
+                          reversed_bits(flipped_from_below(y, seed_y))};
+    return p;
+}
+
 /// The point of sample number `sample` in the sequence of a seed, as 32-bit fractions.
 static inline SquareBits sobol_bits(lane_uint sample, lane_uint seed) {
-    const lane_uint shuffled = reversed_bits(flipped_from_below(reversed_bits(sample), seed));
-    const lane_uint seed_x = mixed_bits(seed ^ 0xA511E9B3u), seed_y = mixed_bits(seed_x);
-    const SquareBits p = {reversed_bits(flipped_from_below(shuffled, seed_x)),
-                          reversed_bits(flipped_from_below(shifted_polynomial(shuffled), seed_y))};
+    const lane_uint shuffled = shuffled_sample(sample, seed);
+    return scrambled_digits(shuffled, shifted_polynomial(shuffled), seed);
+}
+
+/// Fractions as numbers from 0 to 1.
+static inline SquarePoint point_of_bits(SquareBits bits) {
+    const SquarePoint p = {unit_interval(bits.x), unit_interval(bits.y)};
     return p;
 }
 
 /// Point number `sample` of the scrambled sequence, as numbers from 0 to 1.
 static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
-    const SquareBits bits = sobol_bits(sample, seed);
-    const SquarePoint p = {unit_interval(bits.x), unit_interval(bits.y)};
-    return p;
+    return point_of_bits(sobol_bits(sample, seed));
 }
 
 /// Which of `count` equal parts of [0, 1) a 32-bit fraction lies in. If there are 2^20 parts, no

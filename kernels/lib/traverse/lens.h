@@ -4,6 +4,7 @@
 #define VXL_LENS_H
 
 #include "lib/sampling/directions.h"
+#include "lib/sampling/pixel_points.h"
 #include "lib/traverse/display_shape.h"
 #include "shared/paths.h"
 
@@ -25,8 +26,8 @@ static inline SquarePoint polygon_point(SquarePoint p, int corners) {
 /// passes. Columns and rows are those of the whole frame, so that parts of a picture agree.
 static inline SquarePoint lens_point(const Camera* camera, lane_uint column, lane_uint row,
                                      uint sample) {
-    const lane_uint seed = decision_seed(column | (row << 16), (lane_uint)VXL_DECISION_LENS);
-    const SquarePoint p = sobol_point((lane_uint)sample, seed);
+    const SquarePoint p =
+        pixel_point((lane_uint)sample, column | (row << 16), (lane_uint)VXL_DECISION_LENS);
     if (VXL_BLADES) return polygon_point(p, camera->blades);
     return disk_point(p);
 }

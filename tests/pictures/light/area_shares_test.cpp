@@ -137,7 +137,7 @@ class ShinyRooms : public testing::TestWithParam<ShinyRoom> {};
 INSTANTIATE_TEST_SUITE_P(AreaShares, ShinyRooms, testing::ValuesIn(shiny_rooms_to_try()));
 
 TEST_P(ShinyRooms, AreAsBrightAsByRaysAlone) {
-    Json scene = shiny_room(is_exhaustive() ? 1024 : 256);
+    Json scene = shiny_room(is_exhaustive() ? 1024 : 320);
     GetParam().furnish(scene);
     const std::vector<SensedRay> shared = sense(scene), sent = sense(by_rays_alone(scene));
     for (int channel = 0; channel < 3; ++channel)

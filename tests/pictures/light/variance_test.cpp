@@ -114,7 +114,7 @@ TEST(Variance, ChangesNoOtherChannel) {
 // differ by a few times 6e-8 of numbers up to ten times their deviations.
 TEST(Variance, OfANoiseTargetIsThatOfTheSamplesOfEachTile) {
     Scene scene = varied_scene("global", 64);
-    scene.render.noise.error = 0.05;
+    scene.render.noise.error = 0.03;
     scene.render.channels.samples = true;
     const Image image = varied_image(scene);
     const auto samples = each_sample_of(scene, "G");
