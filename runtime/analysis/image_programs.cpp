@@ -2,6 +2,7 @@
 #include "runtime/analysis/image_programs.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "kernels/shared/trace.h"
@@ -32,6 +33,8 @@ bool follows(const Features& f) {
     return f.paths && !f.global;
 }
 
+/// Those that most images take. The process that renders compiles the others itself: of lights
+/// nearby, mattes, and a medium's lights with an area.
 constexpr KernelRow kKernels[] = {
     {"sight.cl", {"cast_sight"}, always},
     {"trace.cl", {"trace_closest"}, always},
@@ -67,21 +70,45 @@ bool is_made_at_once(const Scene& scene) {
            !adds_samples(render) && scene.observer.shutter == 0;
 }
 
-/// True if two objects with distances may meet in a voxel, which then lists both.
-bool meet_in_voxels(const Scene& scene, const Pyramid& world) {
-    if (world.fields.empty() || world.object_boxes.empty()) return false;
-    std::vector<VoxelBox> boxes;
+/// True if two boxes overlap as those of a floor and of what stands on it: one lies within the
+/// other but for one axis, on which neither does.
+bool stand_on_each_other(const VoxelBox& a, const VoxelBox& b) {
+    if (!overlap(a, b)) return false;
+    int a_within = 0, b_within = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        a_within += int(a.low[axis] >= b.low[axis] && a.high[axis] <= b.high[axis]);
+        b_within += int(b.low[axis] >= a.low[axis] && b.high[axis] <= a.high[axis]);
+    }
+    return (a_within == 2 && b_within == 0) || (b_within == 2 && a_within == 0);
+}
+
+VoxelBox grown(const VoxelBox& box, double by) {
+    return {box.low - by, box.high + by};
+}
+
+/// Whether some voxel lists distances, as those do that several objects share. Objects that stand
+/// on others are taken to share some, objects a voxel apart to share none. Of others, only building
+/// the world will tell.
+std::optional<bool> lists_fields(const Scene& scene, const Pyramid& world) {
+    struct Placed {
+        VoxelBox box;
+        bool is_smooth;
+    };
+    std::vector<Placed> placed;
+    bool may_meet = false;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (!object.visible || !object.potentially_visible || is_instanced(scene, object)) continue;
-        const VoxelBox& box = world.object_boxes[i];
-        if (!stores_distances(scene.models[size_t(object.model)].surface) || is_empty(box))
-            continue;
-        if (std::ranges::any_of(boxes, [&](const VoxelBox& b) { return overlap(b, box); }))
-            return true;
-        boxes.push_back(box);
+        if (is_empty(world.object_boxes[i]) || is_instanced(scene, object)) continue;
+        const VoxelBox box = grown(world.object_boxes[i], -1);  // see object_boxes()
+        const bool is_smooth = stores_distances(scene.models[size_t(object.model)].surface);
+        for (const Placed& other : placed) {
+            if (!is_smooth && !other.is_smooth) continue;
+            if (stand_on_each_other(box, other.box)) return true;
+            may_meet |= overlap(grown(box, 1), other.box);
+        }
+        placed.push_back({box, is_smooth});
     }
-    return false;
+    return may_meet ? std::nullopt : std::optional(false);
 }
 
 bool sends_beams(const Features& features, const Scene& scene, const Pyramid& world) {
@@ -117,9 +144,11 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
 
 ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world) {
     if (!is_made_at_once(scene)) return {};
+    const std::optional<bool> has_lists = lists_fields(scene, world);
+    if (!has_lists) return {};
     ForeseenImage image;
     image.features = features_of(scene, world);
-    image.features.field_lists |= meet_in_voxels(scene, world);
+    image.features.field_lists = *has_lists;
     const bool has_beams = sends_beams(image.features, scene, world);
     image.files = sight_files(image.features, scene, world, true, has_beams);
     for (const auto& [file, kernel, is_launched] : kKernels)
@@ -132,7 +161,6 @@ ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world) {
 
 void compile_ahead(const Device& device, const RenderSettings& render, const ForeseenImage& image) {
     if (image.files.empty()) return;
-    for (const ForeseenProgram& program : image.before) Program::foresee(device, program);
     Program::foresee(device, {image.files, resolve_defines(device, image.features, render.channels),
                               image.kernels});
 }

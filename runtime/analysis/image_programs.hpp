@@ -19,15 +19,15 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
 
 /// What the image of a scene will be compiled of.
 struct ForeseenImage {
-    std::vector<ForeseenProgram> before;  ///< what its world will be indexed by
     Features features;
     std::vector<const char*> files;
     std::vector<ForeseenKernel> kernels;
 };
 
-/// Foresees the image of a scene. `world` may be one of a counting device. Without files for images
-/// that are made in several ways, one after another: with passes, by noise, adaptively, or of
-/// moments.
+/// Foresees the image of a scene. `world` may be one of a counting device, and has no parts of
+/// solids. Without files where only building the world will tell whether several surfaces share a
+/// voxel, and for images that are made in several ways, one after another: with passes, by noise,
+/// adaptively, or of moments.
 ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world);
 
 /// Has it compiled while the world is built: see Program::foresee.

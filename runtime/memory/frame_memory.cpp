@@ -69,7 +69,6 @@ class FrameWalk {
         memory_.grids = grids_.all();
         for (CountedGrid& grid : memory_.grids) grid.grid.reset();
         grids_.forget_if([](const CountedGrid&) { return true; });
-        if (estimate_ == Estimate::expected) memory_.foreseen.before = foreseen_index(world);
         return count_index(device_, world, memory_.world);
     }
 
@@ -80,11 +79,10 @@ class FrameWalk {
         memory_.volume_voxels = count_volume(device_, scene_, world, medium_, estimate_);
         memory_.volume = height();
         const Features features = features_of(scene_, world);
-        if (estimate_ == Estimate::expected) {
-            std::vector<ForeseenProgram> before = std::move(memory_.foreseen.before);
+        // Whether parts of solids share voxels, only building the world will tell.
+        if (estimate_ == Estimate::expected &&
+            std::ranges::none_of(memory_.grids, [](auto& grid) { return grid.counts.parts > 1; }))
             memory_.foreseen = foreseen_image(scene_, world);
-            memory_.foreseen.before = std::move(before);
-        }
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
         std::optional<Buffer<uint8_t>> hits;
         if (const double bytes = retained_hits(features); bytes > 0)

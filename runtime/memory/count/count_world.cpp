@@ -6,7 +6,6 @@
 
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/stages/brick_arrays.hpp"
-#include "runtime/stages/index/index_fields.hpp"
 #include "runtime/stages/index/index_marks.hpp"
 #include "runtime/stages/instance/instance_pools.hpp"
 #include "runtime/stages/place/place_exact.hpp"
@@ -132,14 +131,6 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     world.parts.exact = !grid.primitive_first.empty();
     world.parts.normals = !grid.normals.empty();
     return world;
-}
-
-std::vector<ForeseenProgram> foreseen_index(const CountedWorld& world) {
-    const BrickGrid& fields = world.fields;
-    if (fields.brick_count == 0) return {Indexer::foreseen(world.grid)};
-    const bool are_plain = fields.attributes.empty() && fields.colors.empty();
-    if (world.grid.brick_count > 0 || !fields.parts.empty() || !are_plain) return {};
-    return {FieldIndexer::foreseen(fields)};
 }
 
 void count_growth(const Device& device, BrickGrid& world) {

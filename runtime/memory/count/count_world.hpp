@@ -38,10 +38,6 @@ struct CountedWorld {
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts);
 
-/// What such a world will be indexed by, where that is known: not where fields are beside other
-/// objects, or differ.
-std::vector<ForeseenProgram> foreseen_index(const CountedWorld& world);
-
 /// Follows WorldBricks where a world comes to have more bricks than it has room for: each array is
 /// copied to a larger one, with room for a quarter more.
 void count_growth(const Device& device, BrickGrid& world);

@@ -140,10 +140,6 @@ struct Indexer::Kept {
     Pyramid pyramid;
 };
 
-ForeseenProgram Indexer::foreseen(const BrickGrid& grid) {
-    return {{"index.cl"}, index_defines(grid), {{"mark_voxels"}, {"write_voxels"}}};
-}
-
 Indexer::Indexer(const Device& device) : device_(device), fields_(device) {}
 Indexer::~Indexer() = default;
 Indexer::Indexer(Indexer&&) noexcept = default;

@@ -64,9 +64,6 @@ class Indexer {
     /// pyramid.
     Pyramid index(const BrickGrid& grid, const std::vector<uint32_t>* changed);
 
-    /// What a first grid with these arrays will be indexed by.
-    static ForeseenProgram foreseen(const BrickGrid& grid);
-
     /// The pyramid of a placed world; `changed` is as above, and only asked whether it is empty if
     /// the world has fields.
     Pyramid index(const PlacedWorld& world, const std::vector<uint32_t>* changed);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <glm/vec4.hpp>
-#include <iterator>
 #include <utility>
 
 #include "kernels/shared/voxel.h"
@@ -173,24 +172,6 @@ void FieldIndexer::mark(const PlacedWorld& world) {
         Program::build_together(device_, files);
         marks_.emplace(field.version, mark_grid(device_, field.grid));
     }
-}
-
-ForeseenProgram FieldIndexer::foreseen(const BrickGrid& field) {
-    PlacedWorld world;
-    world.fields.emplace_back().grid = field;
-    Defines defines = index_defines(field);
-    std::ranges::copy_if(features_of(world, world.fields.data()), std::back_inserter(defines),
-                         [known = defines](const auto& define) {
-                             return std::ranges::find(known, define.first,
-                                                      &Defines::value_type::first) == known.end();
-                         });
-    return {{"index.cl", "index_fields.cl"},
-            std::move(defines),
-            {{"mark_voxels"},
-             {"append_masks", WorkItem::light},
-             {"unite_marks"},
-             {"write_united"},
-             {"write_fields"}}};
 }
 
 Pyramid FieldIndexer::index(const PlacedWorld& world) {

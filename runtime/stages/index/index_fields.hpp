@@ -24,10 +24,6 @@ class FieldIndexer {
     /// than 2^28 voxels and listed fields.
     Pyramid index(const PlacedWorld& world);
 
-    /// What a first world of fields alone will be indexed by, if each is as this one and no solid's
-    /// part.
-    static ForeseenProgram foreseen(const BrickGrid& field);
-
   private:
     void mark(const PlacedWorld& world);
 
