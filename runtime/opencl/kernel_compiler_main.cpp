@@ -34,7 +34,7 @@ bool set_zero(const cl::Kernel& kernel, cl_uint index, const cl::Buffer& dummy) 
     const auto where = kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(index);
     if (where == CL_KERNEL_ARG_ADDRESS_GLOBAL || where == CL_KERNEL_ARG_ADDRESS_CONSTANT) {
         const cl_mem memory = dummy();
-        return clSetKernelArg(kernel(), index, sizeof memory, &memory) == CL_SUCCESS;
+        return clSetKernelArg(kernel(), index, sizeof(cl_mem), &memory) == CL_SUCCESS;
     }
     if (where == CL_KERNEL_ARG_ADDRESS_LOCAL)
         return clSetKernelArg(kernel(), index, kMaxValueBytes, nullptr) == CL_SUCCESS;
