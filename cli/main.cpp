@@ -12,8 +12,11 @@
 #include <climits>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <new>
+#include <string>
 #include <thread>
 
 #include "cli/shared/build_facts.hpp"
@@ -125,6 +128,26 @@ void open_closed_streams() {
 
 }  // namespace
 
+/// The cores on which nothing runs now but this process.
+int idle_cores() {
+    int running = 1;  // threads of all processes, this one's among them
+    std::string average;
+    std::ifstream("/proc/loadavg") >> average >> average >> average >> running;
+    return int(std::thread::hardware_concurrency()) - running;
+}
+
+/// The helper processes that may compile beside a command, if it is one that makes pictures:
+/// VOXELUME_COMPILERS, or else one for each idle core, up to the number from which more don't help.
+/// On busy cores they would take time from others and save none.
+int kernel_compilers(const std::string& command) {
+    constexpr int kMost = 3;
+    constexpr std::array kHelped = {"render", "view"};
+    if (std::ranges::find(kHelped, command) == kHelped.end()) return 0;
+    if (const char* const value = std::getenv("VOXELUME_COMPILERS"); value && *value)
+        return std::clamp(std::atoi(value), 0, kMaxKernelCompilers);
+    return std::clamp(idle_cores(), 0, kMost);
+}
+
 /// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
 /// every frame on a CPU, and the system would clear each of their pages again. Measured at 1024 x
 /// 1024 pixels: 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers
@@ -148,10 +171,12 @@ int main(int count, char** arguments) {
     cli::open_closed_streams();
     cli::keep_freed_memory();
     try {
-        const int fault = cli::load_settings_for(count > 1 ? arguments[1] : "");
+        const std::string command = count > 1 ? arguments[1] : "";
+        const int fault = cli::load_settings_for(command);
         cli::handle_interrupts();  // before there are threads: all are to ignore what this one does
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
+                             .kernel_compilers = cli::kernel_compilers(command),
                              .image_threads = int(std::thread::hardware_concurrency())});
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();

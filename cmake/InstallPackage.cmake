@@ -21,7 +21,8 @@ install(CODE "
     execute_process(COMMAND gzip -9nf \"\${share}/man/man1/voxelume.1\" COMMAND_ERROR_IS_FATAL ANY)
 ")
 install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
-install(TARGETS voxelume_vdb_reader voxelume_mesh_decoder RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside it
+install(TARGETS voxelume_vdb_reader voxelume_mesh_decoder voxelume_kernel_compiler
+        RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside it
 install(TARGETS voxelume_shared EXPORT voxelumeTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_SOURCE_DIR}/runtime/voxelume.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/runtime/voxelume DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

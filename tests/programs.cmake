@@ -63,6 +63,8 @@ function(finish_test name)
     # less of a test's time.
     set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION GLIBC_TUNABLES=set:glibc.malloc.hugetlb=1
                                                                        MALLOC_TOP_PAD_=set:67108864)
+    # Helpers would take cores from other tests.
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION VOXELUME_COMPILERS=set:0)
     set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 

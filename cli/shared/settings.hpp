@@ -9,6 +9,9 @@
 
 namespace voxelume::cli {
 
+/// The most processes that may compile beside a command.
+inline constexpr int kMaxKernelCompilers = 64;
+
 /// A row of the table of settings.
 struct Setting {
     const char* name;          ///< in the file

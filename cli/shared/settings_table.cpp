@@ -22,6 +22,10 @@ std::string fault_of_count(const std::string& value) {
     return in_range(1, std::numeric_limits<int>::max(), Number::whole)(value);
 }
 
+std::string fault_of_compilers(const std::string& value) {
+    return in_range(0, kMaxKernelCompilers, Number::whole)(value);
+}
+
 std::string fault_of_cache_size(const std::string& value) {
     return in_range(0, 1 << 30, Number::whole)(value);
 }
@@ -48,6 +52,9 @@ constexpr std::array kSettings = {
             "~/.cache/voxelume"},
     Setting{"cache_mb", "VOXELUME_CACHE_MB", "size of the cache of models and worlds", "4096",
             fault_of_cache_size},
+    Setting{"compilers", "VOXELUME_COMPILERS",
+            "processes that compile a first picture's kernels beside its own; 0: none",
+            "one for each idle core, at most 3", fault_of_compilers},
     Setting{"device", "VOXELUME_DEVICE", "what --device is without that option", "auto"},
     Setting{"lanes", "VOXELUME_LANES", "rays that a work-item carries: 1, 4, 8 or 16",
             "the device's own", fault_of_lanes},

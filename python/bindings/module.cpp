@@ -36,7 +36,8 @@ PYBIND11_MODULE(_native, module) {
     module.doc() = "The compiled part of voxelume.";
     module.attr("__version__") = voxelume::version();
     // The kernels that PoCL compiled are kept in Voxelume's cache, as the program keeps them; a
-    // damaged OpenVDB file can't harm the interpreter.
+    // damaged OpenVDB file can't harm the interpreter. No processes compile beside it: a module
+    // that others import takes no cores of its own accord, and wheels lack that program.
     voxelume::configure({.set_driver_environment = true, .isolate_readers = true});
     bind_errors(module);
     bind_devices(module);

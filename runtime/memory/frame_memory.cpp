@@ -79,6 +79,10 @@ class FrameWalk {
         memory_.volume_voxels = count_volume(device_, scene_, world, medium_, estimate_);
         memory_.volume = height();
         const Features features = features_of(scene_, world);
+        // Whether parts of solids share voxels, only building the world will tell.
+        if (estimate_ == Estimate::expected &&
+            std::ranges::none_of(memory_.grids, [](auto& grid) { return grid.counts.parts > 1; }))
+            memory_.foreseen = foreseen_image(scene_, world);
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
         std::optional<Buffer<uint8_t>> hits;
         if (const double bytes = retained_hits(features); bytes > 0)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/analysis/image_programs.hpp"
 #include "runtime/memory/counted_grids.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
@@ -22,6 +23,7 @@ struct FrameMemory {
     double pyramid = 0;            ///< part of `image` and `volume`
     double dilated_occupancy = 0;  ///< part of `image`
     double light_host_bytes = 0;   ///< of main memory, for emitters and the sky
+    ForeseenImage foreseen;        ///< with the expected estimate
     RayBytes rays;                 ///< all that they may need
     std::string largest_buffer;    ///< of placing and indexing
     double largest_bytes = 0;

@@ -126,6 +126,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes, const DeviceInfo& d
     plan.world_bytes = expected.pyramid;
     plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;
+    plan.foreseen = expected.foreseen;
     plan.min_image_bytes = minimum.image;
     plan.min_volume_bytes = minimum.volume;
     const double min_shown = shown_of(scene.render, minimum.image, minimum.volume);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/analysis/image_programs.hpp"
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/memory/count/plan_grid.hpp"
 #include "runtime/opencl/device.hpp"
@@ -38,10 +39,11 @@ struct ScenePlan {
 
     double world_bytes = 0;  ///< the pyramid's, part of image_bytes and volume_bytes
     double dilated_occupancy_bytes =
-        0;               ///< of the grid that beams of rays are sent through, part of image_bytes
-    RayBytes rays;       ///< their maximum is part of image_bytes
-    DensityPlan medium;  ///< part of image_bytes
-    double host_bytes = 0;  ///< tables, meshes, emissive objects and the image in main memory
+        0;  ///< of the grid that beams of rays are sent through, part of image_bytes
+    ForeseenImage foreseen;  ///< what the image's kernels will be
+    RayBytes rays;           ///< their maximum is part of image_bytes
+    DensityPlan medium;      ///< part of image_bytes
+    double host_bytes = 0;   ///< tables, meshes, emissive objects and the image in main memory
 
     /// The minimum that all stages need which run, and the world's buffers except those of its
     /// tables and medium: the bytes of objects that can't lie in each other's bricks. Only a frame

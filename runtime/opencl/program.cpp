@@ -13,6 +13,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
+#include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/quirks/driver_quirks.hpp"
 #include "runtime/opencl/status.hpp"
 
@@ -41,6 +42,10 @@ std::string build_options(const Device& device, const KernelSource& source, Defi
 std::string program_key(const KernelSource& source, const std::string& options) {
     const std::array<std::string_view, 2> parts = {source.text(), options};
     return cache_key(parts);
+}
+
+std::string label_of(std::span<const char* const> files) {
+    return fmt::format("kernels/{}", fmt::join(files, " with kernels/"));
 }
 
 size_t group_size(const Device& device, WorkItem work) {
@@ -197,9 +202,8 @@ void Program::build_together(const Device& device, std::span<const char* const> 
     }
     if (missing.empty()) return;
     const KernelSource source = kernel_source(missing);
-    const cl::Program program =
-        build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
-                      {source.text(), build_options(device, source, defines)});
+    const cl::Program program = build_program(
+        device, label_of(missing), {source.text(), build_options(device, source, defines)});
     for (const std::string& key : keys) device.keep_program(key, program);
 }
 
@@ -218,6 +222,22 @@ void Program::build_together(const Device& device, std::span<const ProgramFile> 
         if (build_options(device, source, defines) != build_options(device, source, all)) return;
     }
     build_together(device, names, all);
+}
+
+void Program::foresee(const Device& device, const ForeseenProgram& program) {
+    if (program.files.empty() || !is_compiled_ahead(device.info())) return;
+    for (const char* file : program.files) {
+        const KernelSource& source = kernel_source(file);
+        const auto locked = device.lock();
+        const std::string options = build_options(device, source, program.defines);
+        if (device.programs().contains(program_key(source, options))) return;
+    }
+    const KernelSource source = kernel_source(program.files);
+    CompileJob job{
+        label_of(program.files), source.text(), build_options(device, source, program.defines), {}};
+    for (const ForeseenKernel& kernel : program.kernels)
+        job.kernels.push_back({kernel.name, group_size(device, kernel.work)});
+    compile_ahead(device.info(), std::move(job));
 }
 
 Program Program::from_text(const Device& device, const std::string& source,

@@ -150,6 +150,19 @@ struct ProgramFile {
     Defines defines;
 };
 
+/// A kernel that will be launched, and the work of its work-items.
+struct ForeseenKernel {
+    const char* name;
+    WorkItem work = WorkItem::heavy;
+};
+
+/// Kernel files that will be built together with these constants, and what will be launched.
+struct ForeseenProgram {
+    std::vector<const char*> files;
+    Defines defines;
+    std::vector<ForeseenKernel> kernels;
+};
+
 /// A kernel file compiled for a device with its constants, among which VXL_LANES always is.
 class Program {
   public:
@@ -166,6 +179,10 @@ class Program {
     /// takes PoCL some 13 ms, whatever its size. Does nothing where a constant of one file
     /// would change another's.
     static void build_together(const Device& device, std::span<const ProgramFile> files);
+
+    /// Has helper processes compile a program meanwhile that will be built, where KernelCompilers
+    /// is allowed any and PoCL compiles kernels.
+    static void foresee(const Device& device, const ForeseenProgram& program);
 
     /// Compiles `source`, a text that may include kernels/ files. Used by tests of device
     /// functions.

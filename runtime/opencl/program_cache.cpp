@@ -13,6 +13,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/files/disk_cache.hpp"
+#include "runtime/opencl/ahead/kernel_compilers.hpp"
 #include "runtime/opencl/build_log.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/kernel_builds.hpp"
@@ -122,11 +123,12 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
 cl::Program build_in_pocl_folder(const Device& device, const std::string& label,
                                  const ProgramText& text) {
     cl::Program program;
+    const std::string key = key_of(device.info(), "program", text);
+    const bool was_compiled_ahead = KernelCompilers::instance().await(key);
     const bool ready = PoclFolder::instance().build_with_files(
-        program_store(), key_of(device.info(), "program", text),
-        [&] { return parts_of(device.info(), text); },
+        program_store(), key, [&] { return parts_of(device.info(), text); },
         [&] { program = compile_declared(compiler_target(device), label, text); });
-    if (ready) ++device.counters().programs_from_cache;
+    if (ready && !was_compiled_ahead) ++device.counters().programs_from_cache;
     return program;
 }
 
@@ -141,6 +143,23 @@ cl::Program build_noted(const Device& device, const std::string& label, const Pr
 
 bool keeps_pocl_folder(const DeviceInfo& info) {
     return driver_quirks(info.platform).keeping == ProgramKeeping::pocl_folder;
+}
+
+bool is_compiled_ahead(const DeviceInfo& info) {
+    return keeps_pocl_folder(info) && !cache_folder().empty() &&
+           KernelCompilers::instance().is_allowed() && !PoclFolder::instance().path().empty();
+}
+
+void prepare_to_compile(const DeviceInfo& info) {
+    if (is_compiled_ahead(info))
+        KernelCompilers::instance().start({info.index, info.name}, PoclFolder::instance().path());
+}
+
+void compile_ahead(const DeviceInfo& info, CompileJob job) {
+    const std::string key = key_of(info, "program", {job.source, job.options});
+    if (!is_compiled_ahead(info) || program_store().read(key)) return;
+    prepare_to_compile(info);
+    KernelCompilers::instance().add({std::move(job), key});
 }
 
 bool compiles_kernels_alone(const DeviceInfo& info) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/opencl/ahead/compile_job.hpp"
 #include "runtime/opencl/device.hpp"
 
 namespace voxelume {
@@ -27,6 +28,15 @@ cl::Program build_program(const Device& device, const std::string& label, const 
 
 /// True for a device whose compiled kernels are kept in PoCL's own files.
 bool keeps_pocl_folder(const DeviceInfo& info);
+
+/// True where helper processes may compile kernels ahead for this process: see KernelCompilers.
+bool is_compiled_ahead(const DeviceInfo& info);
+
+/// Starts the helpers, because this process is about to compile.
+void prepare_to_compile(const DeviceInfo& info);
+
+/// Has a helper compile a program and its kernels into the cache, unless the cache has the program.
+void compile_ahead(const DeviceInfo& info, CompileJob job);
 
 /// True for GPUs, whose drivers compile kernels when their program is built: then each is compiled
 /// alone, see kernel_builds.hpp. Intel's driver for CPUs compiles one program at a time, and takes

@@ -6,6 +6,7 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/analysis/image_programs.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emitters.hpp"
 #include "runtime/stages/light/light_samples.hpp"
@@ -74,21 +75,8 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
-    std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
-    if (has_light(features, scene, world)) files.push_back("light.cl");
-    if (has_light(features, scene, world) && has_sky_samples(scene))
-        files.push_back("sky_light.cl");
-    if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
-    if (features.absorbs) files.push_back("medium.cl");
-    if (features.scattering) files.push_back("medium_paths.cl");
-    if (features.near_light) files.push_back("near_light.cl");
-    if (features.paths) files.push_back("scatter.cl");
-    if (features.global) files.push_back("extend.cl");
-    if (features.global && features.area_samples) files.push_back("area_light.cl");
-    if (makes_image) files.push_back("resolve.cl");
-    const ImageChannels& channels = scene.render.channels;
-    if (makes_image && (channels.object_matte || channels.material_matte))
-        files.push_back("matte.cl");
+    const std::vector<const char*> files =
+        sight_files(features, scene, world, makes_image, has_dilated_occupancy);
     Program::build_together(
         device, files,
         resolve_defines(device, features, scene.render.channels, adds_samples(scene.render)));

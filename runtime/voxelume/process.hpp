@@ -29,6 +29,12 @@ struct ProcessOptions {
     /// program is started by posix_spawn, once for each file.
     bool isolate_readers = false;
 
+    /// The maximum number of voxelume-kernel-compiler that run beside the process while it renders
+    /// a first picture, 0: none. Each compiles kernels for PoCL into Voxelume's cache, since PoCL
+    /// compiles on one core in a process. They are started by posix_spawn when a kernel is to be
+    /// compiled, if `set_driver_environment` is set and something is kept in the cache.
+    int kernel_compilers = 0;
+
     /// Threads that compress and expand OpenEXR files; 0: none but the caller's.
     int image_threads = 0;
 };

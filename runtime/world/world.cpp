@@ -145,6 +145,7 @@ BuiltWorld WorldBuilder::rebuilt_world(const Scene& scene, const Origin& origin,
     check_tables(scene, device_.info());
     const ScenePlan plan = plan_scene(scene, meshes_, device_.info());
     check_memory(scene, plan, device_.info());
+    compile_ahead(device_, scene.render, plan.foreseen);
     report.load_seconds = meshes_.load_seconds() - load_seconds_;
     report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();

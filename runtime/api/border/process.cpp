@@ -13,6 +13,7 @@
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/vdb/vdb.hpp"
+#include "runtime/opencl/ahead/kernel_compilers.hpp"
 #include "runtime/opencl/device_call.hpp"
 #include "runtime/opencl/quirks/pocl_folder.hpp"
 
@@ -25,6 +26,8 @@ bool are_applied = false;
 void apply(const v1::ProcessOptions& options) {
     PoclFolder::allow(options.set_driver_environment);
     isolate_vdb_readers(options.isolate_readers);
+    KernelCompilers::instance().allow(options.set_driver_environment ? options.kernel_compilers
+                                                                     : 0);
     if (options.image_threads > 0) set_exr_threads(options.image_threads);
     are_applied = true;
 }
@@ -83,6 +86,7 @@ std::string cache_base_refusal(const std::filesystem::path& base) {
 
 void remove_unfinished_files() {
     delete_temporary_files();
+    KernelCompilers::instance().end();
     PoclFolder::remove();
 }
 

@@ -53,6 +53,9 @@ class HelperProcess {
     /// HelperFailure if there are none, or if they come too late.
     size_t read(void* data, size_t size);
 
+    /// The end of its pipe, for those who wait for other things, too.
+    int answer() const { return answer_; }
+
   private:
     void wait_for_bytes();
     [[noreturn]] void fail_without_answer();

@@ -2,7 +2,6 @@
 #include "runtime/opencl/quirks/pocl_folder.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -13,14 +12,12 @@
 #include <fstream>
 #include <future>
 #include <iterator>
-#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
 
-#include "runtime/base/files/private_folder.hpp"
-#include "runtime/base/files/process_tag.hpp"
+#include "runtime/opencl/quirks/pocl_folder_names.hpp"
 #include "runtime/opencl/source/packed_files.hpp"
 
 namespace voxelume {
@@ -31,48 +28,14 @@ namespace fs = std::filesystem;
 /// The process's folder once it is made, for those who may not make it.
 std::atomic<const PoclFolder*> existing_folder = nullptr;
 
-constexpr std::string_view kRandom = "-XXXXXX";  // the end of a folder's name
-constexpr const char* kLock = "lock";
+constexpr std::chrono::minutes kLongestWait(1);
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// True for a name that make_folder() gives, or gave in older versions: only these are removed.
-bool is_of_process(const std::string& name) {
-    static const std::regex pattern(R"(pocl(-[0-9]+|\..+\.[0-9]+\.[0-9]+)-[A-Za-z0-9]{6})");
-    return std::regex_match(name, pattern);
-}
-
-/// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
-/// than a minute old of a process that may live is left, since it may not have locked it yet; so
-/// are other users'.
-void remove_stale_folders(const fs::path& parent) {
-    std::error_code error;
-    const auto now = fs::file_time_type::clock::now();
-    for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
-        const std::string name = entry.path().filename();
-        if (!is_of_process(name)) continue;
-        const bool is_new = now - entry.last_write_time(error) < std::chrono::minutes(1);
-        const std::string_view tag(name.data(), name.size() - kRandom.size());
-        if (error || (is_new && !ends_with_dead_tag(tag))) continue;
-        const PrivateFolder folder = PrivateFolder::open(entry.path());
-        if (!folder) continue;
-        const int lock = openat(folder.descriptor(), kLock,
-                                O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
-        if (lock < 0) continue;
-        if (flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), error);
-        close(lock);
-    }
-}
-
-/// A new folder in `parent` that only this user can read. Empty if that fails, if others could put
-/// another in its place, or if the disk is so full that PoCL might end the program.
-fs::path make_folder(const fs::path& parent) {
-    constexpr uintmax_t kRoom = 32u << 20;
-    std::error_code error;
-    if (!make_safe_parent(parent)) return {};
-    if (fs::space(parent, error).available < kRoom || error) return {};
-    std::string name = (parent / fmt::format("pocl.{}{}", process_tag(), kRandom)).string();
-    return mkdtemp(name.data()) ? fs::path(name) : fs::path();
+/// The folder of the process that this one helps; empty for others.
+fs::path& helped_folder() {
+    static fs::path folder;
+    return folder;
 }
 
 /// The files of a program that later runs need, by path from `root`: bitcode, kernels, messages.
@@ -135,6 +98,10 @@ void PoclFolder::allow(bool is_allowed) {
     folder_is_allowed = is_allowed;
 }
 
+void PoclFolder::place_in(const fs::path& parent) {
+    helped_folder() = parent;
+}
+
 PoclFolder& PoclFolder::instance() {
     static PoclFolder folder;
     return folder;
@@ -158,19 +125,24 @@ void PoclFolder::remove() {
     unlink(folder->folder_.c_str());
 }
 
-PoclFolder::PoclFolder() : process_(getpid()) {
+PoclFolder::PoclFolder()
+    : process_(getpid()), turn_(helped_folder().empty() ? kLongestWait : kLongestWait * 0) {
     if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
+    if (!helped_folder().empty()) {
+        folder_ = make_pocl_folder(helped_folder());
+        return;
+    }
     // Some systems forbid programs, such as kernels, in the temporary folder, so it is tried last.
     std::error_code error;
     for (const fs::path& parent : {cache_folder(), fs::temp_directory_path(error)}) {
         if (parent.empty()) continue;
-        remove_stale_folders(parent);
-        folder_ = make_folder(parent);
+        remove_stale_pocl_folders(parent);
+        folder_ = make_pocl_folder(parent);
         if (!folder_.empty()) break;
     }
     if (folder_.empty()) return;
     existing_folder = this;
-    lock_ = open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    lock_ = open((folder_ / kPoclFolderLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
 }
 

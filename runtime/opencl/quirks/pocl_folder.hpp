@@ -40,6 +40,13 @@ class PoclFolder {
     /// environment. It has one unless this forbids it before `instance` is first called.
     static void allow(bool is_allowed);
 
+    /// Has the folder made in another process's, which will delete it, and no turn taken or waited
+    /// for. To be called before `instance`.
+    static void place_in(const std::filesystem::path& parent);
+
+    /// Its path; empty if the user chose PoCL's folder.
+    const std::filesystem::path& path() const { return folder_; }
+
     /// Deletes the process's folder if it has one, for a program that ends without destructors.
     static void remove();
 

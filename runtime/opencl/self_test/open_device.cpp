@@ -80,6 +80,7 @@ std::optional<Device> Device::open_tested(const Candidate& chosen, int lanes, co
     // The test has a device of its own, so that it isn't seen in the counters.
     std::optional<Device> tested;
     if (!found) {
+        prepare_to_compile(info);
         tested = open(chosen.device, info, sibling);
         found = new_fault(*tested);
     }

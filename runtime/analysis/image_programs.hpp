@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene -> the programs and kernels that its image is made by, known before its world is built.
+#pragma once
+
+#include <vector>
+
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/features.hpp"
+
+namespace voxelume {
+
+/// The kernel files of the stages that sight rays pass through. `makes_image` says that the rays
+/// end in a flat image of the scene's channels, `has_dilated_occupancy` that lights may send beams.
+std::vector<const char*> sight_files(const Features& features, const Scene& scene,
+                                     const Pyramid& world, bool makes_image,
+                                     bool has_dilated_occupancy);
+
+/// What the image of a scene will be compiled of.
+struct ForeseenImage {
+    Features features;
+    std::vector<const char*> files;
+    std::vector<ForeseenKernel> kernels;
+};
+
+/// Foresees the image of a scene. `world` may be one of a counting device, and has no parts of
+/// solids. Without files where only building the world will tell whether several surfaces share a
+/// voxel, and for images that are made in several ways, one after another: with passes, by noise,
+/// adaptively, or of moments.
+ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world);
+
+/// Has it compiled while the world is built: see Program::foresee.
+void compile_ahead(const Device& device, const RenderSettings& render, const ForeseenImage& image);
+
+}  // namespace voxelume

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/opencl/ahead/kernel_compilers.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "runtime/base/helper/helper_process.hpp"
+#include "runtime/base/helper/helper_program.hpp"
+
+namespace voxelume {
+namespace {
+
+/// A helper that had nothing to do for so long ends, and gives its memory back.
+constexpr std::chrono::seconds kLongestRest(10);
+/// Only what is read by HelperProcess::read has to come in time.
+constexpr double kHelperSeconds = 600;
+
+/// Waits until `descriptor` is ready for `event`. Returns false once `wake` is readable.
+bool wait_until_ready(int descriptor, short event, int wake) {
+    for (;;) {
+        pollfd events[] = {{descriptor, event, 0}, {wake, POLLIN, 0}};
+        const int ready = poll(events, 2, -1);
+        if (ready < 0 && errno == EINTR) continue;
+        return ready > 0 && events[1].revents == 0;
+    }
+}
+
+/// The two ends of a socket for jobs.
+class JobSocket {
+  public:
+    JobSocket() {
+        if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends_.data()) != 0) ends_ = {-1, -1};
+    }
+    ~JobSocket() {
+        for (const int end : ends_)
+            if (end >= 0) close(end);
+    }
+    JobSocket(const JobSocket&) = delete;
+    JobSocket& operator=(const JobSocket&) = delete;
+
+    int helpers_end() const { return ends_[1]; }
+    void close_helpers_end() {
+        if (ends_[1] >= 0) close(std::exchange(ends_[1], -1));
+    }
+    /// Returns false where nobody will read it, or once `wake` is readable.
+    bool send_all(const std::string& bytes, int wake) const {
+        for (size_t sent = 0; sent < bytes.size();) {
+            if (!wait_until_ready(ends_[0], POLLOUT, wake)) return false;
+            const ssize_t some = send(ends_[0], bytes.data() + sent, bytes.size() - sent,
+                                      MSG_NOSIGNAL | MSG_DONTWAIT);
+            if (some < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+            if (some <= 0) return false;
+            sent += size_t(some);
+        }
+        return true;
+    }
+
+  private:
+    std::array<int, 2> ends_{-1, -1};
+};
+
+/// Ends the helpers when the process ends, before what was made before they were started.
+struct EndAtExit {
+    EndAtExit() = default;
+    ~EndAtExit() { KernelCompilers::instance().end(); }
+    EndAtExit(const EndAtExit&) = delete;
+    EndAtExit& operator=(const EndAtExit&) = delete;
+};
+
+}  // namespace
+
+KernelCompilers& KernelCompilers::instance() {
+    static KernelCompilers compilers;
+    return compilers;
+}
+
+KernelCompilers::KernelCompilers() : process_(getpid()), wake_(eventfd(0, EFD_CLOEXEC)) {}
+
+KernelCompilers::~KernelCompilers() {
+    end();
+    if (wake_ >= 0) close(wake_);
+}
+
+void KernelCompilers::allow(int processes, std::filesystem::path program) {
+    const std::lock_guard lock(mutex_);
+    most_ = processes;
+    program_ = std::move(program);
+}
+
+bool KernelCompilers::is_allowed() const {
+    const std::lock_guard lock(mutex_);
+    return most_ > 0 && wake_ >= 0 && !is_ended_ && getpid() == process_;
+}
+
+void KernelCompilers::set_longest_wait(std::chrono::milliseconds time) {
+    const std::lock_guard lock(mutex_);
+    longest_wait_ = time;
+}
+
+void KernelCompilers::start(const Target& target, const std::filesystem::path& folder) {
+    static const EndAtExit end_at_exit;  // the folder's owner was made before
+    const std::lock_guard lock(mutex_);
+    if (is_ended_ || !threads_.empty()) return;
+    const std::filesystem::path program =
+        program_.empty() ? helper_program(kKernelCompilerName) : program_;
+    const std::vector<std::string> arguments = {VXL_VERSION, folder.string(),
+                                                std::to_string(target.index), target.name};
+    for (int i = 0; i < most_; ++i)
+        threads_.emplace_back([this, program, arguments] { serve(program, arguments); });
+}
+
+void KernelCompilers::add(Wanted wanted) {
+    {
+        const std::lock_guard lock(mutex_);
+        jobs_.push_back(std::make_unique<Job>(Job{std::move(wanted)}));
+    }
+    changed_.notify_all();
+}
+
+/// The job that is needed last of those that wait. Null if there is none for too long, and in the
+/// end.
+KernelCompilers::Job* KernelCompilers::claim() {
+    std::unique_lock lock(mutex_);
+    Job* last = nullptr;
+    changed_.wait_for(lock, kLongestRest, [&] {
+        for (const auto& job : jobs_)
+            if (job->state == State::waiting) last = job.get();
+        return is_ended_ || last;
+    });
+    if (is_ended_ || !last) return nullptr;
+    last->state = State::begun;
+    return last;
+}
+
+void KernelCompilers::finish(Job& job, State state) {
+    {
+        const std::lock_guard lock(mutex_);
+        job.state = state;
+        compiled_ += int(state == State::done);
+    }
+    changed_.notify_all();
+}
+
+/// The life of a helper. It is this thread's child, and would end with it.
+void KernelCompilers::serve(const std::filesystem::path& program,
+                            const std::vector<std::string>& arguments) {
+    Job* job = nullptr;
+    try {
+        JobSocket socket;
+        const HelperProcess helper(program, arguments, socket.helpers_end(), kHelperSeconds);
+        socket.close_helpers_end();
+        while ((job = claim())) {
+            char is_done = 0;
+            if (!socket.send_all(bytes_of(job->wanted.job), wake_) ||
+                !wait_until_ready(helper.answer(), POLLIN, wake_) ||
+                read(helper.answer(), &is_done, 1) != 1)
+                break;
+            finish(*job, is_done == 1 ? State::done : State::left);
+        }
+    } catch (const std::exception&) {
+        // Without a helper, this process compiles all itself.
+    }
+    if (job) finish(*job, State::left);
+}
+
+bool KernelCompilers::await(const std::string& key) {
+    std::unique_lock lock(mutex_);
+    const auto found =
+        std::ranges::find_if(jobs_, [&](const auto& job) { return job->wanted.key == key; });
+    if (found == jobs_.end()) return false;
+    Job& job = **found;
+    if (job.state == State::waiting) job.state = State::left;
+    changed_.wait_for(lock, longest_wait_, [&] { return job.state != State::begun; });
+    return job.state == State::done;
+}
+
+int KernelCompilers::started() const {
+    const std::lock_guard lock(mutex_);
+    return int(threads_.size());
+}
+
+int KernelCompilers::compiled() const {
+    const std::lock_guard lock(mutex_);
+    return compiled_;
+}
+
+void KernelCompilers::end() {
+    std::vector<std::thread> threads;
+    {
+        const std::lock_guard lock(mutex_);
+        is_ended_ = true;
+        threads.swap(threads_);
+    }
+    changed_.notify_all();
+    if (wake_ >= 0 && getpid() == process_) eventfd_write(wake_, 1);
+    for (std::thread& thread : threads) getpid() == process_ ? thread.join() : thread.detach();
+}
+
+}  // namespace voxelume

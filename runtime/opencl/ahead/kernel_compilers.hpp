@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Processes that compile the kernels that this one will need later.
+//
+// PoCL compiles one kernel at a time in a process, and those of a first picture take it seconds.
+// What is needed last is left to others: each compiles whole programs in a PoCL of its own, with a
+// folder in this process's, and keeps them in the cache, where this process finds them as those of
+// an earlier run. So entries are the same with and without helpers, and whatever becomes of a
+// helper costs time only.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "runtime/opencl/ahead/compile_job.hpp"
+
+namespace voxelume {
+
+/// The helpers of this process. Any thread may call.
+class KernelCompilers {
+  public:
+    static KernelCompilers& instance();
+
+    /// Lets as many helpers run at once; none is started before this is called. `program` is
+    /// started for each; empty: the one that is installed.
+    void allow(int processes, std::filesystem::path program = {});
+    bool is_allowed() const;
+
+    /// Has `await` wait for at most so long.
+    void set_longest_wait(std::chrono::milliseconds time);
+
+    /// A job, and the key of its program in the cache.
+    struct Wanted {
+        CompileJob job;
+        std::string key;
+    };
+
+    /// The device that kernels are compiled for: its number and its name.
+    struct Target {
+        int index;
+        std::string name;
+    };
+
+    /// Starts the helpers, unless they were started before. `folder` is this process's own for
+    /// PoCL's files.
+    void start(const Target& target, const std::filesystem::path& folder);
+
+    /// Adds a program that the cache lacks; programs are added in the order in which they will be
+    /// built. Helpers take the last first.
+    void add(Wanted wanted);
+
+    /// Says that this process needs a program now. Waits for the helper that compiles it, if one
+    /// does; if not, none will. Returns true if a helper has compiled it.
+    bool await(const std::string& key);
+
+    /// The number of helpers that were started, and of the programs that they compiled.
+    int started() const;
+    int compiled() const;
+
+    /// Ends all helpers, for good.
+    void end();
+
+    KernelCompilers(const KernelCompilers&) = delete;
+    KernelCompilers& operator=(const KernelCompilers&) = delete;
+
+  private:
+    enum class State { waiting, begun, done, left };
+    struct Job {
+        Wanted wanted;
+        State state = State::waiting;
+    };
+
+    KernelCompilers();
+    ~KernelCompilers();
+    void serve(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    Job* claim();
+    void finish(Job& job, State state);
+
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;  ///< a job's state, or their number
+    std::vector<std::unique_ptr<Job>> jobs_;
+    std::vector<std::thread> threads_;  ///< one for each helper, which ends with it
+    std::filesystem::path program_;
+    std::chrono::milliseconds longest_wait_{10'000};
+    pid_t process_;  ///< a forked child has no threads
+    int most_ = 0;
+    int wake_ = -1;  ///< readable once all helpers are to end
+    bool is_ended_ = false;
+    int compiled_ = 0;
+};
+
+}  // namespace voxelume
