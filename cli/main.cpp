@@ -128,7 +128,7 @@ void open_closed_streams() {
 
 }  // namespace
 
-/// The cores on which nothing runs now but this process.
+/// The cores on which nothing runs at this moment but this process, of the whole machine's.
 int idle_cores() {
     int running = 1;  // threads of all processes, this one's among them
     std::string average;

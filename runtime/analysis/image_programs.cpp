@@ -34,7 +34,8 @@ bool follows(const Features& f) {
 }
 
 /// Those that most images take. The process that renders compiles the others itself: of lights
-/// nearby, mattes, and a medium's lights with an area.
+/// nearby, mattes, a medium's lights with an area, and lights without one beside such in global
+/// light.
 constexpr KernelRow kKernels[] = {
     {"sight.cl", {"cast_sight"}, always},
     {"trace.cl", {"trace_closest"}, always},
@@ -44,7 +45,7 @@ constexpr KernelRow kKernels[] = {
      {"trace_scattered"},
      [](const Features& f) { return VXL_REFILLS_LANES(f.paths, f.instances) != 0; }},
     {"shade.cl", {"shade_surface"}, always},
-    {"light.cl", {"add_light"}, always},
+    {"light.cl", {"add_light"}, [](const Features& f) { return !f.global || !f.area_samples; }},
     {"sky_light.cl", {"add_sky_light"}, always},
     {"light_beams.cl", {"send_light_beams"}, always},
     {"medium.cl", {"absorb_sight"}, always},
@@ -87,20 +88,24 @@ VoxelBox grown(const VoxelBox& box, double by) {
 }
 
 /// Whether some voxel lists distances, as those do that several objects share. Objects that stand
-/// on others are taken to share some, objects a voxel apart to share none. Of others, only building
-/// the world will tell.
+/// on others are taken to share some, objects a voxel apart to share none. Of others, and of very
+/// many, only building the world will tell.
 std::optional<bool> lists_fields(const Scene& scene, const Pyramid& world) {
     struct Placed {
         VoxelBox box;
         bool is_smooth;
     };
+    constexpr size_t kMost = 300;  // each is compared with each
     std::vector<Placed> placed;
     bool may_meet = false;
+    const auto is_smooth_model = [](const Model& model) { return stores_distances(model.surface); };
+    if (std::ranges::none_of(scene.models, is_smooth_model)) return false;
+    if (scene.objects.size() > kMost) return std::nullopt;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         if (is_empty(world.object_boxes[i]) || is_instanced(scene, object)) continue;
         const VoxelBox box = grown(world.object_boxes[i], -1);  // see object_boxes()
-        const bool is_smooth = stores_distances(scene.models[size_t(object.model)].surface);
+        const bool is_smooth = is_smooth_model(scene.models[size_t(object.model)]);
         for (const Placed& other : placed) {
             if (!is_smooth && !other.is_smooth) continue;
             if (stand_on_each_other(box, other.box)) return true;

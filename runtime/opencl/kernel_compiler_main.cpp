@@ -55,31 +55,36 @@ void launch(const Device& device, const cl::Program& program, const CompiledKern
     device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, group, group);
 }
 
-void compile(const Device& device, const CompileJob& job, const cl::Buffer& dummy) {
-    const cl::Program program = build_program(device, job.label, {job.source, job.options});
+/// Returns true if the cache has the program then: a disk may be full.
+bool compile(const Device& device, const CompileJob& job, const cl::Buffer& dummy) {
+    const ProgramText text = {job.source, job.options};
+    const cl::Program program = build_program(device, job.label, text);
     for (const CompiledKernel& kernel : job.kernels) launch(device, program, kernel, dummy);
     device.finish();
     keep_compiled_kernels(device.info());
+    return is_program_kept(device.info(), text);
 }
 
-/// Arguments: the version, the folder for PoCL's files, the device's number and its name.
+/// Arguments: the version, the folder for PoCL's files, the device's number and its name, and the
+/// number of the process that started this one.
 int serve(int count, char** arguments) {
-    if (count != 5 || std::strcmp(arguments[1], VXL_VERSION) != 0) return 2;
-    const pid_t parent = getppid();
-    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || parent == 1 || getppid() != parent) return 3;
+    if (count != 6 || std::strcmp(arguments[1], VXL_VERSION) != 0) return 2;
+    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != std::atoi(arguments[5])) return 3;
     setenv("VOXELUME_SELF_TEST", "off", 1);
+    setenv("POCL_MAX_PTHREAD_COUNT", "1", 1);  // it runs nothing that more threads would speed up
     PoclFolder::place_in(arguments[2]);
     const Device device = Device::open(arguments[3]);
     if (device.info().name != arguments[4] || !keeps_pocl_folder(device.info())) return 4;
+    if (PoclFolder::instance().path().empty()) return 4;  // its files would be among the user's
     // PoCL reads its library of functions, which takes 0.3 s, when it first builds.
     cl::Program(device.context(), "kernel void nothing() {}").build(device.handle());
     const std::vector<char> zeroes(kDummyBytes, 0);
     const cl::Buffer dummy(device.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, kDummyBytes,
                            const_cast<char*>(zeroes.data()));
     while (const auto job = next_job(kHelperInput)) {
-        char is_done = 1;
+        char is_done = 0;
         try {
-            compile(device, *job, dummy);
+            is_done = char(compile(device, *job, dummy));
         } catch (const std::exception&) {
             is_done = 0;
         }

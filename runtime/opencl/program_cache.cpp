@@ -150,16 +150,20 @@ bool is_compiled_ahead(const DeviceInfo& info) {
            KernelCompilers::instance().is_allowed() && !PoclFolder::instance().path().empty();
 }
 
-void prepare_to_compile(const DeviceInfo& info) {
-    if (is_compiled_ahead(info))
-        KernelCompilers::instance().start({info.index, info.name}, PoclFolder::instance().path());
+bool prepare_to_compile(const DeviceInfo& info) {
+    return is_compiled_ahead(info) && program_store().refusal().empty() &&
+           KernelCompilers::instance().start({info.index, info.name},
+                                             PoclFolder::instance().path());
+}
+
+bool is_program_kept(const DeviceInfo& info, const ProgramText& text) {
+    return program_store().read(key_of(info, "program", text)).has_value();
 }
 
 void compile_ahead(const DeviceInfo& info, CompileJob job) {
     const std::string key = key_of(info, "program", {job.source, job.options});
     if (!is_compiled_ahead(info) || program_store().read(key)) return;
-    prepare_to_compile(info);
-    KernelCompilers::instance().add({std::move(job), key});
+    if (prepare_to_compile(info)) KernelCompilers::instance().add({std::move(job), key});
 }
 
 bool compiles_kernels_alone(const DeviceInfo& info) {

@@ -32,8 +32,12 @@ bool keeps_pocl_folder(const DeviceInfo& info);
 /// True where helper processes may compile kernels ahead for this process: see KernelCompilers.
 bool is_compiled_ahead(const DeviceInfo& info);
 
-/// Starts the helpers, because this process is about to compile.
-void prepare_to_compile(const DeviceInfo& info);
+/// Starts the helpers, because this process is about to compile. Returns true if one compiles for
+/// this device; none does where the cache can't be written.
+bool prepare_to_compile(const DeviceInfo& info);
+
+/// True if the cache has a program.
+bool is_program_kept(const DeviceInfo& info, const ProgramText& text);
 
 /// Has a helper compile a program and its kernels into the cache, unless the cache has the program.
 void compile_ahead(const DeviceInfo& info, CompileJob job);

@@ -31,8 +31,10 @@ struct ProcessOptions {
 
     /// The maximum number of voxelume-kernel-compiler that run beside the process while it renders
     /// a first picture, 0: none. Each compiles kernels for PoCL into Voxelume's cache, since PoCL
-    /// compiles on one core in a process. They are started by posix_spawn when a kernel is to be
-    /// compiled, if `set_driver_environment` is set and something is kept in the cache.
+    /// compiles on one core in a process. They are started by posix_spawn, once in a process, when
+    /// a kernel is to be compiled, if `set_driver_environment` is set and the cache can be written.
+    /// Each has 250 MB of memory, and a thread of this process that waits for it; the limits of
+    /// `limit_memory` don't count them.
     int kernel_compilers = 0;
 
     /// Threads that compress and expand OpenEXR files; 0: none but the caller's.
@@ -45,7 +47,8 @@ void configure(const ProcessOptions& options);
 
 /// Deletes what the process has begun to write and not finished: the hidden files next to outputs
 /// and the folder of its kernels. It is for a program that has to end while calls of the library
-/// still run; those fail, if they go on. Any thread may call it.
+/// still run; those fail, if they go on. It also ends the processes that compile kernels, for good.
+/// Any thread may call it.
 void remove_unfinished_files();
 
 /// Calls `late` once, from a thread of its own, with a sentence that names the device and what it

@@ -73,7 +73,14 @@ TEST_P(ForeseenImages, AreMadeByWhatIsForeseen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ForeseenImages,
-                         testing::Values("bunny", "cubes", "still_life", "voxels", "whitted"));
+                         testing::Values("bunny", "cornell", "cubes", "still_life", "voxels",
+                                         "whitted"));
+
+TEST(ForeseenImage, IsNoneOfVeryManyObjects) {
+    Scene scene = small_scene("bunny", {96, 72}, 64);
+    scene.objects.resize(301, scene.objects[0]);
+    EXPECT_TRUE(foreseen_image(scene, Pyramid{}).files.empty());
+}
 
 }  // namespace
 }  // namespace voxelume

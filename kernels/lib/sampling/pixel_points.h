@@ -6,11 +6,11 @@
 // The first 2^k samples of all pixels of a square of 2 x 2 or 4 x 4 fall one each into boxes that
 // divide the unit square evenly, whatever their shape. For that, take a sample's number as a
 // polynomial N(z) over two elements. The digits of Sobol's x are its coefficients, those of his y
-// the coefficients at 1 + z. A pixel whose place in squares of 2^j pixels has the bits u_j and v_j
-// adds the sum of (u_j + v_j z) / (1 + z + z^2)^j to it. For m of them the sum times
-// (1 + z + z^2)^m is a polynomial of less than k + 2m coefficients, and any k + 2m digits, the
-// first of x and the first of y, tell which, as polynomials with so many zeroes at 0 and 1 are
-// zero. (The poles are places of a rational function field: Niederreiter & Xing 1996,
+// the coefficients at 1 + z. A pixel whose place in squares of 2^j x 2^j has the bits u_j and v_j
+// adds the sum of (u_j + v_j z) / (1 + z + z^2)^j to it. For the m sizes up to a square's own, the
+// sum times (1 + z + z^2)^m is a polynomial of less than k + 2m coefficients, and any k + 2m
+// digits, the first of x and the first of y, tell which, as polynomials with so many zeroes at 0
+// and 1 are zero. (The poles are places of a rational function field: Niederreiter & Xing 1996,
 // "Low-discrepancy sequences and global function fields with many rational places". That errors of
 // neighbours cancel so: Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo
 // Sampling Error via Hierarchical Ordering of Pixels", whose order needs a number of samples that
@@ -30,9 +30,9 @@ typedef struct {
     lane_uint u, v;
 } PlaceDigit;
 
-/// Which quarter of a square of 2^(j + 1) pixels a pixel lies in, rearranged by 16 random bits of
-/// the square: each two quarters become each two others with the same probability. For that, the
-/// bits of the place and their sum are turned, any two of which tell the third.
+/// Which quarter of a square of 2^(j + 1) x 2^(j + 1) a pixel lies in, rearranged by 16 random bits
+/// of the square: each two quarters become each two others with almost the same probability. For
+/// that, the bits of the place and their sum are turned, any two of which tell the third.
 static inline PlaceDigit rearranged_digit(lane_uint pixel, uint j, lane_uint random) {
     const lane_uint u = pixel >> j, v = pixel >> (16 + j), sum = u ^ v;
     const lane_uint turns = (((random >> 8) & 0xFFu) * 3u) >> 8;

@@ -82,6 +82,7 @@ static inline lane_uint shuffled_sample(lane_uint sample, lane_uint seed) {
 /// Coordinates of which the first digits are the lowest bits, scrambled, as 32-bit fractions.
 static inline SquareBits scrambled_digits(lane_uint x, lane_uint y, lane_uint seed) {
     const lane_uint seed_x = mixed_bits(seed ^ 0xA511E9B3u);
+    // The first 16 digits of each coordinate depend on other bits.
     const lane_uint seed_y = (seed_x >> 16) | (seed_x << 16);
     const SquareBits p = {reversed_bits(flipped_from_below(x, seed_x)),
                           reversed_bits(flipped_from_below(y, seed_y))};

@@ -19,7 +19,7 @@ namespace {
 
 /// A helper that had nothing to do for so long ends, and gives its memory back.
 constexpr std::chrono::seconds kLongestRest(10);
-/// Only what is read by HelperProcess::read has to come in time.
+/// For HelperProcess::read, which nothing calls: `await` has a limit of its own.
 constexpr double kHelperSeconds = 600;
 
 /// Waits until `descriptor` is ready for `event`. Returns false once `wake` is readable.
@@ -104,21 +104,34 @@ void KernelCompilers::set_longest_wait(std::chrono::milliseconds time) {
     longest_wait_ = time;
 }
 
-void KernelCompilers::start(const Target& target, const std::filesystem::path& folder) {
+bool KernelCompilers::start(const Target& target, const std::filesystem::path& folder) {
     static const EndAtExit end_at_exit;  // the folder's owner was made before
     const std::lock_guard lock(mutex_);
-    if (is_ended_ || !threads_.empty()) return;
-    const std::filesystem::path program =
-        program_.empty() ? helper_program(kKernelCompilerName) : program_;
-    const std::vector<std::string> arguments = {VXL_VERSION, folder.string(),
-                                                std::to_string(target.index), target.name};
-    for (int i = 0; i < most_; ++i)
-        threads_.emplace_back([this, program, arguments] { serve(program, arguments); });
+    if (is_ended_) return false;
+    if (!threads_.empty()) return living_ > 0 && target == target_;
+    target_ = target;
+    try {
+        const std::filesystem::path program =
+            program_.empty() ? helper_program(kKernelCompilerName) : program_;
+        const std::vector<std::string> arguments = {VXL_VERSION, folder.string(),
+                                                    std::to_string(target.index), target.name,
+                                                    std::to_string(process_)};
+        threads_.reserve(size_t(most_));
+        for (int i = 0; i < most_; ++i) {
+            threads_.emplace_back([this, program, arguments] { serve(program, arguments); });
+            ++living_;
+        }
+    } catch (const std::exception&) {
+        // The system grants no more threads: those that there are will do.
+    }
+    return living_ > 0;
 }
 
 void KernelCompilers::add(Wanted wanted) {
     {
         const std::lock_guard lock(mutex_);
+        for (const auto& job : jobs_)
+            if (job->wanted.key == wanted.key) return;
         jobs_.push_back(std::make_unique<Job>(Job{std::move(wanted)}));
     }
     changed_.notify_all();
@@ -143,6 +156,7 @@ void KernelCompilers::finish(Job& job, State state) {
     {
         const std::lock_guard lock(mutex_);
         job.state = state;
+        job.wanted.job = {};
         compiled_ += int(state == State::done);
     }
     changed_.notify_all();
@@ -168,15 +182,21 @@ void KernelCompilers::serve(const std::filesystem::path& program,
         // Without a helper, this process compiles all itself.
     }
     if (job) finish(*job, State::left);
+    const std::lock_guard lock(mutex_);
+    --living_;
 }
 
 bool KernelCompilers::await(const std::string& key) {
+    if (getpid() != process_) return false;
     std::unique_lock lock(mutex_);
     const auto found =
         std::ranges::find_if(jobs_, [&](const auto& job) { return job->wanted.key == key; });
     if (found == jobs_.end()) return false;
     Job& job = **found;
-    if (job.state == State::waiting) job.state = State::left;
+    if (job.state == State::waiting) {
+        job.state = State::left;
+        job.wanted.job = {};
+    }
     changed_.wait_for(lock, longest_wait_, [&] { return job.state != State::begun; });
     return job.state == State::done;
 }

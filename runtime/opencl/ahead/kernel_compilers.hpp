@@ -45,16 +45,18 @@ class KernelCompilers {
 
     /// The device that kernels are compiled for: its number and its name.
     struct Target {
-        int index;
+        int index = 0;
         std::string name;
+        bool operator==(const Target&) const = default;
     };
 
-    /// Starts the helpers, unless they were started before. `folder` is this process's own for
-    /// PoCL's files.
-    void start(const Target& target, const std::filesystem::path& folder);
+    /// Starts the helpers, unless they were started before: a process has them once, for its first
+    /// device. `folder` is this process's own for PoCL's files. Returns true if one lives that
+    /// compiles for `target`.
+    bool start(const Target& target, const std::filesystem::path& folder);
 
-    /// Adds a program that the cache lacks; programs are added in the order in which they will be
-    /// built. Helpers take the last first.
+    /// Adds a program that the cache lacks, unless it was added before. Helpers take the last one
+    /// that was added first.
     void add(Wanted wanted);
 
     /// Says that this process needs a program now. Waits for the helper that compiles it, if one
@@ -88,6 +90,8 @@ class KernelCompilers {
     std::condition_variable changed_;  ///< a job's state, or their number
     std::vector<std::unique_ptr<Job>> jobs_;
     std::vector<std::thread> threads_;  ///< one for each helper, which ends with it
+    Target target_;
+    int living_ = 0;  ///< helpers that still take jobs
     std::filesystem::path program_;
     std::chrono::milliseconds longest_wait_{10'000};
     pid_t process_;  ///< a forked child has no threads

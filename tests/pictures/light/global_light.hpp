@@ -11,7 +11,9 @@
 
 namespace voxelume {
 
-/// A mean of pixels, which are independent samples, and its standard error.
+/// A mean of pixels and its standard error, as if they were independent samples. Those of 4 x 4
+/// pixels aren't: their errors cancel, so that the mean's is smaller, but for what depends on how a
+/// pixel's decisions are paired, where it is up to a seventh larger.
 struct Estimate {
     double mean = 0, error = 0;
 };

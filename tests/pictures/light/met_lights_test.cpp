@@ -187,6 +187,7 @@ TEST(MetLights, AreDirectLightOfAMirrorAlone) {
     EXPECT_EQ(light_of("mirror", true), std::pair(mirrored, around));
     // Behind the first surface of glass there is a second one.
     const auto [reflected, thrown] = light_of("glass");
+    // The brightest pixels of 64 samples are less bright by chance than those of few.
     EXPECT_LT(reflected, kPlateRadiance / 12);
     EXPECT_GT(thrown, kPlateRadiance / 6);
 }
