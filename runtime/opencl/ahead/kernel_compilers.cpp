@@ -3,6 +3,7 @@
 
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -66,6 +67,14 @@ class JobSocket {
     std::array<int, 2> ends_{-1, -1};
 };
 
+/// True if the system grants so few processes and threads that those of helpers could be missing
+/// where PoCL, which ends the program without its linker, wants some.
+bool is_short_of_processes() {
+    constexpr rlim_t kFew = 128;
+    rlimit limit{};
+    return getrlimit(RLIMIT_NPROC, &limit) == 0 && limit.rlim_cur < kFew;
+}
+
 /// Ends the helpers when the process ends, before what was made before they were started.
 struct EndAtExit {
     EndAtExit() = default;
@@ -107,7 +116,7 @@ void KernelCompilers::set_longest_wait(std::chrono::milliseconds time) {
 bool KernelCompilers::start(const Target& target, const std::filesystem::path& folder) {
     static const EndAtExit end_at_exit;  // the folder's owner was made before
     const std::lock_guard lock(mutex_);
-    if (is_ended_) return false;
+    if (is_ended_ || is_short_of_processes()) return false;
     if (!threads_.empty()) return living_ > 0 && target == target_;
     target_ = target;
     try {
