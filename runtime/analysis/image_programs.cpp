@@ -33,9 +33,9 @@ bool follows(const Features& f) {
     return f.paths && !f.global;
 }
 
-/// Those that most images take. The process that renders compiles the others itself: of lights
-/// nearby, mattes, a medium's lights with an area, and lights without one beside such in global
-/// light.
+/// The kernels that most images take. The process that renders compiles the others itself: those of
+/// lights nearby, of mattes, of a medium's lights with an area, and of lights without one beside
+/// such in global light.
 constexpr KernelRow kKernels[] = {
     {"sight.cl", {"cast_sight"}, always},
     {"trace.cl", {"trace_closest"}, always},

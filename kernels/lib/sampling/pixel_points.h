@@ -95,7 +95,7 @@ static inline SquareBits pixel_bits(const SampledPixels* s, lane_uint decision) 
     return scrambled_digits(shuffled ^ added.x, shifted_polynomial(shuffled) ^ added.y, seed);
 }
 
-/// The same as numbers from 0 to 1.
+/// Returns the points for a decision as numbers from 0 to 1.
 static inline SquarePoint pixel_point(const SampledPixels* s, lane_uint decision) {
     return point_of_bits(pixel_bits(s, decision));
 }
