@@ -126,8 +126,6 @@ void open_closed_streams() {
             return;
 }
 
-}  // namespace
-
 /// The cores on which nothing runs at this moment but this process, of the whole machine's.
 int idle_cores() {
     int running = 1;  // threads of all processes, this one's among them
@@ -137,16 +135,17 @@ int idle_cores() {
 }
 
 /// The helper processes that may compile beside a command, if it is one that makes pictures:
-/// VOXELUME_COMPILERS, or else one for each idle core, up to the number from which more don't help.
-/// On busy cores they would take time from others and save none.
+/// VOXELUME_COMPILERS, or else one if a core is idle. An image has one program, so more would have
+/// nothing to do; on busy cores even one would take time from others and save none.
 int kernel_compilers(const std::string& command) {
-    constexpr int kMost = 3;
     constexpr std::array kHelped = {"render", "view"};
     if (std::ranges::find(kHelped, command) == kHelped.end()) return 0;
     if (const char* const value = std::getenv("VOXELUME_COMPILERS"); value && *value)
         return std::clamp(std::atoi(value), 0, kMaxKernelCompilers);
-    return std::clamp(idle_cores(), 0, kMost);
+    return int(idle_cores() > 0);
 }
+
+}  // namespace
 
 /// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
 /// every frame on a CPU, and the system would clear each of their pages again. Measured at 1024 x

@@ -54,7 +54,7 @@ constexpr std::array kSettings = {
             fault_of_cache_size},
     Setting{"compilers", "VOXELUME_COMPILERS",
             "processes that compile a first picture's kernels beside its own; 0: none",
-            "one for each idle core, at most 3", fault_of_compilers},
+            "1 if a core is idle", fault_of_compilers},
     Setting{"device", "VOXELUME_DEVICE", "what --device is without that option", "auto"},
     Setting{"lanes", "VOXELUME_LANES", "rays that a work-item carries: 1, 4, 8 or 16",
             "the device's own", fault_of_lanes},

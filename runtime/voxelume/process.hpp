@@ -31,10 +31,10 @@ struct ProcessOptions {
 
     /// The maximum number of voxelume-kernel-compiler that run beside the process while it renders
     /// a first picture, 0: none. Each compiles kernels for PoCL into Voxelume's cache, since PoCL
-    /// compiles on one core in a process. They are started by posix_spawn, once in a process, when
-    /// a kernel is to be compiled, if `set_driver_environment` is set and the cache can be written.
-    /// Each has 250 MB of memory, and a thread of this process that waits for it; the limits of
-    /// `limit_memory` don't count them.
+    /// compiles on one core in a process. An image has one program, so one is enough for it. They
+    /// are started by posix_spawn, once in a process, when a kernel is to be compiled, if
+    /// `set_driver_environment` is set and the cache can be written. Each has 250 MB of memory, and
+    /// a thread of this process that waits for it; the limits of `limit_memory` don't count them.
     int kernel_compilers = 0;
 
     /// Threads that compress and expand OpenEXR files; 0: none but the caller's.

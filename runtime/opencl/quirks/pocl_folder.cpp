@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 /// The process's folder once it is made, for those who may not make it.
 std::atomic<const PoclFolder*> existing_folder = nullptr;
 
-constexpr std::chrono::minutes kLongestWait(1);
-
 std::atomic<bool> folder_is_allowed = true;
 
 /// The folder of the process that this one helps; empty for others.
@@ -126,7 +124,7 @@ void PoclFolder::remove() {
 }
 
 PoclFolder::PoclFolder()
-    : process_(getpid()), turn_(helped_folder().empty() ? kLongestWait : kLongestWait * 0) {
+    : process_(getpid()), turn_(std::chrono::minutes(helped_folder().empty() ? 1 : 0)) {
     if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
     if (!helped_folder().empty()) {
         folder_ = make_pocl_folder(helped_folder());
