@@ -87,7 +87,8 @@ std::vector<BenchScene> bench_scenes();
 
 /// What is measured: every surface of every scene at every voxel size.
 struct BenchOptions {
-    std::vector<std::string> scenes{};  ///< empty: all that are available
+    /// Empty: all that are available, or with `own_scenes` none.
+    std::vector<std::string> scenes{};
     std::vector<int> resolutions{4, 8, 11, 16, 23, 32, 45, 64, 128, 256, 512, 1024};  ///< voxels/m
     int finest_with_light = 1024;        ///< voxels a metre of scenes with light, at most
     std::vector<int> samples{1, 4, 16};  ///< rays a pixel of scenes with light
@@ -97,6 +98,11 @@ struct BenchOptions {
     bool measure_shadows = true;    ///< the edges that shadows have, too
     int repeats = 3;                ///< renders of each row, at most; 0: a single one
     std::filesystem::path peers{};  ///< rows of other programs, a file of tests/bench/bench_peers
+                                    ///< or tests/bench/peers/path_peers.py
+    /// Scenes whose noise in global light is measured, by the names of their rows. They have the
+    /// sizes of their images.
+    std::map<std::string, Scene> own_scenes{};
+    std::vector<int> global_samples{1, 4, 16, 64, 256};  ///< rays a pixel in global light
 };
 
 /// How many rows the options ask for. Throws Error::usage for an unknown scene.

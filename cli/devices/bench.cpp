@@ -73,6 +73,14 @@ Action add_bench(CLI::App& app) {
     app.add_option("--only", command->only, list_of_scenes())
         ->type_name("SCENES")
         ->allow_extra_args(false);
+    app.add_option("--scene", command->own_scenes,
+                   "measure the noise of this scene or model file in global light, and without "
+                   "--only nothing else; may be given again")
+        ->type_name("SCENE")
+        ->allow_extra_args(false);
+    app.add_option("--assets", command->scene.assets,
+                   "folder to look for such a scene's models in; may be given again")
+        ->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels per metre, like 16,32,64")
         ->type_name("NUMBERS")
         ->check(list_of(in_range(4, 4096, Number::whole), "numbers like 16,32,64"));
@@ -81,11 +89,13 @@ Action add_bench(CLI::App& app) {
         ->type_name("PLACEMENTS")
         ->check(list_of(one_of({"world", "instance"}), "world, instance, or world,instance"));
     app.add_option("--samples", command->samples,
-                   "rays per pixel in scenes with light, like 1,4,16")
+                   "rays per pixel in scenes with light, like 1,4,16; by default 1,4,16, in global "
+                   "light 1,4,16,64,256")
         ->type_name("NUMBERS")
         ->check(list_of(in_range(1, 4096, Number::whole), "numbers like 1,4,16"));
-    app.add_option("--peers", command->peers,
-                   "add the rows of other programs from this file of bench_peers, .json");
+    app.add_option(
+        "--peers", command->peers,
+        "add the rows of other programs from this file of bench_peers or path_peers.py, .json");
     app.add_option("--size", command->size, "image size, like 640x480")->type_name("WIDTHxHEIGHT");
     app.add_option("--repeat", command->repeats, "renders of each row; the fastest counts")
         ->check(in_range(1, 1000, Number::whole));

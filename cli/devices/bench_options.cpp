@@ -2,6 +2,8 @@
 #include "cli/devices/bench_options.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 #include "cli/shared/checks.hpp"
 
@@ -22,11 +24,28 @@ std::vector<int> numbers_in(const std::vector<std::string>& texts) {
     return numbers;
 }
 
+/// The scenes of files, by the names of these, in global light.
+std::map<std::string, Scene> own_scenes(const BenchCommand& command) {
+    std::map<std::string, Scene> scenes;
+    for (const std::string& file : command.own_scenes) {
+        SceneOptions options = command.scene;
+        options.scene = file;
+        options.size = command.size;
+        options.light = "global";
+        const std::string name = file == "-" ? "stdin" : std::filesystem::path(file).stem();
+        if (!scenes.emplace(name, read_with(options, "bench")).second)
+            fail_usage("bench: two scenes are named {}: give one of them another name",
+                       quote(name));
+    }
+    return scenes;
+}
+
 /// What a run of half a minute has. Kernels that aren't compiled yet take a minute more.
 void make_quick(BenchOptions& options) {
     options.resolutions = {4, 8, 16, 32, 64, 128};
     options.finest_with_light = 64;
     options.samples = {1, 4};
+    options.global_samples = {1, 4, 16};
     options.placements = {Placement::world};
     options.size = {160, 160};
     options.light_size = {80, 80};
@@ -44,7 +63,8 @@ BenchOptions options_of(const BenchCommand& command) {
         options.resolutions = numbers_in(command.resolutions);
         options.finest_with_light = BenchOptions().finest_with_light;
     }
-    if (!command.samples.empty()) options.samples = numbers_in(command.samples);
+    if (!command.samples.empty())
+        options.samples = options.global_samples = numbers_in(command.samples);
     if (!command.placements.empty()) {
         options.placements.clear();
         const std::vector<std::string> named = listed(command.placements);
@@ -57,6 +77,7 @@ BenchOptions options_of(const BenchCommand& command) {
         options.size = options.light_size = parse_size(command.size, "bench");
     if (command.repeats > 0) options.repeats = command.repeats;
     options.peers = command.peers;
+    options.own_scenes = own_scenes(command);
     return options;
 }
 
@@ -66,6 +87,7 @@ void check_rows(const BenchCommand& command, const BenchOptions& options) {
         fail_usage("bench: no scene has rows of these sizes and placements; {}", kAdvice);
     if (command.only.empty()) return;
     BenchOptions of_one = options;
+    of_one.own_scenes.clear();
     for (const std::string& scene : options.scenes) {
         of_one.scenes = {scene};
         if (count_bench_rows(of_one) == 0)

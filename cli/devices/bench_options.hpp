@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/shared/scene_options.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
@@ -13,6 +14,8 @@ struct BenchCommand {
     bool is_quick = false;
     std::string page, json, csv, plot, peers;
     std::vector<std::string> only;
+    SceneOptions scene;                   ///< assets and changes of own scenes
+    std::vector<std::string> own_scenes;  ///< files
     std::vector<std::string> resolutions, placements, samples;  ///< with commas
     std::string size;
     int repeats = 0;  ///< 0: as --quick says
@@ -20,7 +23,8 @@ struct BenchCommand {
     bool quiet = false;
 };
 
-/// The options of the measurement. Throws Error::usage for a scene that there isn't.
+/// The options of the measurement. Reads own scenes. Throws Error::usage for a scene that there
+/// isn't, and Error as reading does.
 BenchOptions options_of(const BenchCommand& command);
 
 /// Refuses options that leave no row, or none of a scene that was asked for.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The benchmark, for callers.
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "runtime/api/border/convert.hpp"
@@ -16,20 +17,38 @@
 namespace voxelume {
 namespace {
 
-/// The entries in their own order: those that are named, or without names those that are there.
-std::vector<const BenchEntry*> chosen_entries(const std::vector<std::string>& names) {
+/// Throws Error::usage for a name that no scene has.
+void check_names(const std::vector<std::string>& names) {
     std::vector<std::string_view> known;
     for (const BenchEntry& entry : bench_entries()) known.emplace_back(entry.name);
+    for (const GlobalEntry& entry : global_entries()) known.emplace_back(entry.name);
     for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end())
             throw Error(ErrorKind::usage, "there is no scene named {}{}", quote(name),
                         suggest(name, known));
-    std::vector<const BenchEntry*> chosen;
-    for (const BenchEntry& entry : bench_entries()) {
-        const bool is_named = std::ranges::find(names, entry.name) != names.end();
-        if (is_named || (names.empty() && entry.is_there())) chosen.push_back(&entry);
+}
+
+/// The scenes in their own order: those that are named, or without names those that are there.
+void choose_scenes(const v1::BenchOptions& options, BenchOptions& result) {
+    const std::vector<std::string>& names = options.scenes;
+    check_names(names);
+    const auto is_named = [&](const char* name) {
+        return std::ranges::find(names, name) != names.end();
+    };
+    const bool takes_all = names.empty() && options.own_scenes.empty();
+    for (const BenchEntry& entry : bench_entries())
+        if (is_named(entry.name) || (takes_all && entry.is_there()))
+            result.subjects.push_back(&entry);
+    for (const GlobalEntry& entry : global_entries())
+        if (is_named(entry.name) || takes_all)
+            result.global_scenes.push_back({entry.name, entry.open(result.light_size), {}});
+    for (const auto& [name, scene] : options.own_scenes) {
+        if (std::ranges::find(result.global_scenes, name, &GlobalScene::name) !=
+            result.global_scenes.end())
+            throw Error(ErrorKind::usage, "two scenes are named {}: give one of them another name",
+                        quote(name));
+        result.global_scenes.push_back({name, api::inside(scene), {}});
     }
-    return chosen;
 }
 
 void sort_once(std::vector<int>& values) {
@@ -39,7 +58,6 @@ void sort_once(std::vector<int>& values) {
 
 BenchOptions options_inside(const v1::BenchOptions& options) {
     BenchOptions result;
-    result.subjects = chosen_entries(options.scenes);
     result.resolutions = options.resolutions;
     sort_once(result.resolutions);
     result.finest_with_light = options.finest_with_light;
@@ -52,7 +70,44 @@ BenchOptions options_inside(const v1::BenchOptions& options) {
     result.light_size = api::vector_of(options.light_size);
     result.measures_shadows = options.measure_shadows;
     result.repeats = options.repeats;
+    result.global_samples = options.global_samples;
+    sort_once(result.global_samples);
+    choose_scenes(options, result);
     return result;
+}
+
+/// A picture that another program made of a scene.
+Image reference(const std::filesystem::path& file, const GlobalScene& scene) {
+    const v1::Image read = v1::Image::read(file);
+    const glm::ivec2 size = scene.scene.render.size;
+    for (const char* color : {"R", "G", "B"}) {
+        if (!read.has(color) || read.holds_codes())
+            throw Error(ErrorKind::input, "{}: a reference is an OpenEXR file with R, G and B",
+                        file.string());
+        for (const float value : read.plane(color))
+            if (!std::isfinite(value))
+                throw Error(ErrorKind::input, "{}: {} has values that aren't finite", file.string(),
+                            color);
+    }
+    if (read.width() != size.x || read.height() != size.y)
+        throw Error(ErrorKind::input,
+                    "{}: has {} x {} pixels, and {} is measured with {} x {}: add --size {}x{}",
+                    file.string(), read.width(), read.height(), scene.name, size.x, size.y,
+                    read.width(), read.height());
+    return api::inside(read);
+}
+
+/// Adds what other programs measured.
+void add_peers(const std::filesystem::path& file, BenchOptions& options) {
+    PeerResults peers = read_peers(file);
+    check_size(peers, file, options.size);
+    options.peers = std::move(peers.rows);
+    options.global_peers = std::move(peers.global_rows);
+    for (GlobalScene& scene : options.global_scenes) {
+        const auto files = peers.references.find(scene.name);
+        if (files == peers.references.end()) continue;
+        scene.references = {reference(files->second[0], scene), reference(files->second[1], scene)};
+    }
 }
 
 /// The device's name may be in any encoding.
@@ -68,6 +123,8 @@ std::vector<BenchScene> bench_scenes() {
     std::vector<BenchScene> scenes;
     for (const BenchEntry& entry : bench_entries())
         scenes.push_back({entry.name, entry.help, entry.is_there()});
+    for (const GlobalEntry& entry : global_entries())
+        scenes.push_back({entry.name, entry.help, true});
     return scenes;
 }
 
@@ -79,7 +136,7 @@ BenchReport run_bench(const Device& device, const BenchOptions& options,
                       const std::function<void(size_t, size_t)>& progress) {
     return api::guarded([&] {
         voxelume::BenchOptions inside = options_inside(options);
-        if (!options.peers.empty()) inside.peers = read_peers(options.peers, inside.size);
+        if (!options.peers.empty()) add_peers(options.peers, inside);
         const auto report = [done = api::callback(progress)](size_t n, size_t of) {
             if (done) done(n, of);
         };

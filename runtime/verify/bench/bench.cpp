@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <thread>
 
 #include "runtime/base/version.hpp"
@@ -17,18 +18,6 @@
 
 namespace voxelume {
 namespace {
-
-BenchTimes times_of(const RenderReport& report, const DeviceCounters& counters) {
-    BenchTimes times;
-    times.load = report.world.load_seconds;
-    times.voxelize = report.world.voxelize_seconds;
-    times.place = report.world.place_seconds;
-    times.index = report.world.index_seconds;
-    times.image = report.image_seconds;
-    times.total = times.load + times.voxelize + times.place + times.index + times.image;
-    for (const auto& [kernel, ms] : counters.kernel_ms) times.kernels += ms / 1e3;
-    return times;
-}
 
 /// The system and its number of hardware threads, without the name of a host.
 std::string describe_machine() {
@@ -114,13 +103,6 @@ BenchTimes measure_first(const Device& device, const Scene& scene, const Measure
     if (row.samples == 1)
         measure_extent(device, scene, world.pyramid, measured.subject.extent, row);
     return times;
-}
-
-void clear_counters(const Device& device) {
-    DeviceCounters& counters = device.counters();
-    counters.peak_bytes = counters.bytes_in_use;
-    counters.build_ms = 0;
-    counters.kernel_ms.clear();
 }
 
 void measure(const Device& device, const Measured& measured, int repeats, BenchRow& row) {
@@ -264,12 +246,13 @@ void conclude(BenchReport& report) {
                 rows[i].placement != rows[i - 1].placement)
                 report.fits.push_back(fit_of(rows, rows[i]));
     }
+    report.global_fits = fit_global(report.global_rows);
 }
 
 size_t count_rows(const BenchOptions& options) {
     size_t count = 0;
     for (const BenchEntry* entry : options.subjects) count += planned_rows(options, *entry).size();
-    return count;
+    return count + options.global_scenes.size() * options.global_samples.size();
 }
 
 BenchReport run_bench(const Device& device, const BenchOptions& options,
@@ -291,6 +274,14 @@ BenchReport run_bench(const Device& device, const BenchOptions& options,
             report.rows.push_back(row);
             progress(report.rows.size(), total);
         }
+    }
+    size_t done = report.rows.size();
+    for (const GlobalScene& scene : options.global_scenes) {
+        std::ranges::move(measure_global(device, scene, options.global_samples, options.repeats,
+                                         [&] { progress(++done, total); }),
+                          std::back_inserter(report.global_rows));
+        std::ranges::copy_if(options.global_peers, std::back_inserter(report.global_rows),
+                             [&](const GlobalRow& row) { return row.scene == scene.name; });
     }
     conclude(report);
     return report;

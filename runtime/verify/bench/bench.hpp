@@ -11,9 +11,11 @@
 
 #include "runtime/opencl/device.hpp"
 #include "runtime/verify/bench/bench_errors.hpp"
+#include "runtime/verify/bench/bench_global.hpp"
 #include "runtime/verify/bench/bench_peers.hpp"
 #include "runtime/verify/bench/bench_shadow.hpp"
 #include "runtime/verify/bench/bench_subject.hpp"
+#include "runtime/verify/bench/bench_times.hpp"
 #include "runtime/verify/bench/convergence.hpp"
 
 namespace voxelume {
@@ -25,7 +27,10 @@ struct BenchOptions {
     int finest_with_light = 1024;  ///< maximum resolution of subjects with light
     std::vector<int> samples = {
         1};  ///< rays per pixel, ascending; more than 1 only for subjects with light
-    std::vector<BenchPeerRow> peers;  ///< rows of other programs, for the same plots
+    std::vector<BenchPeerRow> peers;         ///< rows of other programs, for the same plots
+    std::vector<GlobalScene> global_scenes;  ///< scenes in global light whose noise is measured
+    std::vector<int> global_samples;         ///< per pixel, ascending
+    std::vector<GlobalRow> global_peers;     ///< rows of other programs
     std::vector<Placement> placements = {Placement::world, Placement::instance};
     glm::ivec2 size{1024, 1024};      ///< pixels
     glm::ivec2 light_size{256, 256};  ///< pixels of scenes with light
@@ -33,16 +38,6 @@ struct BenchOptions {
                                       ///< without light cast
     int repeats = 3;  ///< maximum number of measured renders of each row after an unmeasured one;
                       ///< 0: the first one counts, unless it made kernels
-};
-
-/// The seconds of one render.
-struct BenchTimes {
-    double load = 0, voxelize = 0, place = 0, index = 0;
-    double image = 0;     ///< sight, trace, shade and resolve
-    double total = 0;     ///< sum of all above
-    double kernels = 0;   ///< part of `total` in which kernels run on the device
-    double programs = 0;  ///< time of the first render for making kernels that weren't ready; not
-                          ///< part of the total
 };
 
 /// One subject as one surface, in voxels of one size.
@@ -90,14 +85,13 @@ struct BenchReport {
     std::vector<BenchRow> rows;
     std::vector<BenchFit> fits;
     std::vector<BenchPeerRow> peers;
+    std::vector<GlobalRow> global_rows;  ///< of each scene ours, then those of other programs
+    std::vector<GlobalFit> global_fits;
 };
 
 inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
 const char* name_of(Surface surface);
 const char* name_of(Placement placement);
-
-/// A row isn't measured again once its renders have taken this many seconds.
-inline constexpr double kMaxRowSeconds = 1;
 
 /// The errors of a sphere stop decreasing at these measured values, because `smooth` keeps
 /// distances in 16 bits.

@@ -101,9 +101,47 @@ glm::ivec2 size_of(const Json& size, const Place& place) {
     return {size[0].get<int>(), size[1].get<int>()};
 }
 
-}  // namespace
+GlobalRow global_row_of(const Json& json, const Place& place) {
+    if (!json.is_object()) place.refuse("it is {}, not an object", kind_of(json));
+    GlobalRow row;
+    row.program = text_of(json, "program", place);
+    if (row.program.empty()) place.refuse("\"program\" is empty");
+    row.scene = text_of(json, "scene", place);
+    const uint64_t samples = count_of(json, "samples", place);
+    if (samples < 1 || samples > 1'000'000)
+        place.refuse("\"samples\" is {}, not from 1 to 1000000", samples);
+    row.samples = int(samples);
+    row.relative_mse = number_of(json, "relative_mse", place);
+    row.seconds = number_of(json, "seconds", place);
+    if (json.contains("light")) row.light = number_of(json, "light", place);
+    return row;
+}
 
-std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ivec2 size) {
+/// The names of two files. They lie beside the file that names them.
+std::array<std::filesystem::path, 2> references_of(const Json& json, const Place& place) {
+    if (!json.is_array() || json.size() != 2 || !json[0].is_string() || !json[1].is_string())
+        place.refuse("it is {}, not the names of two pictures", kind_of(json));
+    const std::filesystem::path folder = std::filesystem::path(place.file).parent_path();
+    return {folder / json[0].get<std::string>(), folder / json[1].get<std::string>()};
+}
+
+void read_global(const Json& json, const std::string& file, PeerResults& peers) {
+    const Place place{file, ""};
+    if (!json.is_object() || !json.contains("rows") || !json["rows"].is_array())
+        place.refuse("\"global\" isn't an object with a list of \"rows\"");
+    for (const auto& row : json["rows"])
+        peers.global_rows.push_back(global_row_of(
+            row, {file, fmt::format("row {} of \"global\": ", peers.global_rows.size())}));
+    if (!json.contains("references")) return;
+    if (!json["references"].is_object())
+        place.refuse("\"references\" of \"global\" is {}, not an object",
+                     kind_of(json["references"]));
+    for (const auto& [scene, files] : json["references"].items())
+        peers.references[scene] =
+            references_of(files, {file, fmt::format("the references of {}: ", quote(scene))});
+}
+
+Json parsed(const std::filesystem::path& file) {
     std::ifstream stream(file);
     if (std::filesystem::is_directory(file))
         throw Error(ErrorKind::input, "{}: this is a folder, not a file of bench_peers",
@@ -111,20 +149,36 @@ std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ive
     if (!stream)
         throw Error(ErrorKind::input, "{}: {}", file.string(),
                     std::filesystem::exists(file) ? "no permission to read it" : "no such file");
-    const auto json = Json::parse(stream, nullptr, false);
+    return Json::parse(stream, nullptr, false);
+}
+
+}  // namespace
+
+PeerResults read_peers(const std::filesystem::path& file) {
+    const Json json = parsed(file);
     const Place place{file.string(), ""};
-    if (!json.is_object() || !json.contains("size") || !json.contains("rows") ||
-        !json["rows"].is_array())
+    const bool has_rows = json.is_object() && json.contains("size") && json.contains("rows") &&
+                          json["rows"].is_array();
+    const bool has_global = json.is_object() && json.contains("global");
+    if (!has_rows && !has_global)
         place.refuse("it isn't an object with a \"size\" and a list of \"rows\"");
-    const glm::ivec2 theirs = size_of(json["size"], place);
-    std::vector<BenchPeerRow> rows;
-    for (const auto& row : json["rows"])
-        rows.push_back(row_of(row, {place.file, fmt::format("row {}: ", rows.size())}));
-    if (theirs != size)
-        throw Error(ErrorKind::input,
-                    "{}: measured with {} x {} pixels, and this run has {} x {}: add --size {}x{}",
-                    file.string(), theirs.x, theirs.y, size.x, size.y, theirs.x, theirs.y);
-    return rows;
+    PeerResults peers;
+    if (has_rows) {
+        peers.size = size_of(json["size"], place);
+        for (const auto& row : json["rows"])
+            peers.rows.push_back(
+                row_of(row, {place.file, fmt::format("row {}: ", peers.rows.size())}));
+    }
+    if (has_global) read_global(json["global"], place.file, peers);
+    return peers;
+}
+
+void check_size(const PeerResults& peers, const std::filesystem::path& file, glm::ivec2 size) {
+    const glm::ivec2 theirs = peers.size;
+    if (theirs == glm::ivec2(0) || theirs == size) return;
+    throw Error(ErrorKind::input,
+                "{}: measured with {} x {} pixels, and this run has {} x {}: add --size {}x{}",
+                file.string(), theirs.x, theirs.y, size.x, size.y, theirs.x, theirs.y);
 }
 
 const BenchRow* row_as_accurate(const BenchReport& report, const BenchPeerRow& peer) {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of other programs for the same rays, from a file that tests/bench/bench_peers writes.
+// Times of other programs for the same rays and scenes, from a file that tests/bench/bench_peers or
+// tests/bench/peers/path_peers.py writes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "runtime/verify/bench/bench_global.hpp"
 
 namespace voxelume {
 
@@ -26,9 +31,22 @@ struct BenchPeerRow {
     double total_seconds() const { return build_seconds + trace_seconds; }
 };
 
-/// Reads a file of rows that were measured with images of `size` pixels. Throws Error::input for a
-/// file that is missing, isn't such a file, names an unknown scene or has another image size.
-std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ivec2 size);
+/// What other programs measured.
+struct PeerResults {
+    std::vector<BenchPeerRow> rows;
+    glm::ivec2 size{0};  ///< pixels of the images of `rows`; 0: the file has none
+    std::vector<GlobalRow> global_rows;
+    /// For some scenes of `global_rows` two OpenEXR files, which all programs' pictures of it are
+    /// compared with.
+    std::map<std::string, std::array<std::filesystem::path, 2>> references;
+};
+
+/// Reads a file of rows. Throws Error::input for a file that is missing, isn't such a file, or has
+/// depths of an unknown scene.
+PeerResults read_peers(const std::filesystem::path& file);
+
+/// Throws Error::input for depths that were measured with images of other sizes.
+void check_size(const PeerResults& peers, const std::filesystem::path& file, glm::ivec2 size);
 
 struct BenchReport;
 struct BenchRow;

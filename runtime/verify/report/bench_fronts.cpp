@@ -70,19 +70,19 @@ std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront&
     double last_error = 0, last_log = 0;
     for (const double error : bends(ours, other, std::log(coarse))) {
         const double log_ratio = log_seconds(other, error) - log_seconds(ours, error);
-        const double ratio = std::exp(log_ratio), metres = std::exp(error);
+        const double ratio = std::exp(log_ratio), fine = std::exp(error);
         if (pieces.empty()) {
-            pieces.push_back({metres, metres, ratio, ratio});
+            pieces.push_back({fine, fine, ratio, ratio});
         } else if ((log_ratio > 0) != (last_log > 0)) {
             const double share = last_log / (last_log - log_ratio);
             const double crossing = std::exp(last_error + share * (error - last_error));
             FrontPiece& before = pieces.back();
             before.fine = crossing;
             (last_log > 0 ? before.minimum : before.maximum) = 1;
-            pieces.push_back({crossing, metres, std::min(1.0, ratio), std::max(1.0, ratio)});
+            pieces.push_back({crossing, fine, std::min(1.0, ratio), std::max(1.0, ratio)});
         } else {
             FrontPiece& piece = pieces.back();
-            piece.fine = metres;
+            piece.fine = fine;
             piece.minimum = std::min(piece.minimum, ratio);
             piece.maximum = std::max(piece.maximum, ratio);
         }
@@ -92,47 +92,89 @@ std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront&
     return pieces;
 }
 
+namespace {
+
+using Pairs = std::vector<std::pair<double, double>>;
+
+/// Adds the comparison of all errors and seconds of a program on a scene, unless it is there, or
+/// one of both has none.
+template <class Ours, class Theirs>
+void add_comparison(const std::string& program, const std::string& scene, const ErrorWords& words,
+                    const Ours& ours_of, const Theirs& theirs_of,
+                    std::vector<FrontComparison>& comparisons) {
+    const auto is_known = [&](const FrontComparison& c) {
+        return c.program == program && c.scene == scene;
+    };
+    if (std::ranges::any_of(comparisons, is_known)) return;
+    const Pairs theirs = theirs_of();
+    const ErrorFront our_front = error_front(ours_of()), their_front = error_front(theirs);
+    if (our_front.empty() || their_front.empty()) return;
+    const double coarse = std::ranges::max(theirs).first;
+    comparisons.push_back({program, scene, compare_fronts(our_front, their_front, coarse),
+                           our_front.back().first, their_front.back().first, words});
+}
+
+}  // namespace
+
 std::vector<FrontComparison> front_comparisons(const BenchReport& report) {
     std::vector<FrontComparison> comparisons;
     for (const BenchPeerRow& peer : report.peers) {
-        const auto is_known = [&](const FrontComparison& c) {
-            return c.program == peer.program && c.scene == peer.scene;
+        const auto ours = [&] {
+            Pairs pairs;
+            for (const BenchRow& row : report.rows)
+                if (row.scene == peer.scene && row.samples == 1)
+                    pairs.emplace_back(row.errors.depth_rms, row.seconds.total);
+            return pairs;
         };
-        if (std::ranges::any_of(comparisons, is_known)) continue;
-        std::vector<std::pair<double, double>> ours, theirs;
-        for (const BenchRow& row : report.rows)
-            if (row.scene == peer.scene && row.samples == 1)
-                ours.emplace_back(row.errors.depth_rms, row.seconds.total);
-        for (const BenchPeerRow& row : report.peers)
-            if (row.program == peer.program && row.scene == peer.scene)
-                theirs.emplace_back(row.depth_rms, row.total_seconds());
-        const ErrorFront our_front = error_front(ours), their_front = error_front(theirs);
-        if (our_front.empty() || their_front.empty()) continue;
-        const double coarse = std::ranges::max(theirs).first;
-        comparisons.push_back({peer.program, peer.scene,
-                               compare_fronts(our_front, their_front, coarse),
-                               our_front.back().first, their_front.back().first});
+        const auto theirs = [&] {
+            Pairs pairs;
+            for (const BenchPeerRow& row : report.peers)
+                if (row.program == peer.program && row.scene == peer.scene)
+                    pairs.emplace_back(row.depth_rms, row.total_seconds());
+            return pairs;
+        };
+        add_comparison(peer.program, peer.scene, kDepthWords, ours, theirs, comparisons);
+    }
+    return comparisons;
+}
+
+std::vector<FrontComparison> noise_comparisons(const BenchReport& report) {
+    std::vector<FrontComparison> comparisons;
+    for (const GlobalRow& peer : report.global_rows) {
+        if (peer.program.empty()) continue;
+        const auto pairs_of = [&](const std::string& program) {
+            Pairs pairs;
+            for (const GlobalRow& row : report.global_rows)
+                if (row.program == program && row.scene == peer.scene)
+                    pairs.emplace_back(row.relative_mse, row.seconds);
+            return pairs;
+        };
+        add_comparison(
+            peer.program, peer.scene, kNoiseWords, [&] { return pairs_of(""); },
+            [&] { return pairs_of(peer.program); }, comparisons);
     }
     return comparisons;
 }
 
 std::string sentence_of(const FrontComparison& comparison) {
+    const ErrorWords& words = comparison.words;
     std::vector<std::string> parts;
     for (const FrontPiece& piece : comparison.pieces) {
         const bool is_ours = piece.maximum > 1;
-        const std::string range = piece.fine < piece.coarse
-                                      ? fmt::format("from {:.2g} m of depth RMS down to {:.2g} m",
-                                                    piece.coarse, piece.fine)
-                                      : fmt::format("at {:.2g} m of depth RMS", piece.fine);
+        const std::string range =
+            piece.fine < piece.coarse
+                ? fmt::format("from {:.2g}{}{} down to {:.2g}{}", piece.coarse, words.unit,
+                              words.measure, piece.fine, words.unit)
+                : fmt::format("at {:.2g}{}{}", piece.fine, words.unit, words.measure);
         parts.push_back(fmt::format("{} is {} {}", is_ours ? "Voxelume" : comparison.program,
                                     is_ours ? times_text(piece.minimum, piece.maximum)
                                             : times_text(1 / piece.maximum, 1 / piece.minimum),
                                     range));
     }
     const bool ours_is_finer = comparison.finest_ours < comparison.finest_theirs;
-    parts.push_back(fmt::format("only {} comes nearer, to {:.2g} m",
-                                ours_is_finer ? "Voxelume" : comparison.program,
-                                std::min(comparison.finest_ours, comparison.finest_theirs)));
+    parts.push_back(fmt::format(
+        "only {} comes nearer, to {:.2g}{}", ours_is_finer ? "Voxelume" : comparison.program,
+        std::min(comparison.finest_ours, comparison.finest_theirs), words.unit));
     return fmt::format("{}, {}: {}.", comparison.scene, comparison.program, fmt::join(parts, "; "));
 }
 

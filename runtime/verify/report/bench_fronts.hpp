@@ -10,7 +10,7 @@ namespace voxelume {
 
 struct BenchReport;
 
-/// The results of one program that none of its others beats: errors in metres, descending, and the
+/// The results of one program that none of its others beats: errors, descending, and the
 /// seconds that they take, ascending.
 using ErrorFront = std::vector<std::pair<double, double>>;
 
@@ -19,7 +19,7 @@ ErrorFront error_front(const std::vector<std::pair<double, double>>& errors_and_
 
 /// A range of errors in which one program is the quicker one.
 struct FrontPiece {
-    double coarse = 0, fine = 0;      ///< metres; the piece goes from `coarse` down to `fine`
+    double coarse = 0, fine = 0;      ///< errors; the piece goes from `coarse` down to `fine`
     double minimum = 0, maximum = 0;  ///< other's seconds over ours; both at least 1, or both at
                                       ///< most 1
 };
@@ -30,16 +30,27 @@ struct FrontPiece {
 std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other,
                                        double coarse);
 
+/// What errors are called in sentences: "from 0.019 m of depth RMS", "to 2.1e-05 m".
+struct ErrorWords {
+    const char* unit;
+    const char* measure;
+};
+inline constexpr ErrorWords kDepthWords{" m", " of depth RMS"};
+inline constexpr ErrorWords kNoiseWords{"", " of relative MSE"};
+
 /// The comparison with another program on one scene.
 struct FrontComparison {
     std::string program, scene;
     std::vector<FrontPiece> pieces;             ///< in descending order of errors
-    double finest_ours = 0, finest_theirs = 0;  ///< metres
+    double finest_ours = 0, finest_theirs = 0;  ///< in the unit of errors
+    ErrorWords words = kDepthWords;
 };
 
-/// The comparisons for each program and scene of the report's peers, in their order. Each starts at
-/// the coarsest of the program's rows.
+/// The comparisons for each program and scene of the report's peers, in their order: of depth
+/// against total time, then of noise against the picture's time. Each starts at the coarsest of the
+/// program's rows.
 std::vector<FrontComparison> front_comparisons(const BenchReport& report);
+std::vector<FrontComparison> noise_comparisons(const BenchReport& report);
 
 /// A sentence such as "sphere: Embree is up to 5.6 times as quick from 0.019 m of depth RMS down to
 /// 2.1e-05 m; ..."

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/verify/report/bench_fronts.hpp"
+#include "runtime/verify/report/bench_global_report.hpp"
 #include "runtime/verify/report/bench_plots.hpp"
 #include "runtime/verify/report/bench_tables.hpp"
 #include "runtime/verify/report/log_plot.hpp"
@@ -197,7 +198,8 @@ std::string bench_page(const BenchReport& report) {
         for (const LogPlot& plot : plots_of(report, scene)) html += svg_of(plot);
         html += "</div>\n";
     }
-    return html + slopes(report) + peers(report) + rows(report) + method() + "</body>\n</html>\n";
+    if (!report.rows.empty()) html += slopes(report) + peers(report) + rows(report) + method();
+    return html + global_section(report) + "</body>\n</html>\n";
 }
 
 }  // namespace voxelume

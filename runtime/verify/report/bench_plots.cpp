@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
+
+#include "runtime/verify/report/bench_global_report.hpp"
 
 namespace voxelume {
 namespace {
@@ -203,6 +206,7 @@ std::string bench_picture(const BenchReport& report) {
         if (report.peers.empty() ? !has_light(report, scene) : is_shown)
             plots.push_back(time_plot(report, scene));
     }
+    std::ranges::move(global_plots(report), std::back_inserter(plots));
     return svg_file(plots);
 }
 

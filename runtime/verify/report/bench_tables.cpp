@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "runtime/verify/report/bench_fronts.hpp"
+#include "runtime/verify/report/bench_global_report.hpp"
 
 namespace voxelume {
-namespace {
 
 nlohmann::ordered_json json_of(const SlopeFit& fit) {
     // JSON has null for values that aren't finite.
@@ -19,8 +20,30 @@ nlohmann::ordered_json json_of(const SlopeFit& fit) {
     return {{"points", fit.points}, {"slope", slope}, {"half_width_95", fit.half_width}};
 }
 
+nlohmann::ordered_json json_of(const BenchTimes& times) {
+    return {{"load", times.load},       {"voxelize", times.voxelize}, {"place", times.place},
+            {"index", times.index},     {"image", times.image},       {"total", times.total},
+            {"kernels", times.kernels}, {"programs", times.programs}};
+}
+
+nlohmann::ordered_json json_of(const std::vector<FrontComparison>& comparisons,
+                               const std::string& error) {
+    auto fronts = nlohmann::ordered_json::array();
+    for (const FrontComparison& c : comparisons) {
+        auto pieces = nlohmann::ordered_json::array();
+        for (const FrontPiece& piece : c.pieces)
+            pieces.push_back({{"from_" + error, piece.coarse},
+                              {"to_" + error, piece.fine},
+                              {"least_times_of_ours", piece.minimum},
+                              {"most_times_of_ours", piece.maximum}});
+        fronts.push_back({{"program", c.program}, {"scene", c.scene}, {"pieces", pieces}});
+    }
+    return fronts;
+}
+
+namespace {
+
 nlohmann::ordered_json json_of(const BenchRow& row) {
-    const BenchTimes& s = row.seconds;
     const BenchErrors& e = row.errors;
     return {{"scene", row.scene},
             {"surface", name_of(row.surface)},
@@ -28,15 +51,7 @@ nlohmann::ordered_json json_of(const BenchRow& row) {
             {"samples", row.samples},
             {"voxels_per_metre", row.resolution},
             {"voxel_size_metres", row.voxel_size},
-            {"seconds",
-             {{"load", s.load},
-              {"voxelize", s.voxelize},
-              {"place", s.place},
-              {"index", s.index},
-              {"image", s.image},
-              {"total", s.total},
-              {"kernels", s.kernels},
-              {"programs", s.programs}}},
+            {"seconds", json_of(row.seconds)},
             {"voxels", row.voxels},
             {"world_bytes", row.world_bytes},
             {"peak_device_bytes", row.peak_bytes},
@@ -56,20 +71,6 @@ nlohmann::ordered_json json_of(const BenchRow& row) {
             {"fits_depth", row.fits_depth},
             {"fits_normal", row.fits_normal},
             {"pareto", row.is_best}};
-}
-
-nlohmann::ordered_json json_of_fronts(const BenchReport& report) {
-    auto fronts = nlohmann::ordered_json::array();
-    for (const FrontComparison& c : front_comparisons(report)) {
-        auto pieces = nlohmann::ordered_json::array();
-        for (const FrontPiece& piece : c.pieces)
-            pieces.push_back({{"from_depth_rms_metres", piece.coarse},
-                              {"to_depth_rms_metres", piece.fine},
-                              {"least_times_of_ours", piece.minimum},
-                              {"most_times_of_ours", piece.maximum}});
-        fronts.push_back({{"program", c.program}, {"scene", c.scene}, {"pieces", pieces}});
-    }
-    return fronts;
 }
 
 }  // namespace
@@ -190,26 +191,46 @@ std::string peers_text(const BenchReport& report) {
     return text;
 }
 
+/// A text in a table after RFC 4180.
+std::string in_csv(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+    return quoted + "\"";
+}
+
 }  // namespace
 
 std::string bench_text(const BenchReport& report) {
-    return geometry_text(report) + slopes_text(report) + light_text(report) + peers_text(report);
+    std::string text;
+    if (!report.rows.empty()) text = geometry_text(report) + slopes_text(report);
+    text += light_text(report) + peers_text(report) + global_text(report);
+    return text.starts_with('\n') ? text.substr(1) : text;
 }
 
 std::string bench_csv(const BenchReport& report) {
-    std::string text;
-    for (const BenchRow& row : report.rows) {
-        std::vector<std::string> names, values;
-        const nlohmann::ordered_json flat = json_of(row).flatten();
+    std::vector<std::map<std::string, std::string>> rows;
+    std::vector<std::string> names;  // of all rows, in the order in which they come
+    const auto add = [&](const nlohmann::ordered_json& flat) {
+        std::map<std::string, std::string> values;
         for (const auto& [path, value] : flat.items()) {
-            names.push_back(path.substr(1));
-            std::ranges::replace(names.back(), '/', '_');
+            std::string name = path.substr(1);
+            std::ranges::replace(name, '/', '_');
             const bool is_missing = value.is_number_float() && !std::isfinite(value.get<double>());
-            values.push_back(value.is_string() ? value.get<std::string>()
-                             : is_missing      ? ""
-                                               : value.dump());
+            values[name] = value.is_string() ? in_csv(value.get<std::string>())
+                           : is_missing      ? ""
+                                             : value.dump();
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
         }
-        if (text.empty()) text = fmt::format("{}\r\n", fmt::join(names, ","));
+        rows.push_back(std::move(values));
+    };
+    for (const BenchRow& row : report.rows) add(json_of(row).flatten());
+    for (const GlobalRow& row : report.global_rows) add(json_of(row).flatten());
+    std::string text = fmt::format("{}\r\n", fmt::join(names, ","));
+    for (auto& row : rows) {
+        std::vector<std::string> values;
+        values.reserve(names.size());
+        for (const std::string& name : names) values.push_back(row[name]);
         text += fmt::format("{}\r\n", fmt::join(values, ","));
     }
     return text;
@@ -255,7 +276,8 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
              {"other_part_pixels", peer.other_parts},
              {"times_of_ours", row ? peer.total_seconds() / row->seconds.total : NAN}});
     }
-    json["fronts"] = json_of_fronts(report);
+    json["fronts"] = json_of(front_comparisons(report), "depth_rms_metres");
+    json["global"] = global_json(report);
     return json;
 }
 

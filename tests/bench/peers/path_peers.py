@@ -4,14 +4,14 @@
 
 Usage: path_peers.py VOXELUME MESH.obj [FOLDER]
 
-Renders the scenes of path_cases.py with 1 to 256 samples, in global light here, by Mitsuba's path
-integrator (llvm_ad_rgb, and scalar_rgb up to 16) and by Cycles, denoisers off, and prints for each
-the mean squared relative error against Mitsuba's picture of REFERENCE samples, the seconds of the
-image without loading, and the product of both, which is even for unbiased light: the smaller, the
-sooner an error is reached. The cubes are quads with colours at their corners there. FOLDER keeps
-the scenes. Where Mitsuba isn't installed (pip install mitsuba; DRJIT_LIBLLVM_PATH names an LLVM of
-16 or later) it says so and ends with 77; Cycles (pip install bpy) is left out where it isn't. With
-LLVM a picture of the city takes 20 seconds.
+Renders the scenes of path_cases.py by Mitsuba's path integrator (llvm_ad_rgb, and scalar_rgb up to
+16 samples) and by Cycles with 1 to 256 samples, denoisers off, writes what it measured to
+peers.json, and has `voxelume bench` measure its own pictures and compare: the mean squared relative
+error against two pictures of Mitsuba's, of REFERENCE samples each, and the seconds of the picture
+without loading, of several runs the fastest. The cubes are quads with colours at their corners
+there. FOLDER keeps all files. Where Mitsuba isn't installed (pip install mitsuba;
+DRJIT_LIBLLVM_PATH names an LLVM of 16 or later) it says so and ends with 77; Cycles (pip install
+bpy) is left out where it isn't. With LLVM a picture of the city takes 20 seconds.
 """
 import json
 import pathlib
@@ -27,8 +27,8 @@ from peer_cycles import CyclesScene
 from peer_mitsuba import colors_of, load_mitsuba
 
 SAMPLES = (1, 4, 16, 64, 256)
-REFERENCE = 4096
-RUNS = 5
+REFERENCE = 2048  # samples of each of two
+RUNS, SECONDS = 5, 10  # no more runs of a row, and none after so many seconds
 
 
 def shapes_of(mi, np, case, folder):
@@ -72,65 +72,71 @@ def mitsuba_scene(mi, np, case, folder):
     })
 
 
-def our_picture(mi, np, voxelume, folder, name, samples):
-    """The picture, and the seconds that it took without loading."""
-    image, facts = folder / f"{name}.exr", folder / "facts.json"
-    subprocess.run([voxelume, "render", str(folder / f"{name}.json"), "--samples", str(samples),
-                    "-o", str(image), "--channels", "RGBA", "-q", "--stats-json", str(facts)],
-                   check=True)
-    seconds = json.loads(facts.read_text())["seconds"]["image"]
-    return colors_of(mi, np, image), seconds
-
-
 def mitsuba_picture(mi, np, scene, samples, seed):
     start = time.perf_counter()
     picture = np.array(mi.render(scene, spp=samples, seed=seed)).astype(float)[:, :, :3]
     return picture, time.perf_counter() - start
 
 
-def error_of(np, picture, reference):
-    """The mean squared relative error."""
-    floor = 0.01 * reference.mean() ** 2
-    return float(np.mean((picture - reference) ** 2 / (reference ** 2 + floor)))
+def error_of(picture, references):
+    """The mean squared relative error, to which the references' own noise adds nothing on
+    average."""
+    a, b = references
+    light = (a + b) / 2
+    floor = 0.01 * light.mean() ** 2
+    return float(((picture - a) * (picture - b) / (light ** 2 + floor)).mean())
 
 
-def rows(np, name, counts, reference, picture_of):
-    """Prints a row for each number of samples; `picture_of` takes it and a seed."""
-    for samples in counts:
-        picture_of(samples, 0)  # compiles, loads
-        runs = [picture_of(samples, seed + 1) for seed in range(RUNS)]
-        error = statistics.median(error_of(np, picture, reference) for picture, _ in runs)
-        second = statistics.median(seconds for _, seconds in runs)
-        print(f"  {name:<8} {samples:>4} samples: relative MSE {error:.3e}, {second:7.3f} s, "
-              f"product {error * second:.3e}", flush=True)
+class Peers:
+    """What other programs measure of one scene."""
+
+    def __init__(self, name, references):
+        self.name, self.references, self.rows = name, references, []
+
+    def measure(self, program, counts, picture_of):
+        """Adds a row for each number of samples; `picture_of` takes it and a seed."""
+        for samples in counts:
+            picture_of(samples, 0)  # compiles, loads
+            runs = []
+            while len(runs) < RUNS and sum(seconds for _, seconds in runs) < SECONDS:
+                runs.append(picture_of(samples, len(runs) + 1))
+            light = sum(reference.mean() for reference in self.references) / 2
+            self.rows.append({
+                "program": program, "scene": self.name, "samples": samples,
+                "relative_mse": statistics.median(error_of(p, self.references) for p, _ in runs),
+                "light": runs[0][0].mean() / light,
+                "seconds": min(seconds for _, seconds in runs)})
+            print(self.rows[-1], flush=True)
 
 
-def compare(voxelume, folder, name, case):
+def write_exr(mi, np, path, picture):
+    bitmap = mi.Bitmap(picture.astype(np.float32), pixel_format=mi.Bitmap.PixelFormat.RGB)
+    bitmap.write(str(path))
+
+
+def measure(folder, name, case):
+    """The rows of the other programs, and the names of two references."""
     mi, np = load_mitsuba("llvm_ad_rgb")
     (folder / f"{name}.json").write_text(json.dumps(case.ours))
-    print(f"{name}, {SIZE[0]}x{SIZE[1]}")
     scene = mitsuba_scene(mi, np, case, folder)
-    reference, _ = mitsuba_picture(mi, np, scene, REFERENCE, 99)
-
-    def ours(samples, _):
-        return our_picture(mi, np, voxelume, folder, name, samples)
-    print(f"  mean light beside Mitsuba's: {ours(1024, 0)[0].mean() / reference.mean():.4f}")
-    rows(np, "ours", SAMPLES, reference, ours)
-    rows(np, "llvm", SAMPLES, reference,
-         lambda samples, seed: mitsuba_picture(mi, np, scene, samples, seed))
+    references = [mitsuba_picture(mi, np, scene, REFERENCE, seed)[0] for seed in (98, 99)]
+    files = [f"{name}_reference{number}.exr" for number in range(2)]
+    for file, picture in zip(files, references):
+        write_exr(mi, np, folder / file, picture)
+    peers = Peers(name, references)
     try:
         cycles = CyclesScene(np, case, folder)
     except ImportError:
-        print("  Cycles isn't installed: pip install bpy")
+        print("Cycles isn't installed: pip install bpy")
     else:
-        light = cycles.render(mi, 1024, 1)[0].mean() / reference.mean()
-        print(f"  Cycles' mean light beside Mitsuba's: {light:.4f}")
-        rows(np, "cycles", SAMPLES, reference,
-             lambda samples, seed: cycles.render(mi, samples, seed))
+        peers.measure("Cycles", SAMPLES, lambda samples, seed: cycles.render(mi, samples, seed))
+    peers.measure("Mitsuba, llvm", SAMPLES,
+                  lambda samples, seed: mitsuba_picture(mi, np, scene, samples, seed))
     mi, np = load_mitsuba("scalar_rgb")
     scalar = mitsuba_scene(mi, np, case, folder)
-    rows(np, "scalar", [s for s in SAMPLES if s <= 16], reference,
-         lambda samples, seed: mitsuba_picture(mi, np, scalar, samples, seed))
+    peers.measure("Mitsuba, scalar", [s for s in SAMPLES if s <= 16],
+                  lambda samples, seed: mitsuba_picture(mi, np, scalar, samples, seed))
+    return peers.rows, files
 
 
 def main():
@@ -140,9 +146,19 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(sys.argv[3] if len(sys.argv) == 4 else name)
         folder.mkdir(exist_ok=True)
-        compare(sys.argv[1], folder, "cubes", cubes_case(np, folder))
-        compare(sys.argv[1], folder, "city", city_case(np, folder))
-        compare(sys.argv[1], folder, "mesh", mesh_case(np, folder, pathlib.Path(sys.argv[2])))
+        cases = {"cubes": cubes_case(np, folder), "city": city_case(np, folder),
+                 "mesh": mesh_case(np, folder, pathlib.Path(sys.argv[2]))}
+        measured = {"rows": [], "references": {}}
+        for name, case in cases.items():
+            rows, measured["references"][name] = measure(folder, name, case)
+            measured["rows"] += rows
+            (folder / "peers.json").write_text(json.dumps({"global": measured}, indent=1))
+        scenes = [word for name in cases for word in ("--scene", str(folder / f"{name}.json"))]
+        subprocess.run([sys.argv[1], "bench", *scenes, "--samples",
+                        ",".join(str(s) for s in SAMPLES), "--repeat", str(RUNS), "--peers",
+                        str(folder / "peers.json"), "-o", str(folder / "report.html"), "--json",
+                        str(folder / "report.json"), "--plot", str(folder / "noise.svg")],
+                       check=True)
 
 
 if __name__ == "__main__":

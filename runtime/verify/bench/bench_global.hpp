@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Noise against time: scenes in global light, with more and more samples.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/image/image.hpp"
+#include "runtime/opencl/device.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/verify/bench/bench_times.hpp"
+#include "runtime/verify/bench/convergence.hpp"
+
+namespace voxelume {
+
+/// Two pictures of a scene, each with noise of its own, in channels R, G and B.
+using References = std::array<Image, 2>;
+
+struct GlobalScene {
+    std::string name;
+    Scene scene;
+    std::optional<References> references;  ///< another program's; without them ours are made
+};
+
+/// A scene that the program has, by its name.
+struct GlobalEntry {
+    const char* name;
+    const char* help;
+    Scene (*open)(glm::ivec2 size);
+};
+
+/// All of them, in the order of measurement.
+std::span<const GlobalEntry> global_entries();
+
+/// A scene with a number of samples, by this program or by another.
+struct GlobalRow {
+    std::string program;  ///< empty: this one
+    std::string scene;
+    int samples = 0;          ///< per pixel
+    double relative_mse = 0;  ///< see `relative_mse`
+    double light = 0;         ///< mean light over that of the references; 0: not known
+    double seconds = 0;       ///< of the picture alone, without building the world
+    BenchTimes times{};       ///< of this program's picture, with its world
+    uint64_t peak_bytes = 0;  ///< maximum of bytes on the device at once; 0: not known
+};
+
+/// How fast the error of a program's pictures of a scene falls.
+struct GlobalFit {
+    std::string program, scene;
+    SlopeFit by_samples, by_seconds;
+};
+
+/// The mean over pixels and colours of the squared error over the squared light, to which a
+/// hundredth of the picture's squared mean is added for what is dark.
+///
+/// The error's square is the product of the differences from both references, so that these add
+/// nothing to it on average: their noise doesn't depend on each other, nor on the image's. All have
+/// the same size.
+double relative_mse(const Image& image, const References& references);
+
+/// Measures a scene with each number of samples, ascending: of several pictures the fastest counts,
+/// as in other rows. `progress` is called after each row. Throws the Errors of rendering.
+std::vector<GlobalRow> measure_global(const Device& device, const GlobalScene& scene,
+                                      std::span<const int> samples, int repeats,
+                                      const std::function<void()>& progress);
+
+/// The fits of each program's rows of each scene, in the order of the rows.
+std::vector<GlobalFit> fit_global(std::span<const GlobalRow> rows);
+
+}  // namespace voxelume
