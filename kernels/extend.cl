@@ -163,8 +163,7 @@ static inline void send_on(PyramidShape shape, const Surroundings* around, const
 
 /// True if paths can send rays to light: that of the sky, or of an emitter.
 static inline bool finds_light(const Emitters* table) {
-    const bool knows_light = VXL_SKY_RAYS ? true : table->count > 0u;
-    return VXL_DIRECT_ALONE ? false : knows_light;
+    return VXL_SKY_RAYS ? true : table->count > 0u;
 }
 
 /// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
@@ -188,8 +187,7 @@ kernel void extend_paths(
     lane_float throughput[3];
     load_throughput(paths, stride, first, throughput);
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
-    const lane_int adds = VXL_DIRECT_ALONE ? valid & LANE_MASK(bounces == 0u) : valid;
-    add_path_light(&batch, first, adds, is_first, &nodes, target, throughput);
+    add_path_light(&batch, first, valid, is_first, &nodes, target, throughput);
 
     ScatterPoint p = load_point(&batch, shape.edge, first, count);
     const lane_int in_medium = VXL_SCATTERING ? scatters_before(&batch, first) : (lane_int)0;

@@ -16,6 +16,15 @@
 #include "cli/shared/slice_names.hpp"
 
 namespace voxelume::cli {
+namespace {
+
+/// "60s" as "60". Other texts stay as they are.
+std::string without_unit_of_seconds(std::string text) {
+    if (text.size() > 1 && text.back() == 's') text.pop_back();
+    return text;
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--assets", options.assets,
@@ -32,7 +41,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->check(in_range(1e-4, 1));
     app.add_option("--time", options.time,
                    "seconds that an image's samples may take, which are doubled as long as time "
-                   "suffices, or until --noise is reached")
+                   "suffices, or until --noise is reached: 60 or 60s")
+        ->type_name("SECONDS")
+        ->transform(without_unit_of_seconds)
         ->check(in_range(0.001, 1e6));
     app.add_option(
            "--light", options.light,

@@ -76,7 +76,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         features.physical |= features.global && (effects & kIsPhysical) != 0;
         features.coat |= features.global && (effects & kHasCoat) != 0;
         features.weak_facets |= features.global && is_weak(*m);
-        features.rough_glass |= features.global && follows && glass_share(*m) > 0;
+        features.rough_glass |= features.global && glass_share(*m) > 0;
         fresnel |= (effects & kHasReflectance) != 0 && (effects & (kReflects | kRefracts)) != 0;
         absorption |= (effects & kAbsorbs) != 0 && (transmits(*m) || features.voxel_opacity);
     }

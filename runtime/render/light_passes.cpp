@@ -102,15 +102,26 @@ Scene white_surfaces(const Scene& scene, bool with_shadows) {
     return result;
 }
 
+/// True if something may shine that paths of global light run into.
+bool paths_find_light(const Scene& scene) {
+    const World& world = scene.world;
+    const bool shines = world.sky || world.background != glm::vec3(0) ||
+                        world.medium.color != glm::vec3(0) ||
+                        std::holds_alternative<GridDensity>(world.medium.density);
+    return shines ||
+           std::ranges::any_of(scene.objects,
+                               [&](const Object& object) { return has_emission(scene, object); }) ||
+           (may_meet_lights(scene) && std::ranges::any_of(scene.materials, shows_lights));
+}
+
 /// The light that comes to the first surface without another one on its way. Where paths may run
-/// into lights, they are followed until then, as those of all light are, so that the two differ by
+/// into light, they are followed until then, as those of all light are, so that the two differ by
 /// the rest of the light alone; but not through a medium that scatters them.
 Scene direct_light_of(const Scene& scene) {
     Scene result = colors_of(scene);
-    const bool meets_lights = may_meet_lights(scene) && !has_scattering(scene) &&
-                              std::ranges::any_of(scene.materials, shows_lights);
-    result.render.direct_alone = meets_lights;
-    result.render.bounces = int(meets_lights);
+    const bool follows = !has_scattering(scene) && paths_find_light(scene);
+    result.render.direct_alone = follows;
+    result.render.bounces = std::min(scene.render.bounces, int(follows));
     result.render.depth = 0;
     return result;
 }

@@ -106,7 +106,7 @@ struct RenderSettings {
     LightMode light = LightMode::local;
     int bounces = 8;  ///< global light: times that a path is scattered, 0..64
     EmitterSearch emitters = EmitterSearch::both;
-    bool direct_alone = false;  ///< not in scene files: paths add what comes straight from lights
+    bool direct_alone = false;  ///< not in scene files: lights light first surfaces alone
     bool transparent = false;   ///< observers see nothing where no object is; other rays do
     NoiseTarget noise;          ///< not in scene files
     ImageChannels channels;     ///< not in scene files: what the outputs have

@@ -55,7 +55,7 @@ struct Features {
     bool weak_facets = false;   ///< some such material reflects less than its index says
     bool area_shares = false;   ///< paths and rays share lights with an area
     bool meets_lights = false;  ///< paths may run into a light with an area
-    bool direct_alone = false;  ///< light that comes straight from lights is asked for alone
+    bool direct_alone = false;  ///< light that comes straight to the first surfaces, alone
     bool lens = false;          ///< sight rays start all over a lens
     bool blades = false;        ///< the lens is a polygon
     int emitters = 0;           ///< VXL_EMITTERS_*: how paths find emissive surfaces

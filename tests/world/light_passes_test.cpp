@@ -111,6 +111,73 @@ TEST_F(LightPasses, DirectAndIndirectLightAddUpToTheImage) {
     }
 }
 
+/// A floor under a sky and a glowing ball, and a ball that hides a part of both.
+Scene overcast(const std::string& ball) {
+    return parse_scene(R"({"voxelume": 1,
+        "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
+                  "sky": {"kind": "constant", "color": [0.4, 0.5, 0.6]}},
+        "materials": {"ball": )" +
+                           ball + R"(, "lamp": {"diffuse": 0, "emission": [9, 6, 3]},
+                      "floor": {"color": [0.8, 0.7, 0.6]}},
+        "models": {"floor": {"shape": "box", "size": [2, 0.2, 2], "surface": "exact"},
+                   "ball": {"shape": "sphere", "radius": 0.3, "surface": "exact"}},
+        "objects": [{"model": "floor", "material": "floor", "position": [0, -0.9, 0]},
+                    {"model": "ball", "material": "ball", "position": [-0.4, -0.5, 0]},
+                    {"model": "ball", "material": "lamp", "position": [0.5, -0.3, 0]}],
+        "lights": [{"type": "point", "position": [0, 0.9, 0.5], "intensity": 0.4}],
+        "observer": {"position": [0, 0.6, 3], "look_at": [0, -0.5, 0],
+                     "display": {"shape": "pyramid", "angle": 40}},
+        "render": {"size": [32, 24], "samples": 16, "light": "global"}})",
+                       "overcast.json", {});
+}
+
+TEST_F(LightPasses, DirectLightIsThatOfAllThatShinesWhateverOtherThingsReflect) {
+    ImageChannels channels{true, false, false, false, true};
+    channels.direct = channels.indirect = true;
+    const Image dark = shown(overcast(R"({"color": [0.001, 0.001, 0.001]})"), channels);
+    const Image bright = shown(overcast(R"({"color": [0.9, 0.9, 0.9]})"), channels);
+    // No sample of these pixels shows anything but the floor.
+    const auto& objects = dark.id_planes.at("objectId");
+    const auto shows_floor = [&](size_t pixel) {
+        const auto width = size_t(dark.width);
+        if (pixel < width || pixel + width >= objects.size()) return false;
+        for (const size_t row : {pixel - width, pixel, pixel + width})
+            for (const size_t i : {row - 1, row, row + 1})
+                if (i >= objects.size() || objects[i] != 1) return false;
+        return true;
+    };
+    double sum = 0, returned = 0;
+    for (const char* color : kColors)
+        for (size_t i = 0; i < objects.size(); ++i) {
+            if (!shows_floor(i)) continue;
+            // Nothing but the ball sends the floor light that isn't its own: a thousandth of it.
+            const float all = dark.planes.at(color)[i];
+            EXPECT_NEAR(value(dark, "direct", color, i), all, 1e-2f * all) << color << i;
+            EXPECT_EQ(value(dark, "direct", color, i), value(bright, "direct", color, i))
+                << color << i;
+            EXPECT_GE(value(bright, "indirect", color, i), -1e-6f);
+            sum += double(all);
+            returned += double(value(bright, "indirect", color, i));
+        }
+    EXPECT_GT(sum, 100);
+    EXPECT_GT(returned, 0.02 * sum);
+}
+
+TEST_F(LightPasses, IndirectLightOfFrostedGlassIsNeverNegative) {
+    ImageChannels channels = kColor;
+    channels.indirect = true;
+    Scene scene = overcast(R"({"base_color": [1, 1, 1], "transmission": 1, "roughness": 0.3})");
+    for (int step = 0; step < 2; ++step) {
+        const Image image = shown(scene, channels);
+        for (const char* color : kColors)
+            for (const float rest : image.planes.at(std::string("indirect.") + color))
+                ASSERT_GE(rest, -1e-5f);
+        // Then no path runs into what shines, and direct light needs no bounces.
+        scene.world.sky.reset();
+        scene.objects.pop_back();
+    }
+}
+
 TEST_F(LightPasses, AlbedoIsTheColorOfTheSurface) {
     Scene scene = stage();
     scene.render.samples = 1;

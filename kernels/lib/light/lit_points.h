@@ -7,6 +7,7 @@
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/segment.h"
+#include "shared/paths.h"
 #include "shared/trace.h"
 
 /// The light as a packet of surface points sees it.
@@ -36,6 +37,10 @@ static inline bool load_lit_points(const WorldView* world, const RayBatch* batch
     if (VXL_TRANSMISSION)
         p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
     if (VXL_SCATTERING) p->lit &= ~scatters_before(batch, first);
+    if (VXL_DIRECT_ALONE) {
+        const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * stride + first);
+        p->lit &= LANE_MASK(((state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES) == 0u);
+    }
     if (!lanes_any(p->lit)) return false;
     p->leaving = (lane_int)0;
     if (VXL_ROUGH_GLASS)
