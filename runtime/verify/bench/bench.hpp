@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/opencl/device.hpp"
@@ -92,8 +93,7 @@ struct BenchReport {
     std::vector<BenchPeerRow> peers;
 };
 
-inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
-const char* name_of(Surface surface);
+std::string_view name_of(Surface surface);
 const char* name_of(Placement placement);
 
 /// A row isn't measured again once its renders have taken this many seconds.
