@@ -66,14 +66,15 @@ VoxelizeOptions options_of(const VoxelizeCommand& command) {
     if (!command.set.empty()) options.set = choose(command.set, kSets, "voxelize: --set");
     if (!command.normals.empty())
         options.normals = choose(command.normals, kNormals, "voxelize: --normals");
-    if (options.surface != Surface::cubes && options.set != VoxelSet::supercover)
+    const bool has_cubes = options.surface == Surface::cubes;
+    if (!has_cubes && options.set != VoxelSet::supercover)
         fail_usage("voxelize: --set {}: only cubes have sets: add --surface cubes", command.set);
-    if (options.surface != Surface::cubes && options.normals != CubeNormals::faces)
+    if (!has_cubes && options.normals != CubeNormals::faces)
         fail_usage(
             "voxelize: --normals {}: only cubes have a choice of normals: add --surface cubes",
             command.normals);
     for (const std::string& output : command.outputs)
-        if (options.surface != Surface::cubes && is_cube_name(output))
+        if (!has_cubes && is_cube_name(output))
             fail_usage("voxelize: {}: files of this format hold cubes alone: add --surface cubes",
                        output);
     return options;

@@ -48,7 +48,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
-    if (model.surface == Surface::exact && !model.solid && (!reads || may_send_on(model, meshes)))
+    if (lists_primitives(model.surface) && !model.solid && (!reads || may_send_on(model, meshes)))
         return true;
     const auto sends = [&](int number) {
         const Material& material = scene.materials[size_t(number)];
@@ -239,16 +239,16 @@ void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetSt
 }
 
 void leave_out_culled(const Scene& scene, Pyramid& world) {
-    const auto has = [&](Surface surface) {
+    const auto has = [&](bool (*is_stored)(Surface)) {
         return std::ranges::any_of(scene.objects, [&](const Object& object) {
             const Model& model = scene.models[size_t(object.model)];
-            const bool in_parts = surface == Surface::exact && thin_part_of(model);
+            const std::optional<Model> part = thin_part_of(model);
             return is_potentially_visible(scene, object) && !is_instanced(scene, object) &&
-                   (model.surface == surface || in_parts);
+                   (is_stored(model.surface) || (part && is_stored(part->surface)));
         });
     };
-    if (!has(Surface::smooth)) world.fields = {};
-    if (has(Surface::exact)) return;
+    if (!has(stores_distances)) world.fields = {};
+    if (has(lists_primitives)) return;
     world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
     world.triangle_normals = world.triangle_textures = world.textures = {};
     world.triangles = {};

@@ -77,14 +77,14 @@ VoxelModel model_of(const std::filesystem::path& path, WriterNotes& notes) {
         return read_voxel_model(path, Surface::cubes);
     const v1::Scene handle = v1::scene_of_file(path, {.ground = false});
     const Model& shown = api::inside(handle).models.front();
-    if (is_array || shown.surface == Surface::cubes)
+    if (is_array || shows_voxels(shown.surface))
         return read_voxel_model(path, Surface::cubes, shown.part, shown.values);
-    if (shown.surface == Surface::exact)
+    if (lists_primitives(shown.surface))
         throw Error(ErrorKind::input,
                     "{}: holds triangles in voxels (\"exact\"), which have no inside: voxelize the "
                     "mesh again, as cubes",
                     SourcePlace(path.string()));
-    const VoxelModel smooth = read_voxel_model(path, Surface::smooth, shown.part, shown.values);
+    const VoxelModel smooth = read_voxel_model(path, shown.surface, shown.part, shown.values);
     notes.emplace_back(smooth.colors.empty()
                            ? "a smooth surface became the cubes inside it"
                            : "a smooth surface became the cubes inside it, without its colours");

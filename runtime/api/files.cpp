@@ -34,11 +34,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// True if the options ask for cubes.
+bool asks_for_cubes(const v1::VoxelizeOptions& options) {
+    return options.surface && shows_voxels(static_cast<Surface>(*options.surface));
+}
+
 /// What the voxels of a mesh show.
 Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOptions& options) {
     const bool has_points = has_points_alone(mesh);
     if (!options.surface) return has_points ? Surface::cubes : Surface::smooth;
-    if (has_points && options.surface != v1::Surface::cubes)
+    if (has_points && !asks_for_cubes(options))
         throw Error(ErrorKind::input,
                     "{}: has points and lines alone, of which nothing but cubes can be made",
                     SourcePlace(path.string()));
@@ -135,7 +140,7 @@ std::vector<std::string> notes_of_paint(const Mesh& mesh, std::span<const Materi
 
 v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
                                      const Device& device, const v1::VoxelizeOptions& options) {
-    check_endings(outputs, options.surface == v1::Surface::cubes);
+    check_endings(outputs, asks_for_cubes(options));
     const Mesh mesh = read_mesh_file(path);
     const Model model =
         model_of(path, mesh, surface_of(path, mesh, options), options, usual_resolution(outputs));

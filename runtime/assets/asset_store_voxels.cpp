@@ -34,7 +34,7 @@ SurfaceChoice AssetStore::surface_of_voxels(Model model) {
 
 VoxelModel AssetStore::read_voxels(const Model& model) {
     if (model.given) {
-        if (model.surface == Surface::cubes) return *model.given;
+        if (model.surface == model.given->surface) return *model.given;
         throw Error(ErrorKind::scene, "{}: voxels in memory are cubes: leave its surface out",
                     model.where);
     }

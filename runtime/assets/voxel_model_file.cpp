@@ -141,7 +141,7 @@ constexpr std::string_view kModelStart = "\x89VXM\r\n\x1a\n";
 }  // namespace
 
 VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part) {
-    if (surface != Surface::cubes)
+    if (!shows_voxels(surface))
         InputFile(vox.path).refuse("holds voxels alone: give it \"surface\": \"cubes\"");
     return read_vox_voxels(vox, part);
 }

@@ -74,13 +74,13 @@ VoxelModel read_voxel_file(const VoxelFileFormat& format, const std::filesystem:
     if (format.art) {
         if (values.is_there())
             InputFile(path).refuse("has voxels and no values: leave out \"iso\" and \"label\"");
-        if (surface != Surface::cubes)
+        if (!shows_voxels(surface))
             InputFile(path).refuse("holds voxels alone: give it \"surface\": \"cubes\"");
         return format.art(path).model;
     }
     const CellArray array = format.array(path);
-    return surface == Surface::smooth ? surface_of_array(array, values)
-                                      : cubes_of_array(array, values);
+    return stores_distances(surface) ? surface_of_array(array, values)
+                                     : cubes_of_array(array, values);
 }
 
 }  // namespace voxelume

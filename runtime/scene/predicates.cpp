@@ -74,7 +74,7 @@ bool transmits(const Scene& scene, const Object& object) {
 
 std::vector<uint32_t> coincidence_order(const Scene& scene) {
     const bool has_exact = std::ranges::any_of(scene.objects, [&](const Object& object) {
-        return scene.models[size_t(object.model)].surface == Surface::exact;
+        return lists_primitives(scene.models[size_t(object.model)].surface);
     });
     if (scene.objects.size() < 2 || !has_exact) return {};
     std::vector<uint32_t> order = object_ranks(scene.objects);

@@ -200,7 +200,7 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         model.shading = read_shading(fields);
         if (const auto cut = fields.find("cut")) {
             model.cuts = read_cuts(*cut);
-            if (model.surface == Surface::exact)
+            if (lists_primitives(model.surface))
                 cut->fail(
                     "an \"exact\" mesh shows its triangles and can't be cut; make its surface "
                     "\"smooth\" or \"cubes\"");

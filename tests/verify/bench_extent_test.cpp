@@ -109,7 +109,8 @@ TEST_P(EveryPlacement, HasTheSolidsVolumeAndArea) {
     const Device device = test_device();
     for (const BenchSolid& solid : bench_solids().first(2)) {
         const BenchSubject subject = subject_of(solid);
-        for (const Surface surface : kBenchSurfaces) {
+        for (const SurfaceKind& kind : kSurfaceKinds) {
+            const Surface surface = kind.surface;
             Scene scene = subject.scene(surface, 40, {16, 16});
             scene.objects[0].placement = GetParam();
             scene.models[0].set = VoxelSet::solid;

@@ -148,7 +148,7 @@ void add_material_warning(const ShownFile& of, std::vector<Warning>& warnings) {
 std::string missed_of_textures(const MeshPaint& paint, Surface surface) {
     const bool is_cubes = shows_voxels(surface);
     const bool maps = is_cubes && paint.mapped > 0,
-               alpha = surface != Surface::exact && paint.has_alpha;
+               alpha = !lists_primitives(surface) && paint.has_alpha;
     if (maps && alpha) return "the alpha, roughness, metalness and emission of its textures aren't";
     if (maps) return "the roughness, metalness and emission of its textures aren't";
     return alpha ? "its alpha isn't" : "";

@@ -66,7 +66,7 @@ void measure_extent(const Device& device, Scene scene, const Pyramid& shown,
     const glm::dvec3 side(scene.objects.front().world_from_object[0]);
     const double scale = row.placement == Placement::instance ? glm::length(side) : 1;
     std::optional<Extent> extent;
-    if (row.surface == Surface::cubes) {
+    if (shows_voxels(row.surface)) {
         scene.models.front().set = VoxelSet::solid;
         WorldReport report;
         extent = extent_of(build_world(device, scene, report), row.surface, scale);
@@ -133,17 +133,16 @@ std::vector<BenchRow> planned_rows(const BenchOptions& options, const BenchEntry
     std::vector<BenchRow> rows;
     const int finest =
         entry.has_light ? std::min(entry.finest, options.finest_with_light) : entry.finest;
-    for (const Surface surface : kBenchSurfaces)
+    for (const SurfaceKind& kind : kSurfaceKinds)
         for (const Placement placement : options.placements) {
             // Cubes of glass can't be instances.
-            if (entry.has_light && shows_voxels(surface) && placement == Placement::instance)
-                continue;
+            if (entry.has_light && kind.shows_voxels && placement == Placement::instance) continue;
             for (const int samples : entry.has_light ? options.samples : std::vector<int>{1})
                 for (const int resolution : options.resolutions) {
                     if (resolution < entry.coarsest || resolution > finest) continue;
                     BenchRow row;
                     row.scene = entry.name;
-                    row.surface = surface;
+                    row.surface = kind.surface;
                     row.placement = placement;
                     row.samples = samples;
                     row.resolution = resolution;
@@ -209,7 +208,7 @@ BenchFit fit_of(std::span<const BenchRow> rows, const BenchRow& first) {
 }
 
 void choose_fitted(BenchRow& row) {
-    if (row.surface != Surface::smooth) return;
+    if (!stores_distances(row.surface)) return;
     const bool is_fine = row.min_radius == 0 || row.min_radius >= kMinVoxels * row.voxel_size;
     const double depth_floor = kDepthFloor * row.voxel_size;
     row.fits_depth = is_fine && row.errors.depth_rms > kFloorFactor * depth_floor;
@@ -218,16 +217,8 @@ void choose_fitted(BenchRow& row) {
 
 }  // namespace
 
-const char* name_of(Surface surface) {
-    switch (surface) {
-        case Surface::cubes:
-            return "cubes";
-        case Surface::smooth:
-            return "smooth";
-        case Surface::exact:
-            return "exact";
-    }
-    return "unknown";
+std::string_view name_of(Surface surface) {
+    return kind_of(surface).name;
 }
 
 const char* name_of(Placement placement) {

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/opencl/device.hpp"
@@ -89,8 +90,7 @@ struct BenchReport {
     std::vector<GlobalFit> global_fits;
 };
 
-inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
-const char* name_of(Surface surface);
+std::string_view name_of(Surface surface);
 const char* name_of(Placement placement);
 
 /// The errors of a sphere stop decreasing at these measured values, because `smooth` keeps

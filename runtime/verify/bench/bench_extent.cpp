@@ -73,9 +73,9 @@ std::optional<Extent> extent_of(const Pyramid& pyramid, Surface surface, double 
     const GridFrame frame = shown_part(pyramid).frame;
     const double edge = frame.voxel_edge.x * scale;
     std::optional<Extent> extent;
-    if (surface == Surface::exact) {
+    if (lists_primitives(surface)) {
         extent = exact_extent(pyramid);
-    } else if (surface == Surface::smooth) {
+    } else if (stores_distances(surface)) {
         if (pyramid.voxel_count <= kMaxVoxels) extent = smooth_extent(pyramid);
     } else {
         const glm::dvec3 size(frame.size);

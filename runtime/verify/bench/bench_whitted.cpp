@@ -23,7 +23,7 @@ Scene whitted_scene(Surface surface, int resolution, glm::ivec2 size) {
     auto document = nlohmann::json::parse(whitted_text(), nullptr, true, true);
     document["world"]["voxel_size"] = 1.0 / resolution;
     auto& models = document["models"];
-    if (surface != Surface::exact) {
+    if (!lists_primitives(surface)) {
         // Overlapping objects' voxels are united, so only a difference makes the glass hollow.
         for (const char* name : {"outside", "hollow"}) models[name].erase("surface");
         models["outside"] = {{"shape", "difference"},

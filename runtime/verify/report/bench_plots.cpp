@@ -15,22 +15,26 @@
 namespace voxelume {
 namespace {
 
-/// The colour of a surface's curve. Instances are paler.
+/// The colours of a surface's curves. Instances are paler.
+struct CurveColors {
+    const char* world;
+    const char* instance;
+};
+
+/// One row for each of kSurfaceKinds, in their order.
+constexpr std::array<CurveColors, kSurfaceKinds.size()> kCurveColors = {{
+    {"#b35900", "#e0a060"},  // cubes
+    {"#1f6fb4", "#7fb2e0"},  // smooth
+    {"#2e8540", "#86c795"},  // exact
+}};
+
 const char* color_of(Surface surface, Placement placement) {
-    const bool is_pale = placement == Placement::instance;
-    switch (surface) {
-        case Surface::cubes:
-            return is_pale ? "#e0a060" : "#b35900";
-        case Surface::smooth:
-            return is_pale ? "#7fb2e0" : "#1f6fb4";
-        case Surface::exact:
-            return is_pale ? "#86c795" : "#2e8540";
-    }
-    return "#000";
+    const CurveColors& colors = kCurveColors[size_t(surface)];
+    return placement == Placement::instance ? colors.instance : colors.world;
 }
 
 std::string curve_name(Surface surface, Placement placement) {
-    const std::string name = name_of(surface);
+    const std::string name(name_of(surface));
     return placement == Placement::instance ? name + ", instance" : name;
 }
 

@@ -82,15 +82,15 @@ std::string slope_text(const SlopeFit& fit) {
 }
 
 std::string level_text(const BenchFit& fit) {
-    if (fit.surface != Surface::exact || fit.depth_max == 0) return {};
+    if (!lists_primitives(fit.surface) || fit.depth_max == 0) return {};
     return fmt::format("{:.1e} to {:.1e} m, at most {:.1f} floats", fit.depth_min, fit.depth_max,
                        fit.depth_max_floats);
 }
 
 ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
-    if (surface == Surface::exact && scene == "gyroid") return {"facets", "facets"};
-    if (surface == Surface::exact) return {"4 floats", "level"};
-    if (surface == Surface::cubes) return {"1.0", "0"};
+    if (lists_primitives(surface) && scene == "gyroid") return {"facets", "facets"};
+    if (lists_primitives(surface)) return {"4 floats", "level"};
+    if (shows_voxels(surface)) return {"1.0", "0"};
     // Smooth surfaces promise nothing for edges and facets.
     if (scene != "sphere" && scene != "torus") return {};
     return {">= 2.9", ">= 1.95"};

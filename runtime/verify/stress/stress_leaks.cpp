@@ -19,7 +19,7 @@ constexpr size_t kBatch = 1u << 14;
 /// The share of the tube within which a point is certainly inside.
 double safe_share(const VoxelizeOptions& options) {
     // Surfaces without cubes deviate by the mesh's chords and the field's error.
-    if (options.surface != Surface::cubes) return 0.96;
+    if (!shows_voxels(options.surface)) return 0.96;
     // Other sets than the supercover depend on voxels' centres, which costs a voxel's diagonal.
     return options.set == VoxelSet::supercover ? 0.96 : 0.85;
 }
