@@ -48,7 +48,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
-    if (lists_primitives(model.surface) && !model.solid && (!reads || may_send_on(model, meshes)))
+    if (!shows_voxels(model.surface) && !model.solid && (!reads || may_send_on(model, meshes)))
         return true;
     const auto sends = [&](int number) {
         const Material& material = scene.materials[size_t(number)];

@@ -103,6 +103,29 @@ TEST_F(SmoothMaps, OfGlossLookLikeMaterialsOfTheirNumbers) {
     }
 }
 
+TEST_F(SmoothMaps, OfMetalMirrorThingsThatAreOutOfView) {
+    write("metal.gltf", {halves({0, 0, 255}, {0, 0, 255})},
+          {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}});
+    const auto image_beside = [&](bool has_post) {
+        Json objects = {{{"model", "sheet"}}};
+        if (has_post)
+            objects.push_back(
+                {{"model", "post"}, {"material", "chalk"}, {"position", {1.3, 0, -1.6}}});
+        return image_of_scene(scene_of(
+            "metal.gltf", {{"base_color", {1, 1, 1}}, {"metallic", 1}, {"roughness", 1}}, "local",
+            {{"world", {{"ambient", {0.5, 0.5, 0.5}}, {"voxel_size", 0.025}}},
+             {"models",
+              {{"post", {{"shape", "box"}, {"size", {0.5, 1.8, 0.5}}, {"surface", "exact"}}}}},
+             {"objects", objects},
+             {"observer", {{"position", {-1.3, 0, -1.6}}}}}));
+    };
+    const auto with = image_beside(true).planes.at("R"),
+               without = image_beside(false).planes.at("R");
+    int shown = 0;
+    for (size_t i = 0; i < with.size(); ++i) shown += with[i] > without[i] + 0.1f;
+    EXPECT_GT(shown, 50);
+}
+
 TEST_F(SmoothMaps, OfEmissionLightTheWorldFromWhereTheyGlow) {
     const Json glows = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
     write("part.gltf", {halves({255, 255, 255}, {0, 0, 0})}, glows);
