@@ -64,7 +64,7 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     put_points(&points, &point, &slots, point_hits, point_radiance);
     if (!VXL_NEAR_LIGHT) return;
     const Segment part = part_in_world(shape, segment);
-    const lane_float thick = density_at(&density, &segment, path.t, path.ends);
+    const lane_float thick = density_at(shape, &density, &segment, path.t, path.ends);
     put_ways(point_hits, points.stride, (path.t - part.t_first) * metres,
              (part.t_last - path.t) * metres, chance_density(&medium, depth, thick), &slots);
 }

@@ -49,7 +49,7 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
     segment.t_last = t;
     const lane_float depth =
         travel_until(shape, &density, &segment, (lane_float)INFINITY, active).depth * metres;
-    const lane_float thick = density_at(&density, &segment, t, active);
+    const lane_float thick = density_at(shape, &density, &segment, t, active);
     const lane_float found = near_density(&part, x) + chance_density(&medium, depth, thick);
     active &= LANE_MASK(thick > 0.0f) & LANE_MASK(found > 0.0f);
     const lane_float weight = exact_divide(thick, LANES_SELECT(active, found, one));

@@ -73,14 +73,17 @@ static inline lane_float sought_depth(const MediumScattering* m, SquarePoint p) 
     return LANES_SELECT(some, fmax(depth, 0.0f), (lane_float)INFINITY);
 }
 
-/// The density of the medium on the segments at `t`; 1 without a lattice.
-static inline lane_float density_at(const DensityView* density, const Segment* s, lane_float t,
-                                    lane_int active) {
+/// The density of the medium on the segments at `t`; 1 without a lattice. Rounding may put a point
+/// of the world's border beyond it, where there is no voxel.
+static inline lane_float density_at(PyramidShape shape, const DensityView* density,
+                                    const Segment* s, lane_float t, lane_int active) {
     if (!VXL_MEDIUM_GRID) return (lane_float)1.0f;
     const Vector o = s->origin, d = s->direction;
     const Vector at = {fma(t, d.x, o.x), fma(t, d.y, o.y), fma(t, d.z, o.z)};
-    const DensityCell cell = look_up_density(
-        density, LANES_INT(floor(at.x)), LANES_INT(floor(at.y)), LANES_INT(floor(at.z)), active);
+    const lane_int x = clamp(LANES_INT(floor(at.x)), (lane_int)0, (lane_int)(shape.size_x - 1));
+    const lane_int y = clamp(LANES_INT(floor(at.y)), (lane_int)0, (lane_int)(shape.size_y - 1));
+    const lane_int z = clamp(LANES_INT(floor(at.z)), (lane_int)0, (lane_int)(shape.size_z - 1));
+    const DensityCell cell = look_up_density(density, x, y, z, active);
     return LANES_SELECT(active, cell.density, (lane_float)0.0f);
 }
 

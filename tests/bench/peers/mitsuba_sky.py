@@ -35,9 +35,9 @@ def sky(np, rows):
                     axis=-1).astype(np.float32)
 
 
-def our_ball(mi, np, voxelume, samples):
+def our_scene():
     """The scene in this program."""
-    scene = {
+    return {
         "voxelume": 1,
         "world": {"voxel_size": 0.05, "bounds": {"min": [-1.2, -0.2, -1.2], "max": [1.2, 1, 1.2]},
                   "sky": {"kind": "map", "file": "sky.exr"}},
@@ -48,20 +48,27 @@ def our_ball(mi, np, voxelume, samples):
                     {"model": "ball", "material": "ball", "position": [0, 0.45, 0]}],
         "observer": {"position": EYE, "look_at": TARGET,
                      "display": {"shape": "pyramid", "angle": ANGLE}},
-        "render": {"size": [SIZE, SIZE], "samples": samples, "light": "global", "bounces": BOUNCES},
+        "render": {"size": [SIZE, SIZE], "light": "global", "bounces": BOUNCES},
     }
-    def write_sky(folder):
-        mi.Bitmap(sky(np, (np.arange(HEIGHT) + 0.5) / HEIGHT)).write(str(folder / "sky.exr"))
-    return our_image(mi, np, voxelume, scene, write_sky)
 
 
-def mitsuba_image(mi, np, samples):
+def write_sky(mi, np, folder):
+    mi.Bitmap(sky(np, (np.arange(HEIGHT) + 0.5) / HEIGHT)).write(str(folder / "sky.exr"))
+
+
+def our_ball(mi, np, voxelume, samples):
+    scene = our_scene()
+    scene["render"]["samples"] = samples
+    return our_image(mi, np, voxelume, scene, lambda folder: write_sky(mi, np, folder))
+
+
+def mitsuba_scene(mi, np):
     """The scene in Mitsuba, whose pictures have their first and last rows at the poles."""
     place = mi.ScalarTransform4f
 
     def matt(color):
         return {"type": "diffuse", "reflectance": {"type": "rgb", "value": color}}
-    scene = {
+    return {
         "type": "scene",
         "integrator": {"type": "path", "max_depth": BOUNCES + 2, "rr_depth": 1000},
         "sky": {"type": "envmap", "bitmap": mi.Bitmap(sky(np, np.arange(HEIGHT) / (HEIGHT - 1)))},
@@ -69,8 +76,12 @@ def mitsuba_image(mi, np, samples):
                   "to_world": place().translate([0, -0.05, 0]) @ place().scale([1, 0.05, 1])},
         "ball": {"type": "sphere", "radius": 0.4, "center": [0, 0.45, 0],
                  "bsdf": matt([0.3, 0.6, 0.8])},
-        "sensor": sensor(mi, SIZE, samples, EYE, TARGET, ANGLE),
     }
+
+
+def mitsuba_image(mi, np, samples):
+    scene = mitsuba_scene(mi, np)
+    scene["sensor"] = sensor(mi, SIZE, samples, EYE, TARGET, ANGLE)
     return np.array(mi.render(mi.load_dict(scene))).astype(float)[:, :, :3]
 
 

@@ -22,12 +22,13 @@ def load_mitsuba(variant="scalar_rgb"):
     return mitsuba, numpy
 
 
-def colors_of(mi, np, image):
-    """The colours of an EXR file that this program wrote, rows x columns x 3."""
+def colors_of(mi, np, image, layer=""):
+    """The colours of an EXR file that this program wrote, rows x columns x 3; or a layer's, which
+    is named with a dot behind it."""
     bitmap = mi.Bitmap(str(image))
     names = [field.name for field in bitmap.struct_()]
     values = np.array(bitmap).astype(float)
-    return np.stack([values[:, :, names.index(c)] for c in "RGB"], axis=-1)
+    return np.stack([values[:, :, names.index(layer + c)] for c in "RGB"], axis=-1)
 
 
 def our_image(mi, np, voxelume, scene, write_files=lambda folder: None):
