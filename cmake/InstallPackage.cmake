@@ -38,7 +38,7 @@ install(FILES ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake ${CMAKE_BINARY_DIR}/voxel
 
 # Scenes to begin with, their schema and their manual, and the files that they name.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume
-        PATTERN pictures EXCLUDE PATTERN farm/*.sh EXCLUDE PATTERN farm/*.sbatch EXCLUDE)
+        PATTERN pictures EXCLUDE PATTERN gallery EXCLUDE PATTERN farm/*.sh EXCLUDE PATTERN farm/*.sbatch EXCLUDE)
 file(GLOB farm_programs CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scenes/farm/*.sh ${CMAKE_SOURCE_DIR}/scenes/farm/*.sbatch)
 install(PROGRAMS ${farm_programs} DESTINATION ${CMAKE_INSTALL_DATADIR}/voxelume/scenes/farm)
 

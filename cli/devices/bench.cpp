@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume bench: run time against error, on scenes whose truth is known.
+// voxelume bench: run time against error, on scenes whose truth is known, and noise on any.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -69,7 +69,8 @@ Action add_bench(CLI::App& app) {
     app.add_option("-o,--output", command->page, "write a report with plots, .html");
     app.add_option("--json", command->json, "write everything that was measured, .json");
     app.add_option("--csv", command->csv, "write the rows, .csv");
-    app.add_option("--plot", command->plot, "write the plot of depth against time, .svg");
+    app.add_option("--plot", command->plot,
+                   "write the plots of depth and noise against time, .svg");
     app.add_option("--only", command->only, list_of_scenes())
         ->type_name("SCENES")
         ->allow_extra_args(false);

@@ -32,11 +32,27 @@ bool traces_light(const Scene& scene) {
            c.samples || c.noise || c.object_matte || c.material_matte;
 }
 
-/// True if rays go on through parts of the textures that the model's mesh wears, or from parts that
-/// their maps make mirrors.
-bool may_send_on(const Model& model, AssetStore& meshes) {
+/// True if maps may make parts of the object mirrors in local light.
+bool is_mirror_by_maps(const Scene& scene, const Object& object) {
+    const auto is_mirror = [&](int number) {
+        const Material& material = scene.materials[size_t(number)];
+        return takes_gloss_map(material) && material.metallic.value_or(0) > 0;
+    };
+    return scene.render.depth > 0 &&
+           (is_mirror(object.material) ||
+            std::ranges::any_of(object.groups, is_mirror, &GroupMaterial::material));
+}
+
+/// True if rays go on through parts of the textures that the object's mesh wears, or from parts
+/// that their maps make mirrors. A file that isn't read (`reads` is false) may have such textures.
+bool textures_send_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
+    const Model& model = scene.models[size_t(object.model)];
+    const bool mirrors = !shows_voxels(model.surface) && is_mirror_by_maps(scene, object);
+    const bool shows_alpha = lists_primitives(model.surface) || thin_part_of(model);
+    if (model.solid || !(mirrors || shows_alpha)) return false;
+    if (!reads) return true;
     const MeshSummary* mesh = meshes.summary_of(model);
-    return mesh && (mesh->paint.has_alpha || mesh->paint.mapped > 0);
+    return mesh && ((shows_alpha && mesh->paint.has_alpha) || (mirrors && mesh->paint.mapped > 0));
 }
 
 /// True if rays continue from surfaces of the object. Voxels in a file that isn't read (`reads` is
@@ -48,8 +64,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
     if (scene.render.shadows && (has_sky_samples(scene) || has_sun(scene.world))) return true;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
-    if (!shows_voxels(model.surface) && !model.solid && (!reads || may_send_on(model, meshes)))
-        return true;
+    if (textures_send_on(scene, object, meshes, reads)) return true;
     const auto sends = [&](int number) {
         const Material& material = scene.materials[size_t(number)];
         return transmits(material) ||

@@ -116,7 +116,8 @@ bool paths_find_light(const Scene& scene) {
 
 /// The light that comes to the first surface without another one on its way. Where paths may run
 /// into light, they are followed until then, as those of all light are, so that the two differ by
-/// the rest of the light alone; but not through a medium that scatters them.
+/// the rest of the light alone; but not through a medium that scatters them. (A veil lets the
+/// last of these paths pass without chance, so behind it the two differ by noise, too.)
 Scene direct_light_of(const Scene& scene) {
     Scene result = colors_of(scene);
     const bool follows = !has_scattering(scene) && paths_find_light(scene);

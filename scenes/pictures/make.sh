@@ -13,12 +13,7 @@ volume=$(mktemp --suffix=.vdb)
 voxelume render turntable.json --volume "$volume"
 voxelume view "$volume" --size 1280x960 -o pictures/turntable_volume.png
 voxelume render cornell.json daylight.json -o 'pictures/{name}.png'
-voxelume render stage.json -o pictures/stage.png
 voxelume render still_life.json --view-transform filmic -o pictures/still_life.png
-pictures/nautilus.py nautilus.nrrd
-voxelume render nautilus.json --size 960x720 -o pictures/nautilus.png
-pictures/city.py city.vox
-voxelume render city.vox --size 1280x720 --view-transform agx --exposure 0.5 -o pictures/city.png
 voxelume render lighthouse.vox --size 640x480 --samples 16 -o pictures/lighthouse.png
 for s in melt:1,24,48 pendulum:1,12,24 drill:20 procession:40; do
     voxelume render ${s%:*}.json --size 640x480 --samples 16 --frames ${s#*:} \

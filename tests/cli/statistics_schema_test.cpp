@@ -102,7 +102,7 @@ TEST_F(StatisticsSchemaTest, HasTheNoiseThatAnImageWithATargetReached) {
     EXPECT_LT(noisy["noise"], 0.5);
     const ProgramResult info = run("info a.exr");
     EXPECT_NE(info.out.find("noise"), info.out.npos) << info.out;
-    const Json timed = statistics("-o a.exr --light global --time 30 --samples 128");
+    const Json timed = statistics("-o a.exr --light global --time 30s --samples 128");
     EXPECT_GT(timed["noise"], 0);
     const Json dark = statistics(
         "-o a.exr --noise 0.01 --samples 64 --set 'lights=[]' --set world.ambient=0,0,0 "

@@ -37,19 +37,25 @@ constexpr const char* kBallOnFloor = R"({
   "render": {"size": [32, 24], "light": "global", "bounces": 3}
 })";
 
-/// A picture of one value in all colours of all pixels.
+/// A picture of one value in all pixels: once of red, twice of green, four times of blue.
 Image even_image(float value) {
     Image image{4, 3, {}, {}, {}};
-    for (const char* color : {"R", "G", "B"}) image.planes[color] = std::vector<float>(12, value);
+    image.planes["R"] = std::vector<float>(12, value);
+    image.planes["G"] = std::vector<float>(12, 2 * value);
+    image.planes["B"] = std::vector<float>(12, 4 * value);
     return image;
 }
 
 TEST(RelativeMse, IsTheProductOfBothDifferencesOverTheLightsSquare) {
     const References references = {even_image(0.9F), even_image(1.1F)};
-    EXPECT_NEAR(relative_mse(even_image(1.5F), references), 0.6 * 0.4 / 1.01, 1e-7);
+    // The mean light is 7/3, and a hundredth of its square is 49/900.
+    double weight = 0;
+    for (const double color : {1, 2, 4}) weight += color * color / (color * color + 49.0 / 900) / 3;
+    EXPECT_NEAR(relative_mse(even_image(1.5F), references), 0.6 * 0.4 * weight, 1e-7);
     // Between both references the noise of these is what there is, with its sign.
-    EXPECT_NEAR(relative_mse(even_image(1), references), -0.1 * 0.1 / 1.01, 1e-7);
+    EXPECT_NEAR(relative_mse(even_image(1), references), -0.1 * 0.1 * weight, 1e-7);
     EXPECT_EQ(relative_mse(even_image(0), {even_image(0), even_image(0)}), 0);
+    EXPECT_TRUE(std::isnan(relative_mse(even_image(1), {even_image(0), even_image(0)})));
 }
 
 TEST(RelativeMse, HasNothingOfTheReferencesNoise) {
@@ -68,10 +74,25 @@ TEST(RelativeMse, HasNothingOfTheReferencesNoise) {
         return image;
     };
     // The references have four times the variance of the picture. Its error is 1e-4, over 1.01 and
-    // a little more for the variance of the references' mean. Of 196,608 products the mean has a
-    // standard error of 1 %, so five of these are allowed.
+    // a little more for the variance of the references' mean. A product has a standard deviation of
+    // 5.1e-4, and the mean of 196,608 of them 1.15e-6, four of which are allowed.
     const References references = {noisy(0.02), noisy(0.02)};
-    EXPECT_NEAR(relative_mse(noisy(0.01), references), 1e-4 / 1.01, 5e-6);
+    EXPECT_NEAR(relative_mse(noisy(0.01), references), 1e-4 / 1.01, 4.6e-6);
+}
+
+/// The mean squared error over the squared light and a hundredth of its squared mean.
+double error_against(const Image& image, const Image& truth) {
+    double mean = 0, sum = 0;
+    const double count = 3.0 * image.width * image.height;
+    for (const char* color : {"R", "G", "B"})
+        for (const float value : truth.planes.at(color)) mean += double(value) / count;
+    for (const char* color : {"R", "G", "B"})
+        for (size_t i = 0; i < truth.planes.at(color).size(); ++i) {
+            const double value = truth.planes.at(color)[i];
+            sum += std::pow(double(image.planes.at(color)[i]) - value, 2) /
+                   (value * value + 0.01 * mean * mean) / count;
+        }
+    return sum;
 }
 
 TEST(GlobalRows, HaveTheErrorAgainstManySamplesOfTheSameScene) {
@@ -93,9 +114,9 @@ TEST(GlobalRows, HaveTheErrorAgainstManySamplesOfTheSameScene) {
         EXPECT_NEAR(row.light, 1, 0.02);
         Scene few = scene;
         few.render.samples = row.samples;
-        const double error = relative_mse(render(device, few, report), {exact, exact});
-        // References that had the picture's own samples would have it a fourth too small. Their
-        // 64 samples leave noise of some 3 %.
+        const double error = error_against(render(device, few, report), exact);
+        // References that had the picture's own samples would have it a fourth too small. The
+        // products of two differences over 768 pixels leave noise of some 3 %.
         EXPECT_NEAR(row.relative_mse / error, 1, 0.1) << row.samples << " samples";
     }
 }
@@ -215,9 +236,10 @@ TEST_F(GlobalProgram, RefusesWhatItCannotCompareInWords) {
               start + "\"global\" isn't an object with a list of \"rows\"\n");
     EXPECT_EQ(refusal(R"({"global": {"rows": [{}]}})"),
               start + "row 0 of \"global\": there is no \"program\"\n");
-    EXPECT_EQ(refusal(R"({"global": {"rows": [{"program": "a", "scene": "ball", "samples": 0,
+    EXPECT_EQ(
+        refusal(R"({"global": {"rows": [{"program": "a", "scene": "ball", "samples": 0,
                       "relative_mse": 1, "seconds": 1}]}})"),
-              start + "row 0 of \"global\": \"samples\" is 0, not from 1 to 1000000\n");
+        start + "row 0 of \"global\": \"samples\" is 0, not a whole number from 1 to 1000000\n");
     EXPECT_EQ(refusal(R"({"global": {"rows": [], "references": {"ball": "a.exr"}}})"),
               start +
                   "the references of \"ball\": it is a string, not the names of two "
@@ -228,7 +250,20 @@ TEST_F(GlobalProgram, RefusesWhatItCannotCompareInWords) {
     EXPECT_EQ(refusal(R"({"global": {"rows": [], "references": {"ball": ["a.exr", "a.exr"]}}})"),
               "voxelume: a.exr: has 8 x 4 pixels, and ball is measured with 32 x 24: add --size "
               "8x4\n");
+    EXPECT_THAT(refusal(R"({"rows": "oops", "global": {"rows": []}})"),
+                HasSubstr("it isn't an object with a \"size\" and a list of \"rows\""));
     EXPECT_EQ(run("bench --scene missing.json").exit_code, 4);
+    // Files of a scene that can't be read are told before anything is measured.
+    std::ofstream(folder / "bad.obj") << "v 1 2 x\n";
+    std::ofstream(folder / "later.json") << R"({"voxelume": 1,
+        "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
+        "models": {"bad": {"mesh": "bad.obj"}}, "objects": [{"model": "bad"}],
+        "observer": {"position": [0, 0, 3], "look_at": [0, 0, 0],
+                     "display": {"shape": "pyramid", "angle": 40}}})";
+    const ProgramResult bad = run("bench --scene ball.json --scene later.json --samples 1");
+    EXPECT_EQ(bad.exit_code, 4);
+    EXPECT_THAT(bad.err, HasSubstr("bad.obj:1"));
+    EXPECT_THAT(bad.err, testing::Not(HasSubstr("1/2")));
     const ProgramResult twice = run("bench --scene ball.json --scene ./ball.json");
     EXPECT_EQ(twice.exit_code, 2);
     EXPECT_THAT(twice.err, HasSubstr("two scenes are named \"ball\""));

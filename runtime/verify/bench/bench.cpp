@@ -252,6 +252,7 @@ BenchReport run_bench(const Device& device, const BenchOptions& options,
     report.peers = options.peers;
     device.time_kernels(true);
     const size_t total = count_rows(options);
+    for (const GlobalScene& scene : options.global_scenes) check_global(device, scene);
     for (const BenchEntry* entry : options.subjects) {
         const BenchSubject subject = entry->open();
         const glm::ivec2 size = entry->has_light ? options.light_size : options.size;

@@ -92,15 +92,14 @@ double mean_light(const References& references) {
     return (mean_light(references[0]) + mean_light(references[1])) / 2;
 }
 
-GlobalRow measure_row(Shown& shown, const References& references, int samples, int repeats) {
+/// Measures a row without its error, and gives its picture.
+GlobalRow measure_row(Shown& shown, int samples, int repeats, Image& image) {
     clear_counters(shown.device);
-    const Image image = shown.image(0, samples);
+    image = shown.image(0, samples);
     const DeviceCounters& counters = shown.device.counters();
     const double programs = counters.build_ms / 1e3;
     GlobalRow row;
     row.samples = samples;
-    row.relative_mse = relative_mse(image, references);
-    row.light = mean_light(image) / mean_light(references);
     row.times = times_of(shown.report, counters);
     row.peak_bytes = counters.peak_bytes;
     double spent = row.times.image;
@@ -127,6 +126,7 @@ std::span<const GlobalEntry> global_entries() {
 
 double relative_mse(const Image& image, const References& references) {
     const double mean = mean_light(references), floor = 0.01 * mean * mean;
+    if (mean == 0) return mean_light(image) == 0 ? 0 : NAN;
     double sum = 0;
     size_t count = 0;
     for (const char* color : kColors) {
@@ -135,8 +135,7 @@ double relative_mse(const Image& image, const References& references) {
         for (size_t i = 0; i < values.size(); ++i, ++count) {
             const double value = double(values[i]), light = (double(a[i]) + double(b[i])) / 2;
             const double square = (value - double(a[i])) * (value - double(b[i]));
-            // A picture that is black altogether has no error where it should be black.
-            if (square != 0) sum += square / (light * light + floor);
+            sum += square / (light * light + floor);
         }
     }
     return sum / double(count);
@@ -145,17 +144,28 @@ double relative_mse(const Image& image, const References& references) {
 std::vector<GlobalRow> measure_global(const Device& device, const GlobalScene& scene,
                                       std::span<const int> samples, int repeats,
                                       const std::function<void()>& progress) {
+    if (samples.empty()) return {};
     device.time_kernels(true);
     Shown shown(device, scene);
-    const References references = references_of(shown, scene, samples.back());
     std::vector<GlobalRow> rows;
+    std::vector<Image> images(samples.size());
     rows.reserve(samples.size());
-    for (const int count : samples) {
-        rows.push_back(measure_row(shown, references, count, repeats));
+    for (size_t i = 0; i < samples.size(); ++i) {
+        rows.push_back(measure_row(shown, samples[i], repeats, images[i]));
         rows.back().scene = scene.name;
         progress();
     }
+    const References references = references_of(shown, scene, samples.back());
+    const double light = mean_light(references);
+    for (size_t i = 0; i < rows.size(); ++i) {
+        rows[i].relative_mse = relative_mse(images[i], references);
+        rows[i].light = light > 0 ? mean_light(images[i]) / light : 0;
+    }
     return rows;
+}
+
+void check_global(const Device& device, const GlobalScene& scene) {
+    const Shown shown(device, scene);
 }
 
 std::vector<GlobalFit> fit_global(std::span<const GlobalRow> rows) {

@@ -46,7 +46,8 @@ struct GlobalRow {
     double relative_mse = 0;  ///< see `relative_mse`
     double light = 0;         ///< mean light over that of the references; 0: not known
     double seconds = 0;       ///< of the picture alone, without building the world
-    BenchTimes times{};       ///< of this program's picture, with its world
+    BenchTimes times{};       ///< of this program's picture, with its world, which counts neither
+                              ///< among `kernels` nor `programs`
     uint64_t peak_bytes = 0;  ///< maximum of bytes on the device at once; 0: not known
 };
 
@@ -59,16 +60,23 @@ struct GlobalFit {
 /// The mean over pixels and colours of the squared error over the squared light, to which a
 /// hundredth of the picture's squared mean is added for what is dark.
 ///
-/// The error's square is the product of the differences from both references, so that these add
-/// nothing to it on average: their noise doesn't depend on each other, nor on the image's. All have
-/// the same size.
+/// The error's square is the product of the differences from both references, so that their noise
+/// adds nothing to it on average: it doesn't depend on each other's, nor on the image's. What
+/// remains of it, in the light that is divided by, makes the error larger by about 1.5 times the
+/// square of the relative noise of a reference. Of references that are black it is 0, or NaN if
+/// the image isn't. All have the same size.
 double relative_mse(const Image& image, const References& references);
 
-/// Measures a scene with each number of samples, ascending: of several pictures the fastest counts,
-/// as in other rows. `progress` is called after each row. Throws the Errors of rendering.
+/// Measures a scene with each number of samples, ascending. Of `repeats` pictures and a first one,
+/// unless that made kernels, the fastest counts. `progress` is called after each row. Throws the
+/// Errors of rendering.
 std::vector<GlobalRow> measure_global(const Device& device, const GlobalScene& scene,
                                       std::span<const int> samples, int repeats,
                                       const std::function<void()>& progress);
+
+/// Builds the scene's world, and throws as measuring it would, for files that can't be read or
+/// worlds that don't fit.
+void check_global(const Device& device, const GlobalScene& scene);
 
 /// The fits of each program's rows of each scene, in the order of the rows.
 std::vector<GlobalFit> fit_global(std::span<const GlobalRow> rows);

@@ -107,9 +107,9 @@ GlobalRow global_row_of(const Json& json, const Place& place) {
     row.program = text_of(json, "program", place);
     if (row.program.empty()) place.refuse("\"program\" is empty");
     row.scene = text_of(json, "scene", place);
-    const uint64_t samples = count_of(json, "samples", place);
-    if (samples < 1 || samples > 1'000'000)
-        place.refuse("\"samples\" is {}, not from 1 to 1000000", samples);
+    const double samples = number_of(json, "samples", place);
+    if (samples != std::floor(samples) || samples < 1 || samples > 1'000'000)
+        place.refuse("\"samples\" is {}, not a whole number from 1 to 1000000", samples);
     row.samples = int(samples);
     row.relative_mse = number_of(json, "relative_mse", place);
     row.seconds = number_of(json, "seconds", place);
@@ -160,7 +160,8 @@ PeerResults read_peers(const std::filesystem::path& file) {
     const bool has_rows = json.is_object() && json.contains("size") && json.contains("rows") &&
                           json["rows"].is_array();
     const bool has_global = json.is_object() && json.contains("global");
-    if (!has_rows && !has_global)
+    const bool has_other_rows = json.is_object() && json.contains("rows") && !has_rows;
+    if (has_other_rows || (!has_rows && !has_global))
         place.refuse("it isn't an object with a \"size\" and a list of \"rows\"");
     PeerResults peers;
     if (has_rows) {

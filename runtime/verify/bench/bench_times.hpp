@@ -12,7 +12,8 @@ struct BenchTimes {
     double load = 0, voxelize = 0, place = 0, index = 0;
     double image = 0;     ///< sight, trace, shade and resolve
     double total = 0;     ///< sum of all above
-    double kernels = 0;   ///< part of `total` in which kernels run on the device
+    double kernels = 0;   ///< part of `total` in which kernels run on the device, since
+                          ///< clear_counters()
     double programs = 0;  ///< time of the first render for making kernels that weren't ready; not
                           ///< part of the total
 };

@@ -25,6 +25,11 @@ std::string known(double value, const char* format) {
     return value > 0 ? fmt::format(fmt::runtime(format), value) : "";
 }
 
+/// An error that isn't known is a dash.
+std::string error_text(double error, const char* format) {
+    return std::isnan(error) ? "-" : fmt::format(fmt::runtime(format), error);
+}
+
 /// A row's error times its time, which is even where errors fall as those of independent samples.
 double product_of(const GlobalRow& row) {
     return row.relative_mse * row.seconds;
@@ -43,10 +48,11 @@ std::string global_text(const BenchReport& report) {
                                    "scene", width, "program", names, "samples", "relative MSE",
                                    "light", "image ms", "total ms", "MSE x s");
     for (const GlobalRow& row : report.global_rows)
-        text += fmt::format("{:<{}} {:<{}} {:>7} {:>12.3e} {:>7} {:>10.1f} {:>10} {:>10.2e}\n",
-                            row.scene, width, program_of(row.program), names, row.samples,
-                            row.relative_mse, known(row.light, "{:.4f}"), row.seconds * 1e3,
-                            known(row.times.total * 1e3, "{:.1f}"), product_of(row));
+        text += fmt::format("{:<{}} {:<{}} {:>7} {:>12} {:>7} {:>10.1f} {:>10} {:>10}\n", row.scene,
+                            width, program_of(row.program), names, row.samples,
+                            error_text(row.relative_mse, "{:.3e}"), known(row.light, "{:.4f}"),
+                            row.seconds * 1e3, known(row.times.total * 1e3, "{:.1f}"),
+                            error_text(product_of(row), "{:.2e}"));
     text += fmt::format("\n{:<{}} {:<{}} {:<24} {}\n", "scene", width, "program", names,
                         "slope by samples", "slope by time");
     for (const GlobalFit& fit : report.global_fits)
@@ -99,14 +105,13 @@ std::string global_section(const BenchReport& report) {
         "<th>relative MSE<th>light<th>image ms<th>total ms<th>kernels ms<th>programs ms"
         "<th>peak MB<th>MSE &times; s</tr>\n";
     for (const GlobalRow& row : report.global_rows) {
-        html +=
-            fmt::format("<tr><td>{}<td>{}<td>{}<td>{:.3e}<td>{}<td>{:.1f}", escape_html(row.scene),
-                        escape_html(program_of(row.program)), row.samples, row.relative_mse,
-                        known(row.light, "{:.4f}"), row.seconds * 1e3);
+        html += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{:.1f}", escape_html(row.scene),
+                            escape_html(program_of(row.program)), row.samples, row.relative_mse,
+                            known(row.light, "{:.4f}"), row.seconds * 1e3);
         for (const double seconds : {row.times.total, row.times.kernels, row.times.programs})
             html += "<td>" + known(seconds * 1e3, "{:.1f}");
-        html += fmt::format("<td>{}<td>{:.2e}</tr>\n",
-                            known(double(row.peak_bytes) / 1e6, "{:.1f}"), product_of(row));
+        html += fmt::format("<td>{}<td>{}</tr>\n", known(double(row.peak_bytes) / 1e6, "{:.1f}"),
+                            product_of(row));
     }
     html +=
         "</table></div>\n<div class=\"rows\"><table>\n<tr><th>scene<th>program"

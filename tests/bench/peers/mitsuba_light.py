@@ -9,7 +9,7 @@ Renders the scenes of light_cases.py with more and more samples here and SAMPLES
 in Mitsuba, by its path integrators with LLVM or, where there is none (DRJIT_LIBLLVM_PATH names it),
 its scalar variant. Prints by how much the mean of each picture differs, the differences of squares
 of 16 x 16 pixels as shares of the picture's mean, and the power of the samples by which the mean of
-these, squared, grows: -1 is noise alone. Mitsuba's own noise doesn't count in the RMS, since squared
+these, squared, grows: -1 is noise alone. Mitsuba's own noise isn't in the RMS, since squared
 differences are products of those to two pictures of Mitsuba's; it does in the largest one. Fails
 where a mean differs by more than MAX_ERRORS standard errors, or squares by more than samples
 explain. --quick takes few samples of small pictures. Where Mitsuba isn't installed (pip install
@@ -27,7 +27,8 @@ from light_cases import SCENE_MAKERS
 from peer_mitsuba import colors_of, load_mitsuba, squares_of
 
 SQUARE = 16
-MAX_ERRORS = 4
+MAX_ERRORS = 4  # of the mean: seven scenes go beyond these once in 2,000 runs
+MAX_NOISE = 3  # times: squares are few, and bright paths are rarer than variances tell
 PASS = 256  # samples a pixel that Mitsuba takes at once
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
 
@@ -61,7 +62,7 @@ def mitsuba_picture(mi, np, scene, samples, seed):
 
 
 class Comparison:
-    """Two pictures of Mitsuba's beside some of ours; all numbers are shares of the former's mean."""
+    """Two pictures of Mitsuba's beside some of ours; numbers are shares of the former's mean."""
 
     def __init__(self, np, references):
         self.np = np
@@ -108,7 +109,7 @@ def compare(mi, np, voxelume, name, scene, folder, arguments):
     if len(falls) > 1:
         print(f"  slope {np.polyfit(*zip(*falls), 1)[0]:+.2f}")
     mean, error, squared, noise, _ = rows[-1]
-    is_close = abs(mean) < MAX_ERRORS * error and squared < 3 * (noise + seen.their_square)
+    is_close = abs(mean) < MAX_ERRORS * error and squared < MAX_NOISE * (noise + seen.their_square)
     if not is_close:
         print("  differs by more than noise")
     return is_close
@@ -144,7 +145,7 @@ def main():
             folder = pathlib.Path(folder_name)
             scene = make(mi, np, folder, arguments.bunny)
             results.append(compare(mi, np, arguments.voxelume, name, scene, folder, arguments))
-    sys.exit(0 if all(results) else 1)
+    sys.exit(0 if results and all(results) else 1)
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ import time
 from path_cases import (ANGLE, BOUNCES, GREY, SIZE, SKY, SUN, SUN_WAY, city_case, cubes_case,
                         mesh_case, write_ply)
 from peer_cycles import CyclesScene
-from peer_mitsuba import colors_of, load_mitsuba
+from peer_mitsuba import load_mitsuba
 
 SAMPLES = (1, 4, 16, 64, 256)
 REFERENCE = 2048  # samples of each of two
@@ -103,7 +103,8 @@ class Peers:
             light = sum(reference.mean() for reference in self.references) / 2
             self.rows.append({
                 "program": program, "scene": self.name, "samples": samples,
-                "relative_mse": statistics.median(error_of(p, self.references) for p, _ in runs),
+                "relative_mse": max(
+                    statistics.median(error_of(p, self.references) for p, _ in runs), 0),
                 "light": runs[0][0].mean() / light,
                 "seconds": min(seconds for _, seconds in runs)})
             print(self.rows[-1], flush=True)
