@@ -51,7 +51,7 @@ struct Shown {
     RenderReport report;
     BuiltWorld world;
 
-    Shown(const Device& device_, const GlobalScene& measured) : device(device_) {
+    Shown(const Device& opened, const GlobalScene& measured) : device(opened) {
         clear_counters(device);
         build(measured);
         if (device.counters().build_ms > 0) build(measured);  // without compiling kernels
