@@ -35,8 +35,7 @@ bool traces_light(const Scene& scene) {
 /// True if maps may make parts of the object mirrors in local light.
 bool is_mirror_by_maps(const Scene& scene, const Object& object) {
     const auto is_mirror = [&](int number) {
-        const Material& material = scene.materials[size_t(number)];
-        return takes_gloss_map(material) && material.metallic.value_or(0) > 0;
+        return maps_make_mirrors(scene.materials[size_t(number)]);
     };
     return scene.render.depth > 0 &&
            (is_mirror(object.material) ||
@@ -48,7 +47,7 @@ bool is_mirror_by_maps(const Scene& scene, const Object& object) {
 bool textures_send_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     const Model& model = scene.models[size_t(object.model)];
     const bool mirrors = !shows_voxels(model.surface) && is_mirror_by_maps(scene, object);
-    const bool shows_alpha = lists_primitives(model.surface) || thin_part_of(model);
+    const bool shows_alpha = lists_primitives(model.surface);
     if (model.solid || !(mirrors || shows_alpha)) return false;
     if (!reads) return true;
     const MeshSummary* mesh = meshes.summary_of(model);

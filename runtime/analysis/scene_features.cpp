@@ -56,8 +56,7 @@ bool is_lit(const Material* m) {
 
 /// True if maps may make a part of the material's surface one that local light mirrors.
 bool mirrors_by_map(const Material& material, const Features& features) {
-    return features.texture_maps && !features.global && takes_gloss_map(material) &&
-           material.metallic.value_or(0) > 0;
+    return features.texture_maps && !features.global && maps_make_mirrors(material);
 }
 
 /// Adds the features that the materials decide.

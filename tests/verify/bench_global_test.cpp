@@ -219,15 +219,22 @@ TEST_F(GlobalProgram, MeasuresPeoplesScenesBesideOtherPrograms) {
     EXPECT_THAT(bytes_of(folder / "out.html"), testing::EndsWith("</html>\n"));
 }
 
-TEST_F(GlobalProgram, TakesLocalScenesAndOthersByTheirSize) {
+TEST_F(GlobalProgram, TakesScenesOfLocalLightInGlobalLightBesideNamedOnes) {
+    std::string local = kBallOnFloor;
+    local.replace(local.find("\"light\": \"global\""), 17, "\"light\": \"local\"");
+    std::ofstream(folder / "local.json") << local;
     const ProgramResult result =
-        run("bench -q --scene ball.json --size 8x4 --samples 1 --json out.json --only cornell");
+        run("bench -q --scene ball.json --scene local.json --size 8x4 --samples 1 --json out.json "
+            "--only cornell");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto json = nlohmann::json::parse(bytes_of(folder / "out.json"));
     EXPECT_TRUE(json["rows"].empty());
-    ASSERT_EQ(json["global"]["rows"].size(), 2u);
-    EXPECT_EQ(json["global"]["rows"][0]["scene"], "cornell");
-    EXPECT_EQ(json["global"]["rows"][1]["scene"], "ball");
+    const auto& rows = json["global"]["rows"];
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0]["scene"], "cornell");
+    EXPECT_EQ(rows[1]["scene"], "ball");
+    EXPECT_EQ(rows[2]["scene"], "local");
+    EXPECT_EQ(rows[1]["relative_mse"], rows[2]["relative_mse"]);
 }
 
 TEST_F(GlobalProgram, RefusesWhatItCannotCompareInWords) {

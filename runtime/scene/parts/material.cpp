@@ -72,6 +72,10 @@ bool takes_gloss_map(const Material& material) {
     return is_physical(material) && glass_share(material) == 0 && material.coat.value_or(0) == 0;
 }
 
+bool maps_make_mirrors(const Material& material) {
+    return takes_gloss_map(material) && material.metallic.value_or(0) > 0;
+}
+
 glm::vec3 color_of(const Material& material) {
     return material.base_color ? glm::vec3(*material.base_color) : material.color;
 }

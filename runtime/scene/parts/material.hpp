@@ -87,6 +87,9 @@ double glass_share(const Material& material);
 /// based ones without glass and coat, whose tables are made for one roughness.
 bool takes_gloss_map(const Material& material);
 
+/// True if such maps may make parts of the material's surface mirrors in local light.
+bool maps_make_mirrors(const Material& material);
+
 /// The surface's own colour, whichever of the two keys names it.
 glm::vec3 color_of(const Material& material);
 

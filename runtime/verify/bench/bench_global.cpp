@@ -52,16 +52,8 @@ struct Shown {
     BuiltWorld world;
 
     Shown(const Device& opened, const GlobalScene& measured) : device(opened) {
-        clear_counters(device);
-        build(measured);
-        if (device.counters().build_ms > 0) build(measured);  // without compiling kernels
-    }
-
-    void build(const GlobalScene& measured) {
         AssetStore assets;
         scene = with_culling(measured_scene(measured.scene), assets);
-        report.world = {};
-        world = {};
         world = WorldBuilder(device, false, std::move(assets)).build(scene, report.world);
         device.finish();
     }

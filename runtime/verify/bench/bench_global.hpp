@@ -74,8 +74,8 @@ std::vector<GlobalRow> measure_global(const Device& device, const GlobalScene& s
                                       std::span<const int> samples, int repeats,
                                       const std::function<void()>& progress);
 
-/// Builds the scene's world, and throws as measuring it would, for files that can't be read or
-/// worlds that don't fit.
+/// Builds the scene's world, so that its kernels are ready when it is measured. Throws what
+/// measuring would, for files that can't be read or worlds that don't fit.
 void check_global(const Device& device, const GlobalScene& scene);
 
 /// The fits of each program's rows of each scene, in the order of the rows.
