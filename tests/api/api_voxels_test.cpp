@@ -158,9 +158,9 @@ TEST_F(ApiVoxels, OfATextWithoutLinesAreNamedByTheirKeys) {
 
 TEST_F(ApiVoxels, OfASceneAreCountedBeforeTheyAreRead) {
     const Scene scene = Scene::parse(R"({"voxelume": 1,
-"world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1600, 16, 1600]}},
-"models": {"floor": {"shape": "box", "size": [1600, 16, 1600], "surface": "cubes"}},
-"objects": [{"model": "floor", "position": [800, 8, 800]}]})",
+"world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1200, 16, 1200]}},
+"models": {"floor": {"shape": "box", "size": [1200, 16, 1200], "surface": "cubes"}},
+"objects": [{"model": "floor", "position": [600, 8, 600]}]})",
                                      "a.json", {.cache = {.enabled = false}});
     const auto message = [&](uint64_t bytes) -> std::string {
         limit_memory(bytes);
@@ -175,7 +175,7 @@ TEST_F(ApiVoxels, OfASceneAreCountedBeforeTheyAreRead) {
     };
     EXPECT_EQ(message(uint64_t{4} << 30), "no error");
     std::filesystem::remove(folder / "a.vxm");
-    EXPECT_THAT(message(500'000'000), HasSubstr("as cubes of 1 m the scene needs "));
+    EXPECT_THAT(message(350'000'000), HasSubstr("as cubes of 1 m the scene needs "));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.vxm"));
 }
 

@@ -15,7 +15,7 @@
 
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
-#include "tests/pictures/pair_scenes.hpp"
+#include "tests/pictures/touching/pair_scenes.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

@@ -20,7 +20,7 @@
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/verify/analytic/analytic_crossings.hpp"
-#include "tests/pictures/pair_scenes.hpp"
+#include "tests/pictures/touching/pair_scenes.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/test_device.hpp"
 

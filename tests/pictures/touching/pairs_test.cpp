@@ -16,7 +16,7 @@
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/verify/analytic/analytic_tracer.hpp"
 #include "tests/oracles/rounded_edges.hpp"
-#include "tests/pictures/pair_scenes.hpp"
+#include "tests/pictures/touching/pair_scenes.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/test_device.hpp"
 
