@@ -106,7 +106,8 @@ run_tests() {
     esac
     build_targets
     say "Testing"
-    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
+    # One more than there are cores, since some tests wait for what hangs.
+    ctest --test-dir "$build" --output-on-failure -j $(($(nproc) + 1)) "${configuration[@]}"
 }
 
 # clang_build NAME OPTION...: build/NAME, configured for clang.

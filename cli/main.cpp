@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <string>
 #include <thread>
@@ -23,6 +22,7 @@
 #include "cli/shared/checks.hpp"
 #include "cli/shared/commands.hpp"
 #include "cli/shared/complaint.hpp"
+#include "cli/shared/idle_cores.hpp"
 #include "cli/shared/interrupt.hpp"
 #include "cli/shared/settings.hpp"
 
@@ -124,14 +124,6 @@ void open_closed_streams() {
         if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF &&
             ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) == -1)
             return;
-}
-
-/// The cores on which nothing runs at this moment but this process, of the whole machine's.
-int idle_cores() {
-    int running = 1;  // threads of all processes, this one's among them
-    std::string average;
-    std::ifstream("/proc/loadavg") >> average >> average >> average >> running;
-    return int(std::thread::hardware_concurrency()) - running;
 }
 
 /// The helper processes that may compile beside a command, if it is one that makes pictures:

@@ -188,12 +188,13 @@ TEST_F(CliFaultsTest, CallsThatNeverReturnEndTheRunInTime) {
     ASSERT_EQ(run("render scene.json -q -o a.exr").exit_code, 0);  // compiles
     std::filesystem::remove(folder / "a.exr");
     const std::vector<std::string> before = names();
-    for (const auto& [function, what] :
-         std::map<std::string, std::string>{{"clFinish", "waiting for its kernels"},
-                                            {"clCreateBuffer", "allocating the [a-z ]+ buffer"},
-                                            {"clEnqueueReadBuffer", "reading the [a-z ]+ buffer"},
-                                            {"clEnqueueNDRangeKernel", "launching [a-z_]+"},
-                                            {"clBuildProgram", "compiling kernels/.+"}}) {
+    std::map<std::string, std::string> calls = {{"clFinish", "waiting for its kernels"},
+                                                {"clBuildProgram", "compiling kernels/.+"}};
+    if (is_exhaustive())
+        calls.insert({{"clCreateBuffer", "allocating the [a-z ]+ buffer"},
+                      {"clEnqueueReadBuffer", "reading the [a-z ]+ buffer"},
+                      {"clEnqueueNDRangeKernel", "launching [a-z_]+"}});
+    for (const auto& [function, what] : calls) {
         const ProgramResult result =
             run_line(fmt::format("env LD_PRELOAD='{}' VXL_FAULT={}:1:hang timeout 60 {}",
                                  VXL_FAULTS, function, command));

@@ -61,14 +61,14 @@ void expect_image_kept(const std::string& name, const Scene& scene, double max_r
     expect_kept(name, promise, device, max_ratio);
 }
 
-/// Waits until a device's memory has been the same for half a second: no world is being built.
+/// Waits until a device has done nothing for 0.3 seconds: no world is being built.
 void wait_until_quiet(const Device& device) {
     const auto taken = [&] {
         const auto lock = device.lock();
         return std::pair(device.counters().bytes_in_use, device.counters().launches);
     };
     auto before = taken();
-    for (int unchanged = 0; unchanged < 5;) {
+    for (int unchanged = 0; unchanged < 3;) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         auto now = taken();
         unchanged = now == before ? unchanged + 1 : 0;

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the program elsewhere and lets it write and read .vdb files there, by the module and the
 # reader that were installed with it. Without the reader, reading is refused; without the module,
-# both are, before any work, and commands that need no .vdb still work.
+# both are, before any work, and commands that need no .vdb still work. Commands that make pictures
+# start the helper that compiles kernels.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 build=$1
@@ -46,6 +47,30 @@ expect 5 "b.vdb: can't be written: $gone" voxelize no.obj -o b.vdb
 expect 5 "b.1.vdb: can't be written: $gone" render "$scenes/turntable.json" --frames 1 --volume b.#.vdb
 expect 0 '' voxelize a.obj --resolution 16 -o a.vxm -q
 expect 0 'voxelized model' info a.vxm
+
+# Another program stands in the helper's place, tells that it was started, and becomes the helper.
+compiler=$(find "$PWD" -name voxelume-kernel-compiler)
+mv "$compiler" "$compiler.own"
+printf '#!/bin/sh\necho >>started\nexec "%s.own" "$@"\n' "$compiler" >"$compiler"
+chmod +x "$compiler"
+
+# expect_helpers NUMBER PERMITTED ARGUMENT...: expects that the program, given the arguments, starts
+# so many helpers when kernels aren't compiled yet and so many may run.
+expect_helpers() {
+    rm -rf started kernels
+    VOXELUME_CACHE_DIR=$PWD/kernels VOXELUME_COMPILERS=$2 VOXELUME_SELF_TEST=off \
+        VOXELUME_BUILD_OPTIONS=-cl-opt-disable bin/voxelume "${@:3}" >log 2>&1 || { cat log; failed=1; }
+    [ "$(cat started 2>/dev/null | wc -l)" -eq "$1" ] && return
+    echo "voxelume ${*:3}: $(cat started 2>/dev/null | wc -l) helpers instead of $1"
+    failed=1
+}
+
+small=("$scenes/whitted.json" --size 32x24 --samples 1)
+expect_helpers 1 1 render "${small[@]}" -o a.png
+expect_helpers 2 2 render "$scenes/solids.json" --size 32x24 --samples 1 -o b.png
+expect_helpers 0 0 render "${small[@]}" -o a.png
+expect_helpers 0 1 check "${small[@]}"
+expect_helpers 0 1 voxelize a.obj --resolution 16 -o c.vxm
 
 for script in share/voxelume/scenes/farm/{parallel.sh,slurm_submit.sh,slurm_part.sbatch,slurm_merge.sbatch}; do
     [ -x "$script" ] && continue

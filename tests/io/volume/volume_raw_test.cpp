@@ -10,6 +10,8 @@
 
 namespace voxelume {
 
+namespace {
+
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
@@ -124,4 +126,5 @@ TEST_F(VolumeRawTest, AFullDiskLeavesNothing) {
     expect_full_disk_leaves_nothing(data(), lattice_volume());
 }
 
+}  // namespace
 }  // namespace voxelume
