@@ -150,7 +150,8 @@ constexpr const char* kZshCommands = R"(    )
         help) (( CURRENT == 2 )) && _describe command commands ;;
 )";
 
-// A function that is loaded from $fpath is called; one that .zshrc evaluates is for later.
+// Zsh calls the function at once when it loads it from $fpath. When .zshrc evaluates the script,
+// the function is only defined.
 constexpr const char* kZshEnd = R"(    esac
 }
 if [ "$funcstack[1]" = _voxelume ]; then
@@ -180,7 +181,7 @@ std::string zsh_script(const std::vector<CommandFacts>& commands) {
     return text + kZshEnd;
 }
 
-// Fish's own functions take any word of the line for the command, a file's name with it.
+// Fish's own functions would take any word of the line for the command, even the name of a file.
 constexpr const char* kFish = R"(# fish completion for voxelume
 function __voxelume_command
     set -l words (commandline -opc)

@@ -93,8 +93,8 @@ int run(std::vector<std::string> arguments) {
     return run_command(find_command(first), std::move(arguments));
 }
 
-/// Loads the settings. A fault in their file ends commands that render, but none that helps to find
-/// it: for these it is only told. Returns what `config` ends with.
+/// Loads the settings. A fault in their file ends commands that render; commands that help to find
+/// the fault only tell of it. Returns the exit code of `config`.
 int load_settings_for(const std::string& command) try {
     load_settings();
     return 0;

@@ -29,7 +29,7 @@ std::string plain(const std::string& text) {
     return result;
 }
 
-/// Lets a list of words such as "auto|bar" go on in the next line.
+/// Allows a line break after each bar of a list of words such as "auto|bar".
 std::string breakable(const std::string& text) {
     std::string result;
     for (const char c : text) {

@@ -42,7 +42,7 @@ ShardPart::ShardPart(const RenderCommand& command, Scene& scene, FrameJob& job) 
     manifest_.frames = numbers_of(job.frames);
     manifest_.options = job.image_files;
     manifest_.scene = joint_hash(frame_hashes(scene, manifest_.frames));
-    // As merge finds them: parts may be told of their files from several folders.
+    // Names without folders, as `merge` looks for them: parts may be moved to other folders.
     for (const auto* files : {&command.outputs, &command.volumes})
         for (const std::string& file : *files) manifest_.outputs.push_back(name_of(file));
     if (job.frames.size() == 1)

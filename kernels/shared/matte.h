@@ -3,10 +3,11 @@
 #ifndef VXL_SHARED_MATTE_H
 #define VXL_SHARED_MATTE_H
 
-// Those that cover most of the pixel, two in each of Cryptomatte's layers of channels.
+// The number of objects that a finished pixel names: those that cover most of it, two in each of
+// Cryptomatte's layers of channels.
 #define VXL_MATTE_RANKS 6
 
-// Those whose parts of a pixel are known while samples are added to others.
+// The number of objects whose shares of a pixel are kept while samples are added.
 #define VXL_MATTE_HELD 24
 
 #endif

@@ -56,7 +56,7 @@ class FrameQueue {
         if (is_closed()) return std::nullopt;
         return std::move(rendered_.extract(output_).mapped());
     }
-    /// That frame is output.
+    /// Notes that the frame that was taken last is output.
     void count_output() {
         const std::lock_guard lock(mutex_);
         ++output_;

@@ -70,7 +70,7 @@ struct Crossing {
 /// Two faces look away from each other if the cosine between their normals is below this.
 constexpr float kAway = -0.5f;
 
-/// They are the two sides of a sheet below this: a wedge has more than 6 degrees.
+/// Two faces are the sides of a sheet if the cosine is below this: a wedge has more than 6 degrees.
 constexpr float kSheet = -0.995f;
 
 /// Some rows of the lines along one axis.

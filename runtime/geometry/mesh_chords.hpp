@@ -17,7 +17,7 @@ struct Chord {
     double area;             ///< square metres of the entry's face that it stands for
     /// The faces at both ends look away from each other, to 60 degrees.
     bool is_between_walls = false;
-    /// They do so to 6 degrees, which they don't next to most sharp edges.
+    /// The faces at both ends are parallel to 6 degrees, which is rare next to sharp edges.
     bool is_in_sheet = false;
 };
 

@@ -31,7 +31,7 @@ struct Image {
 /// Files have it as a number of their own.
 inline constexpr const char* kPixelAspect = "pixelAspectRatio";
 
-/// That number, which is 1 without the attribute.
+/// The width of an image's pixels over their height, by its attributes: 1 without this one.
 double pixel_aspect_in(const std::map<std::string, std::string>& attributes);
 
 }  // namespace voxelume

@@ -115,8 +115,8 @@ std::string fit_member(const ImportOptions& options);
 /// where there are textures, which show in voxels.
 glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured);
 
-/// That size for points, whose voxels are as large as makes a surface of them. The contents have
-/// the size for meshes; they are `scale` times as large as the mesh.
+/// The size of a world's voxels for points, large enough for the points to make a surface. The
+/// contents have the size for meshes; they are `scale` times as large as the mesh.
 glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents, double scale);
 
 /// The members of a model that give a mesh its surface, which is shaded smooth if `is_smooth`.

@@ -52,7 +52,7 @@ struct Track {
     std::variant<Keys<double>, Keys<std::array<double, 2>>, Keys<Vec3>, Keys<bool>,
                  Keys<std::string>, Keys<std::array<double, 4>>, Keys<std::vector<double>>>
         keys{};
-    /// Without it linear, or step for texts and bools.
+    /// Empty: linear, or step for texts and bools.
     std::optional<Interpolation> interpolation{};
 };
 

@@ -97,7 +97,7 @@ class Volume {
     /// file that is missing, damaged or none of these, Error::usage for formats that aren't read.
     static Volume read(const std::filesystem::path& file);
 
-    /// Where its voxels lie.
+    /// Where the volume's voxels lie in the world.
     const VolumeFrame& frame() const;
     size_t count() const;  ///< number of the voxels that are listed
 

@@ -19,9 +19,9 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// Functions that most kernels' deepest calls pass. PoCL 3.1 copies a kernel's functions once more
-// along each chain of calls, of which these would make millions. Its optimizer resolves them by
-// itself.
+// For functions at the bottom of most kernels' call trees. PoCL 3.1 copies a kernel's functions
+// once for each chain of calls that leads to them, and without inlining there would be millions of
+// chains through these. Where the optimizer runs, it inlines them by itself.
 #if defined(__clang__) && !defined(__OPTIMIZE__) && !defined(OCLGRIND)
 #define INLINED inline __attribute__((always_inline))
 #else

@@ -30,7 +30,7 @@ class ReadAssets {
     ReadAssets(AssetStore store, v1::CacheOptions cache)
         : store_(std::move(store)), cache_(std::move(cache)) {}
 
-    /// Hands the store over once, to those who use the same cache.
+    /// Hands the store over, to the first caller that uses the same cache; empty for all others.
     std::optional<AssetStore> take(const v1::CacheOptions& cache);
 
   private:

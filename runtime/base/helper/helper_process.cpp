@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Cause = HelperFailure::Cause;
 
-/// A descriptor that is closed in the end.
+/// Owns a descriptor and closes it in its destructor.
 class Descriptor {
   public:
     explicit Descriptor(int number) : number_(number) {}

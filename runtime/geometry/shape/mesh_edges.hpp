@@ -44,7 +44,7 @@ class MeshEdges {
     }
     glm::dvec3 place(uint32_t number) const { return glm::dvec3(mesh_.positions[number]); }
 
-    /// The position there.
+    /// The position of the vertex at which a triangle's side starts.
     glm::dvec3 start(uint32_t side) const {
         return glm::dvec3(mesh_.positions[mesh_.triangles[side / 3][int(side % 3)]]);
     }

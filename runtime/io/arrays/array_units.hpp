@@ -40,7 +40,7 @@ class ArrayUnits {
         if (!std::isfinite(step)) return int16_t(step < 0 ? -kMaxUnits : kMaxUnits);
         const float units = std::clamp(step / steepest_ * float(kDistanceUnitsPerVoxel),
                                        -float(kMaxUnits), float(kMaxUnits));
-        // As std::lround() has it: a float and a half are a double exactly.
+        // Rounds as std::lround() does: the sum of a float and a half is exact as a double.
         return int16_t(double(units) + (units < 0 ? -0.5 : 0.5));
     }
 

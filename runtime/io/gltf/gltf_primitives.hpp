@@ -14,8 +14,8 @@ inline bool is_gltf_stroke(const GltfValue& primitive) {
     return primitive.count("mode", 4) < 4;
 }
 
-/// Those with triangles, or those of points and lines in a mesh without triangles. What has no
-/// positions draws nothing, says the format.
+/// A mesh's primitives of triangles, or those of points and lines in a mesh without triangles.
+/// Primitives without positions draw nothing, as the format says, and are left out.
 inline std::vector<GltfValue> gltf_primitives(const GltfValue& mesh) {
     std::vector<GltfValue> found = mesh.items("primitives");
     std::erase_if(found, [](const GltfValue& primitive) {

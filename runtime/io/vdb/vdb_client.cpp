@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has the program voxelume-vdb-reader read OpenVDB files, which corrupt its memory, not ours, where
-// they are damaged. vdb_reader_main.cpp is the other end.
+// Has the program voxelume-vdb-reader read OpenVDB files: a damaged file makes OpenVDB corrupt that
+// program's memory instead of ours. vdb_reader_main.cpp is the other end.
 #include <dlfcn.h>
 
 #include <atomic>

@@ -52,7 +52,7 @@ std::string new_fault(const Device& device) {
     }
 }
 
-/// The device that was chosen is not to be chosen again.
+/// Marks the chosen device as faulty, so that it isn't chosen again.
 void refuse(const DeviceInfo& chosen, const std::string& fault,
             std::vector<Candidate>& candidates) {
     for (Candidate& candidate : candidates)

@@ -283,7 +283,7 @@ void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& l
                 return;
     };
     if (visibility_ != Visibility::observer) {
-        // As in find_views, the other side of a transparent surface is seen through it.
+        // The other side of a transparent surface is seen through it, as in find_views.
         look_elsewhere(0.0f);
         if (transmission_) look_elsewhere(kMaxCovered);
     }

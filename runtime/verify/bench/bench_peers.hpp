@@ -36,8 +36,8 @@ struct PeerResults {
     std::vector<BenchPeerRow> rows;
     glm::ivec2 size{0};  ///< pixels of the images of `rows`; 0: the file has none
     std::vector<GlobalRow> global_rows;
-    /// For some scenes of `global_rows` two OpenEXR files, which all programs' pictures of it are
-    /// compared with.
+    /// By the names of scenes of `global_rows`: two OpenEXR files, the references with which the
+    /// pictures of all programs are compared. Not every scene has them.
     std::map<std::string, std::array<std::filesystem::path, 2>> references;
 };
 
