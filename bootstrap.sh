@@ -12,7 +12,7 @@ usage() {
 Usage: ./bootstrap.sh COMMAND
 
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
-  test    run the tests; with --slow, those too that take long, which takes half as long again;
+  test    run the tests; with --slow, those too that take long, which takes twice as long;
           with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   fuzz    feed damaged files to each reader for 60 seconds, or for as many as follow: fuzz 300
@@ -106,8 +106,7 @@ run_tests() {
     esac
     build_targets
     say "Testing"
-    # One more than there are cores, since some tests wait for what hangs.
-    ctest --test-dir "$build" --output-on-failure -j $(($(nproc) + 1)) "${configuration[@]}"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
 }
 
 # clang_build NAME OPTION...: build/NAME, configured for clang.
