@@ -29,7 +29,7 @@ double quota(const fs::path& group, bool is_version_2) {
     return time > 0 && period > 0 ? time / period : kNoLimit;
 }
 
-/// The least quota of a group and of those that it is in. Containers often see their own group as
+/// The minimum quota of a group and of those that it is in. Containers often see their own group as
 /// the root, and its path as it is outside: folders that aren't there limit nothing.
 double quota_of_groups(const fs::path& root, const fs::path& group, bool is_version_2) {
     double min = quota(root, is_version_2);
@@ -39,7 +39,7 @@ double quota_of_groups(const fs::path& root, const fs::path& group, bool is_vers
     return min;
 }
 
-/// The least of the quotas that a process's groups of both versions set.
+/// The minimum of the quotas that a process's groups of both versions set.
 double quota_of_process(const CoreFiles& files) {
     std::ifstream groups(files.groups);
     double min = kNoLimit;

@@ -23,8 +23,8 @@ inline std::string golden_hash(const std::string& wanted) {
 /// Fails if `hash` isn't the one that the repository has under `name`.
 inline void expect_golden(const std::string& name, uint64_t hash) {
     EXPECT_EQ(fmt::format("{:016x}", hash), golden_hash(name))
-        << name << ": if it was meant to change, look at what it stands for and write the hash to "
-        << "tests/golden/hashes.txt";
+        << name << ": if it was meant to change, look at what it stands for, run the slow "
+        << "tests of it and write the hash to tests/golden/hashes.txt";
 }
 
 }  // namespace voxelume

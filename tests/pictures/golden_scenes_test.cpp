@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Golden bits of what the scenes of scenes/ have too little of: maps, glass, surfaces of each kind,
-// light from skies and near things. They tell every run of a change that the slow tests are to
-// judge, which hold such pictures against exact ones.
+// light from skies and near things. A changed hash shows in every run; whether the changed picture
+// is right, the slow tests say, which compare such pictures with exact ones.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
