@@ -170,11 +170,10 @@ static inline bool finds_light(const Emitters* table) {
 /// and sends each path on along one way, unless it ends, and a ray to an emitter. `entries` of the
 /// batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
 /// emitters may be entries, too.
-kernel void extend_paths(
-    PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, global const uint* restrict colors,
-    PathSampling sampling, uint is_first, VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
-    global uint* restrict counters, VXL_QUEUE_PARAMETERS,
-    VXL_EMITTER_PARAMETERS VXL_SOUGHT_SKY_PARAMETERS VXL_EMITTER_QUEUE_PARAMETERS) {
+kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
+                         global const uint* restrict colors, PathSampling sampling, uint is_first,
+                         VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
+                         VXL_COUNTED_QUEUE_PARAMETERS, VXL_SOUGHT_LIGHT_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -217,7 +216,7 @@ kernel void extend_paths(
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyMap sky = VXL_SOUGHT_SKY;
     if (VXL_LOOKS && finds_light(&table) && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {
-        const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        const RayQueue sent = VXL_SENT_QUEUE;
         NewRays ray;
         const lane_int wanted =
             look_for_emitters(shape, &around, &p, &batch, first, &lobes, throughput, way.chance,

@@ -11,6 +11,7 @@
 #include "lib/surface/brick_nodes.h"
 #include "lib/voxelize/brick_grid.h"
 #include "lib/voxelize/leaf_voxels.h"
+#include "lib/voxelize/written_voxels.h"
 
 // Moves the mask of one leaf of a brick to another slot. `moves` holds pairs of slots, from and to.
 kernel void move_masks(const uint count, global const uint* restrict moves, global ulong* masks) {
@@ -60,16 +61,6 @@ kernel void mark_voxels(const uint count, global const uint* restrict listed,
     vstore2((uint2)(voxels, primitives), item, counts);
 }
 
-// The voxels of a pyramid, as `write_voxels` fills them.
-typedef struct {
-    global uint* restrict attributes;
-    global uint* restrict colors;
-    global uint* restrict normals;
-    global uint* restrict fields;
-    global uint* restrict primitive_first;
-    global uint* restrict primitives;
-} WrittenVoxels;
-
 // The packed attributes of a voxel in the pyramid, with the kind bits of voxels in the occupancy
 // masks (kinds.x) or of the others (kinds.y).
 static inline uint word_with_kind(const BrickGrid* grid, size_t voxel, bool smooth, uint2 kinds) {
@@ -106,16 +97,11 @@ static inline uint write_voxel(const BrickGrid* grid, uint slot, int index, bool
 // of the others (y). The host writes the last voxel's end in `voxel_primitive_first`.
 kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PARAMETERS,
                          global const ulong* restrict masks, global const uint* restrict starts,
-                         global uint* restrict leaves, global uint* restrict leaf_voxels,
-                         global uint* restrict voxel_attributes, global uint* restrict voxel_colors,
-                         global uint* restrict voxel_normals, global uint* restrict voxel_fields,
-                         global uint* restrict voxel_primitive_first,
-                         global uint* restrict voxel_primitives) {
+                         VXL_WRITTEN_PARAMETERS) {
     const uint slot = work_item();
     if (slot >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;
-    const WrittenVoxels to = {voxel_attributes, voxel_colors,          voxel_normals,
-                              voxel_fields,     voxel_primitive_first, voxel_primitives};
+    const WrittenVoxels to = VXL_WRITTEN;
     const uint3 start = vload3(slot, starts);
     uint leaf_number = start.x, number = start.y, primitive = start.z;
     short nodes[VXL_SMOOTH ? VXL_NODE_COUNT : 1];
@@ -123,8 +109,7 @@ kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PAR
     for (int leaf = 0; leaf < 64; ++leaf) {
         ulong mask = masks[(size_t)slot * 64 + leaf];
         if (mask == 0) continue;
-        vstore2(as_uint2(mask), leaf_number, leaves);
-        leaf_voxels[leaf_number++] = number;
+        write_leaf(&to, leaf_number++, mask, number);
         const ulong occupied = VXL_OCCUPANCY ? grid.occupancy[(size_t)slot * 64 + leaf] : 0;
         if (VXL_SMOOTH && !gathered) {
             gather_nodes(grid.slots, grid.bricks, grid.distance,

@@ -16,13 +16,17 @@
 #include "lib/voxelize/brick_grid.h"
 #include "lib/voxelize/chain_parts.h"
 #include "lib/voxelize/leaf_voxels.h"
+#include "lib/voxelize/written_voxels.h"
 
 // The fields in the world's bricks that hold any voxels: entries first[b] .. first[b + 1] are those
 // in brick b, the object that comes first in the order of priorities first. An entry is the number
 // of an object's brick among all objects' (x), the object's rank (y), and the brackets that the
-// field stands in (z, shared/field_place.h).
-#define VXL_ENTRY_PARAMETERS \
-    global const uint *restrict entry_first, global const uint *restrict entries
+// field stands in (z, shared/field_place.h). `masks` are those of each field's leaves; the others
+// are of the world's bricks: of all voxels, of those that list fields, and of the base grid's.
+#define VXL_UNITED_PARAMETERS                                                     \
+    global const uint *restrict entry_first, global const uint *restrict entries, \
+        global ulong *restrict masks, global ulong *restrict united,              \
+        global ulong *restrict listing, global ulong *restrict of_base
 
 // Copies the masks of one object's leaves behind those of others.
 kernel void append_masks(const uint count, const uint first, global const ulong* restrict from,
@@ -112,9 +116,7 @@ static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulo
 kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
                         global const uint* restrict brick_numbers,
                         global const uint* restrict base_slots, global const uint* restrict ranks,
-                        VXL_ENTRY_PARAMETERS, global ulong* restrict masks,
-                        global ulong* restrict united, global ulong* restrict listing,
-                        global ulong* restrict of_base, global ulong* restrict leaf_masks,
+                        VXL_UNITED_PARAMETERS, global ulong* restrict leaf_masks,
                         global uint* restrict counts) {
     const uint item = work_item();
     if (item >= count) return;
@@ -164,27 +166,20 @@ kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
 // One brick of the world: its leaves, and all of its voxels but the records of their fields, from
 // the numbers in `starts` (first leaf, voxel, primitive, listed field of each brick) on.
 kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
-                         global const uint* restrict base_slots, VXL_ENTRY_PARAMETERS,
-                         global const ulong* restrict masks, global const ulong* restrict united,
-                         global const ulong* restrict listing, global const ulong* restrict of_base,
-                         global const uint* restrict starts, global uint* restrict leaves,
-                         global uint* restrict leaf_voxels, global uint* restrict voxel_attributes,
-                         global uint* restrict voxel_colors, global uint* restrict voxel_normals,
-                         global uint* restrict voxel_fields,
-                         global uint* restrict voxel_primitive_first,
-                         global uint* restrict voxel_primitives) {
+                         global const uint* restrict base_slots, VXL_UNITED_PARAMETERS,
+                         global const uint* restrict starts, VXL_WRITTEN_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;
     const uint slot = VXL_BASE ? base_slots[item] : VXL_BRICK_OUTSIDE;
+    const WrittenVoxels to = VXL_WRITTEN;
     const uint begin = entry_first[item], end = entry_first[item + 1];
     const uint4 start = vload4(item, starts);
     uint leaf_number = start.x, number = start.y, primitive = start.z, field = start.w;
     for (int leaf = 0; leaf < 64; ++leaf) {
         ulong mask = united[(size_t)item * 64 + leaf];
         if (mask == 0) continue;
-        vstore2(as_uint2(mask), leaf_number, leaves);
-        leaf_voxels[leaf_number++] = number;
+        write_leaf(&to, leaf_number++, mask, number);
         const ulong lists = listing[(size_t)item * 64 + leaf];
         const ulong base = VXL_BASE ? of_base[(size_t)item * 64 + leaf] : 0;
         for (; mask != 0; mask &= mask - 1, ++number) {
@@ -194,24 +189,24 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
             if (lists >> bit & 1)
                 for (uint e = begin; e < end; ++e)
                     fields += (uint)(masks[(size_t)entries[3 * e] * 64 + leaf] >> bit & 1);
-            if (fields > 0) voxel_attributes[number] = VXL_KIND_EXACT << VXL_KIND_SHIFT;
+            if (fields > 0) to.attributes[number] = VXL_KIND_EXACT << VXL_KIND_SHIFT;
             if (fields > 0 || is_base) {
-                vstore8((uint8)(field, fields, 0, 0, 0, 0, 0, 0), number, voxel_fields);
-                if (VXL_COLORS) voxel_colors[number] = 0xFFFFFFu;
+                vstore8((uint8)(field, fields, 0, 0, 0, 0, 0, 0), number, to.fields);
+                if (VXL_COLORS) to.colors[number] = 0xFFFFFFu;
             }
             field += fields;
-            if (VXL_PRIMITIVES) voxel_primitive_first[number] = primitive;
+            if (VXL_PRIMITIVES) to.primitive_first[number] = primitive;
             if (!is_base) continue;
             const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit);
             uint packed = base_attributes(&grid, voxel);
             if (fields > 0 && packed >> VXL_KIND_SHIFT == VXL_KIND_CUBES)
                 packed |= VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT;
-            voxel_attributes[number] = packed;
-            if (VXL_COLORS && grid.colors) voxel_colors[number] = grid.colors[voxel];
-            if (VXL_VOXEL_NORMALS) voxel_normals[number] = grid.normals[voxel];
+            to.attributes[number] = packed;
+            if (VXL_COLORS && grid.colors) to.colors[number] = grid.colors[voxel];
+            if (VXL_VOXEL_NORMALS) to.normals[number] = grid.normals[voxel];
             if (!VXL_PRIMITIVES) continue;
             for (uint i = grid.primitive_first[voxel]; i < grid.primitive_first[voxel + 1]; ++i)
-                voxel_primitives[primitive++] = grid.primitives[i];
+                to.primitives[primitive++] = grid.primitives[i];
         }
     }
 }
@@ -221,10 +216,9 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
 // them. `links` are those of the field's brackets and its own.
 kernel void write_fields(const uint count, const uint first, const uint links,
                          VXL_BRICK_GRID_PARAMETERS, global const uint* restrict bricks_of,
-                         VXL_ENTRY_PARAMETERS, global const ulong* restrict masks,
-                         global const ulong* restrict united, global const ulong* restrict listing,
-                         global const uint* restrict starts, global uint* voxel_attributes,
-                         global uint* restrict voxel_colors, global uint* voxel_fields) {
+                         VXL_UNITED_PARAMETERS, global const uint* restrict starts,
+                         global uint* voxel_attributes, global uint* restrict voxel_colors,
+                         global uint* voxel_fields) {
     const uint slot = work_item();
     if (slot >= count) return;
     const BrickGrid grid = VXL_BRICK_GRID;

@@ -22,9 +22,7 @@
 kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
                               VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS,
                               PathSampling sampling, VXL_BATCH_PARAMETERS, uint count,
-                              global uint* restrict counters, VXL_QUEUE_PARAMETERS,
-                              global uint* restrict point_hits,
-                              global float* restrict point_radiance) {
+                              VXL_MEDIUM_POINTS_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;
@@ -177,10 +175,8 @@ static inline lane_int look_from_medium(PyramidShape shape, const MediumScatteri
 /// paths began as, sends each path on, behind `taken` rays of the queue, unless it ends, and a ray
 /// to an emitter.
 kernel void extend_in_medium(PyramidShape shape, VXL_SCATTERING_PARAMETER PathSampling sampling,
-                             VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS,
-                             global uint* restrict counters, uint taken, VXL_QUEUE_PARAMETERS,
-                             VXL_EMITTER_PARAMETERS VXL_SOUGHT_SKY_PARAMETERS
-                                 VXL_EMITTER_QUEUE_PARAMETERS) {
+                             VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS, uint taken,
+                             VXL_COUNTED_QUEUE_PARAMETERS, VXL_SOUGHT_LIGHT_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;
@@ -209,7 +205,7 @@ kernel void extend_in_medium(PyramidShape shape, VXL_SCATTERING_PARAMETER PathSa
     const SkyMap sky = VXL_SOUGHT_SKY;
     const bool finds_light = VXL_SKY_RAYS ? true : table.count > 0u;
     if (VXL_LOOKS && finds_light) {
-        const RayQueue sent = {sent_rays, sent_paths, sent_starts, sent_inside, sent_stride};
+        const RayQueue sent = VXL_SENT_QUEUE;
         NewRays to = ray;
         const lane_int wanted =
             look_from_medium(shape, &medium, way, goes_on, &samples, &table, &sky, &to);

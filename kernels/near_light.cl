@@ -14,9 +14,7 @@
 kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absorption,
                              VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS, PathSampling sampling,
                              uint is_first, VXL_BATCH_PARAMETERS, uint count,
-                             global uint* restrict counters, VXL_QUEUE_PARAMETERS,
-                             global uint* restrict point_hits,
-                             global float* restrict point_radiance) {
+                             VXL_MEDIUM_POINTS_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;

@@ -80,7 +80,7 @@ kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict so
 kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                        global const uint* restrict colors, float min_weight, uint first_layer,
                        VXL_BATCH_PARAMETERS, uint count, global float* restrict node_weights,
-                       VXL_NODE_PARAMETERS, global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
+                       VXL_NODE_PARAMETERS, VXL_COUNTED_QUEUE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const Surroundings around = VXL_SURROUNDINGS;
@@ -172,7 +172,7 @@ static inline void store_tints(const Surroundings* around, const ScatterPoint* p
 kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float min_weight,
                          uint compact, global const uint* restrict colors, VXL_BATCH_PARAMETERS,
                          uint begin, uint end, VXL_CHILDREN_PARAMETERS,
-                         global uint* restrict counters, VXL_QUEUE_PARAMETERS) {
+                         VXL_COUNTED_QUEUE_PARAMETERS) {
     const uint first = begin + work_item() * VXL_LANES;
     if (first >= end) return;
     const Surroundings around = VXL_SURROUNDINGS;

@@ -39,6 +39,11 @@
     { 0, 0 }
 #endif
 
+/// What some scenes need to know of hits: the parameters that `bind` of HitDetails sets, in its
+/// order. A comma ends them, if there are any.
+#define VXL_HIT_DETAIL_PARAMETERS \
+    VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS VXL_CUBE_STEPS_PARAMETER
+
 /// The points where rays met their surfaces: the place in the voxel, and the unit normal in
 /// metric space.
 typedef struct {
@@ -254,8 +259,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
 /// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           VXL_SKY_PARAMETERS VXL_SKY_DEPTH_PARAMETER VXL_EMITTER_PARAMETERS
-                              VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS VXL_CUBE_STEPS_PARAMETER
-                                  global const float* restrict materials,
+                              VXL_HIT_DETAIL_PARAMETERS global const float* restrict materials,
                           global const uint* restrict ranks, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;

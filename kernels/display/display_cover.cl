@@ -31,20 +31,28 @@ static inline int4 shown_at(const DisplayLattice* l, global const uint* mask, fl
     return v;
 }
 
+/// Lines' points, `total` apart, the number of each line's first, and what is crossed there: the
+/// parameters that `bind` of LinePoints sets, in its order.
+#define VXL_LINE_PARAMETERS                                                                   \
+    global const uint *restrict line_starts, uint total, global const float *restrict points, \
+        global const uint *restrict surfaces
+
+/// The voxels that are shown: their mask, the numbers before its groups, and each one's object,
+/// opacity and logarithm: the parameters that `bind` of CoveredVoxels sets, in its order.
+#define VXL_COVERED_PARAMETERS                                                                   \
+    global const uint *restrict mask, global const uint *restrict starts,                        \
+        global const uint *restrict voxel_objects, global const float *restrict voxel_opacities, \
+        global const uint *restrict voxel_logs
+
 /// Adds lines 0 .. count-1, which lead along `axis`, to the voxels in which they cross surfaces.
 /// The points of line n are those from line_starts[n] on. Each voxel has, for each axis, what the
 /// surfaces in it take of the lines, in units of 1 / VXL_COVER_UNITS; and, for each sense in which
 /// they are crossed, the logarithms of what they let through, in units of -1 / VXL_LOG_UNITS. Those
 /// of the voxel's own object let through what the voxel does: `voxel_logs`; others what their
 /// materials do: `logs`. Logarithms of 0 are VXL_OPAQUE_LOG. No line lies on a side of a voxel.
-kernel void cover_lines(DisplayLattice lattice, uint count, global const uint* restrict line_starts,
-                        uint total, global const float* restrict points,
-                        global const uint* restrict surfaces, uint axis,
+kernel void cover_lines(DisplayLattice lattice, uint count, VXL_LINE_PARAMETERS, uint axis,
                         global const float* restrict opacities, global const uint* restrict logs,
-                        global const uint* restrict mask, global const uint* restrict starts,
-                        global const uint* restrict voxel_objects,
-                        global const float* restrict voxel_opacities,
-                        global const uint* restrict voxel_logs, global uint* restrict sums) {
+                        VXL_COVERED_PARAMETERS, global uint* restrict sums) {
     const uint line = work_item();
     if (line >= count) return;
     float clear = 1.0f;

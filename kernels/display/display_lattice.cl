@@ -26,9 +26,8 @@
 /// (0xFFFFFFFF) get idle rays. With `search` the views are all `search - 1`, and points that have a
 /// view already are idle; rays then end where the point would be hidden. Without, they begin
 /// shortly before the point and end shortly behind it.
-kernel void aim_rays(Camera camera, PyramidShape shape, DisplayLattice lattice,
-                     global const float4* restrict views, VXL_POINTS_PARAMETERS, uint search,
-                     uint first_point, uint count, uint stride, global float* restrict rays) {
+kernel void aim_rays(VXL_VIEW_PARAMETERS, VXL_POINTS_PARAMETERS, uint search, uint first_point,
+                     uint count, uint stride, global float* restrict rays) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const ProbePoints all = VXL_POINTS;
@@ -148,8 +147,7 @@ kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
 /// Adds the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
 /// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
 /// passes by its surface, the voxel gets object 0.
-kernel void keep_light(Camera camera, PyramidShape shape, Environment environment,
-                       VXL_DENSITY_PARAMETERS, global const float* restrict density_colors,
+kernel void keep_light(Camera camera, PyramidShape shape, VXL_SPACE_MEDIUM_PARAMETERS,
                        VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
                        global const uint* restrict targets, uint listed, uint first_voxel,
                        uint count, VXL_VOXEL_PARAMETERS) {
@@ -158,7 +156,7 @@ kernel void keep_light(Camera camera, PyramidShape shape, Environment environmen
     const RayBatch batch = VXL_BATCH;
     const NodeLight nodes = VXL_NODES;
     const VoxelArrays voxels = VXL_VOXELS;
-    const SpaceMedium medium = {environment, VXL_DENSITY, density_colors};
+    const SpaceMedium medium = VXL_SPACE_MEDIUM;
     const SeenLight seen = seen_light(shape, &medium, &batch, &nodes, first);
     VoxelValues values;
     for (uint channel = 0; channel < 3; ++channel)

@@ -8,7 +8,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/paths.h"
-#include "lib/traverse/density.h"
+#include "lib/medium/space_medium.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/display.h"
 #include "shared/scene.h"
@@ -154,13 +154,12 @@ static inline void add_to_steps(DisplaySteps steps, float from, float to, float 
 /// layer: amounts[k * amount_stride + n], which are zero before, and so are the planes of the
 /// light that StepSums describes.
 kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps steps,
-                            Environment environment, VXL_DENSITY_PARAMETERS,
-                            global const float* restrict density_colors, uint is_first,
-                            VXL_BATCH_PARAMETERS, uint first_entry, uint count, uint amount_stride,
+                            VXL_SPACE_MEDIUM_PARAMETERS, uint is_first, VXL_BATCH_PARAMETERS,
+                            uint first_entry, uint count, uint amount_stride,
                             global float* restrict amounts) {
     const uint lane_0 = work_item() * VXL_LANES, first = first_entry + lane_0;
     if (lane_0 >= count) return;
-    const DensityView density = VXL_DENSITY;
+    const SpaceMedium medium = VXL_SPACE_MEDIUM;
     const RayBatch batch = VXL_BATCH;
     const PyramidView p = grid_view(shape);
     const Vector o = load_vector(batch.rays, batch.stride, first);
@@ -183,20 +182,20 @@ kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps step
     StepSums sums;
     sums.stride = amount_stride;
     sums.plane = (size_t)amount_stride * steps.count;
-    sums.absorption[0] = environment.absorption.x;
-    sums.absorption[1] = environment.absorption.y;
-    sums.absorption[2] = environment.absorption.z;
+    sums.absorption[0] = medium.environment.absorption.x;
+    sums.absorption[1] = medium.environment.absorption.y;
+    sums.absorption[2] = medium.environment.absorption.z;
     walking &= LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w) & LANE_MASK(t_first < t_last);
     while (lanes_any(walking)) {
-        const DensityCell cell = look_up_density(&density, w.x, w.y, w.z, walking);
-        leave_cells(&p, &density, &w, cell.log2_size, walking);
+        const DensityCell cell = look_up_density(&medium.density, w.x, w.y, w.z, walking);
+        leave_cells(&p, &medium.density, &w, cell.log2_size, walking);
         const lane_int counts = walking & LANE_MASK(w.t > t_first);
         const lane_int ends = LANE_MASK(w.t >= t_last);
         const lane_float left = LANES_SELECT(ends, t_last, w.t);
         float part[3 * VXL_LANES], color[3 * VXL_LANES];
         int adds[VXL_LANES];
         for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c)
-            LANES_STORE(LANES_GATHER_FLOAT(density_colors, cell.place * 3u + c), color,
+            LANES_STORE(LANES_GATHER_FLOAT(medium.colors, cell.place * 3u + c), color,
                         c * VXL_LANES);
         LANES_STORE(cell.density * fmax(left - entered, 0.0f) * scale.metres, part, 0);
         LANES_STORE(fma(scale.along, entered, scale.origin), part, VXL_LANES);

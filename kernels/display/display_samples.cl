@@ -156,15 +156,13 @@ static inline lane_float voxel_shift(global const ulong* restrict indices, uint 
     return sum - floor(sum);
 }
 
-/// Aims rays at sample `sample` of `samples` of voxels first_voxel .. first_voxel+count-1, and
-/// writes the rays' weights. Planes have 4^log2 places, and face `axis` most. Without `samples`
-/// rays are aimed at the probe points themselves. Where there is nothing to aim at, they are idle.
-kernel void aim_samples(Camera camera, PyramidShape shape, DisplayLattice lattice,
-                        global const float4* restrict views, VXL_POINTS_PARAMETERS,
+/// Aims rays at a sample of voxels first_voxel .. first_voxel+count-1, and writes the rays'
+/// weights. Where there is nothing to aim at, rays are idle.
+kernel void aim_samples(VXL_VIEW_PARAMETERS, VXL_POINTS_PARAMETERS,
                         global const ulong* restrict indices,
-                        global const float* restrict voxel_normals, int axis, uint sample,
-                        uint samples, float turn, int log2, uint first_voxel, uint count,
-                        uint stride, global float* restrict weights, global float* restrict rays) {
+                        global const float* restrict voxel_normals, SampleAim aim, uint first_voxel,
+                        uint count, uint stride, global float* restrict weights,
+                        global float* restrict rays) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const ProbePoints all = VXL_POINTS;
@@ -173,17 +171,17 @@ kernel void aim_samples(Camera camera, PyramidShape shape, DisplayLattice lattic
     const lane_uint known = LANES_LOAD(all.views, voxel);
     lane_int aimed =
         LANE_MASK(LANES_NUMBERS + (int)first < (int)count) & LANE_MASK(known != 0xFFFFFFFFu);
-    if (samples > 0u) {
+    if (aim.samples > 0u) {
         const Vector corner = voxel_corners(&lattice, indices, voxel, first_voxel + count);
         const Vector in_voxel = {point.x - corner.x, point.y - corner.y, point.z - corner.z};
         const Vector normal = kept_normals(voxel_normals, voxel, first_voxel + count);
         const SamplePlane plane = sample_plane(&lattice, shape.edge, in_voxel, normal);
         aimed &= LANE_MASK(normal.y >= -VXL_LOOKS_DOWN);
-        const lane_float shift = voxel_shift(indices, voxel, first_voxel + count, turn);
+        const lane_float shift = voxel_shift(indices, voxel, first_voxel + count, aim.turn);
         Vector p;
         lane_float area;
-        aimed &= axis == 0 ? plane.by_x : axis == 1 ? plane.by_y : plane.by_z;
-        aimed &= sample_on_plane(&plane, sample, samples, shift, log2, &p, &area);
+        aimed &= aim.axis == 0 ? plane.by_x : aim.axis == 1 ? plane.by_y : plane.by_z;
+        aimed &= sample_on_plane(&plane, aim.sample, aim.samples, shift, aim.log2, &p, &area);
         point.x = corner.x + p.x, point.y = corner.y + p.y, point.z = corner.z + p.z;
         LANES_STORE(LANES_SELECT(aimed, area, (lane_float)0.0f), weights, first);
     }
@@ -205,8 +203,7 @@ static inline lane_int is_within(lane_float coordinate, lane_float corner) {
 
 /// Adds the light of rays that aim_samples aimed to their voxels' sums: of colours times weights,
 /// and of weights, which are areas times opacities.
-kernel void add_samples(PyramidShape shape, DisplayLattice lattice, Environment environment,
-                        VXL_DENSITY_PARAMETERS, global const float* restrict density_colors,
+kernel void add_samples(PyramidShape shape, DisplayLattice lattice, VXL_SPACE_MEDIUM_PARAMETERS,
                         VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
                         global const ulong* restrict indices, global const float* restrict weights,
                         uint first_voxel, uint count, global float* restrict sums) {
@@ -214,7 +211,7 @@ kernel void add_samples(PyramidShape shape, DisplayLattice lattice, Environment 
     if (first >= count) return;
     const RayBatch batch = VXL_BATCH;
     const NodeLight nodes = VXL_NODES;
-    const SpaceMedium medium = {environment, VXL_DENSITY, density_colors};
+    const SpaceMedium medium = VXL_SPACE_MEDIUM;
     const SeenLight seen = seen_light(shape, &medium, &batch, &nodes, first);
     const Vector corner =
         voxel_corners(&lattice, indices, first_voxel + first, first_voxel + count);

@@ -6,7 +6,13 @@
 #include "lib/display/crossings.h"
 #include "lib/lanes/work_item.h"
 #include "lib/packets/instances.h"
+#include "shared/display.h"
 #include "shared/scene.h"
+
+/// Of each line the number of its crossings, and where and with what they are: the parameters that
+/// `bind` of CrossingArrays sets, in its order.
+#define VXL_CROSSINGS_PARAMETERS \
+    global uint *restrict counts, global float *restrict crossings, global uint *restrict surfaces
 
 /// Scans the `walking` lanes' voxels up to t_end. Lanes that reach an occupied voxel wait until no
 /// lane is walking; then the surfaces in those voxels are crossed together. `beginning` lanes set
@@ -109,8 +115,7 @@ static INLINED void scan_instances(const WorldView* world, const Walk* line, lan
 /// tells what is crossed: packed attributes with VXL_LINE_CUBE.
 kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
                        uint count, uint stride, uint slots, uint line_stride, uint covers,
-                       global uint* restrict counts, global float* restrict crossings,
-                       global uint* restrict surfaces) {
+                       VXL_CROSSINGS_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const WorldView world = VXL_WORLD;
@@ -143,8 +148,7 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
 /// Puts the crossings of lines 0 .. count-1 in their order, and leaves out those that other objects
 /// hide; see line_order.h. Every line has slots for all of its crossings.
 kernel void order_lines(uint count, uint line_stride, global const uint* restrict ranks,
-                        global const float* restrict opacities, global uint* restrict counts,
-                        global float* restrict crossings, global uint* restrict surfaces) {
+                        global const float* restrict opacities, VXL_CROSSINGS_PARAMETERS) {
     const uint n = work_item();
     if (n >= count) return;
     const LineCrossings line = {counts[n],    line_stride, crossings + n,
@@ -153,27 +157,25 @@ kernel void order_lines(uint count, uint line_stride, global const uint* restric
 }
 
 /// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
-/// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
-/// row r lie at (last_a - c + offset_a) / parts_a along the next axis and (last_b - r + offset_b) /
-/// parts_b along the one after it. In scenes with transmission `packed`, unless it is null, gets
-/// their surfaces.
-kernel void pack_points(int axis, uint columns, int last_a, int last_b, float parts_a,
-                        float parts_b, float offset_a, float offset_b,
-                        global const uint* restrict counts, global const uint* restrict starts,
-                        global const float* restrict crossings, uint first_line, uint count,
+/// starts[n] on. In scenes with transmission `packed`, unless it is null, gets their surfaces.
+kernel void pack_points(LineGrid lines, VXL_CROSSINGS_PARAMETERS,
+                        global const uint* restrict starts, uint first_line, uint count,
                         uint stride, uint total, global float* restrict points,
-                        global const uint* restrict surfaces, global uint* restrict packed) {
+                        global uint* restrict packed) {
     const uint n = work_item();
     if (n >= count) return;
-    const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
+    const uint tiles_x = (lines.columns + 3u) / 4u, tile = (first_line + n) / 16u;
     const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
-    const float a = exact_quotient((float)(last_a - (int)column) + offset_a, parts_a);
-    const float b = exact_quotient((float)(last_b - (int)row) + offset_b, parts_b);
+    const float a =
+        exact_quotient((float)(lines.last_a - (int)column) + lines.offset_a, lines.parts_a);
+    const float b =
+        exact_quotient((float)(lines.last_b - (int)row) + lines.offset_b, lines.parts_b);
+    const uint axis = (uint)lines.axis;
     for (uint i = 0; i < counts[n]; ++i) {
         const uint point = starts[n] + i;
-        points[(uint)axis * total + point] = crossings[i * stride + n];
-        points[(uint)((axis + 1) % 3) * total + point] = a;
-        points[(uint)((axis + 2) % 3) * total + point] = b;
+        points[axis * total + point] = crossings[i * stride + n];
+        points[(axis + 1u) % 3u * total + point] = a;
+        points[(axis + 2u) % 3u * total + point] = b;
         if (VXL_TRANSMISSION && packed) packed[point] = surfaces[i * stride + n];
     }
 }

@@ -46,6 +46,28 @@ VXL_SIZE_IS(DisplaySteps, 16);
 #define VXL_LOG_UNITS 4096.0f
 #define VXL_OPAQUE_LOG 0xFFFFFFFFu
 
+// Parallel lines along `axis` (0, 1, 2) of a lattice, in the order of sight.cl: those of column c
+// and row r lie at (last_a - c + offset_a) / parts_a along the next axis and (last_b - r +
+// offset_b) / parts_b along the one after it.
+typedef struct LineGrid {
+    int axis;
+    uint columns;
+    int last_a, last_b;
+    float parts_a, parts_b;
+    float offset_a, offset_b;
+} LineGrid;
+VXL_SIZE_IS(LineGrid, 32);
+
+// The sample of display voxels that rays are aimed at: number `sample` of `samples` on planes of
+// 4^log2 places that face `axis` most. Without `samples` rays are aimed at the probe points.
+typedef struct SampleAim {
+    int axis;
+    uint sample, samples;
+    float turn;  // is added to each voxel's shift of its samples
+    int log2;
+} SampleAim;
+VXL_SIZE_IS(SampleAim, 20);
+
 // A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y
 // axis_y + z axis_z in voxels of the world.
 typedef struct DisplayLattice {

@@ -7,6 +7,7 @@
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/solid_angle.h"
+#include "lib/voxelize/windings.h"
 #include "shared/voxel.h"
 
 #ifndef VXL_CENTERS
@@ -15,6 +16,7 @@
 #ifndef VXL_SLICES
 #define VXL_SLICES 16
 #endif
+#define MIDDLE_POINT (8u + 16u * 8u + 256u * 8u)
 #define POINT_OFFSET (VXL_CENTERS * LATTICE_VOXEL / 2)
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define TURNS 0.15915494f  // 1 / 2 pi: from half a solid angle to a winding number
@@ -74,14 +76,12 @@ static inline uint brick_state(BrickFacts f, float caps, float margin) {
 kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float radius,
                                  VXL_MESH_PARAMETERS, global const uint* restrict surface_bins,
                                  global const uint* restrict cap_bins,
-                                 global const uint* restrict any_bins,
-                                 global const short* restrict winding,
-                                 global const short* restrict carried,
-                                 global const short* restrict passing,
+                                 global const uint* restrict any_bins, VXL_WINDING_PARAMETERS,
                                  global uint* restrict states) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const LatticeMesh mesh = VXL_MESH;
+    const WindingNumbers closed = VXL_WINDINGS;
     LanePoints p;
     for (uint i = 0; i < VXL_LANES; ++i) {
         const int3 at = brick_of(min(first + i, count - 1u), bricks) * LATTICE_BRICK +
@@ -103,13 +103,10 @@ kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float ra
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const int3 brick = brick_of(first + i, bricks);
         const uint bin = (uint)((brick.z * bricks.y + brick.y) * (bricks.x + 1) + brick.x + 1);
-        const uint number = any_bins[bin];
         BrickFacts f;
         f.has_surface = surface_bins[bin] != VXL_BRICK_OUTSIDE;
         f.has_caps = cap_bins[bin] != VXL_BRICK_OUTSIDE;
-        f.closed = number == VXL_BRICK_OUTSIDE
-                       ? (float)passing[first + i]
-                       : (float)(winding[4096u * number + 2184u] + carried[256u * number + 136u]);
+        f.closed = (float)winding_at(&closed, first + i, any_bins[bin], MIDDLE_POINT);
         const float margin = ((const float*)&error)[i] * TURNS + ((const float*)&slope)[i] * radius;
         states[first + i] = brick_state(f, ((const float*)&caps)[i] * TURNS, margin);
     }
@@ -122,12 +119,11 @@ kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float ra
 kernel void find_inside_open(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
                              global const uint* restrict coordinates,
                              global const uint* restrict states,
-                             global const uint* restrict numbers,
-                             global const short* restrict winding,
-                             global const short* restrict carried,
-                             global const short* restrict passing, global ushort* restrict inside) {
+                             global const uint* restrict numbers, VXL_WINDING_PARAMETERS,
+                             global ushort* restrict inside) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
     const LatticeMesh mesh = VXL_MESH;
+    const WindingNumbers closed = VXL_WINDINGS;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
     const uint brick = coordinates[slot], number = numbers[slot];
@@ -155,15 +151,12 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, VXL_MESH_PAR
             uint row = 0;
             for (uint x = 0; x < 16u; ++x) {
                 const uint node = 256u * z + 16u * y + x;
-                const int closed =
-                    number == VXL_BRICK_OUTSIDE
-                        ? passing[brick]
-                        : winding[4096u * number + node] + carried[256u * number + node / 16u];
+                const int whole = winding_at(&closed, brick, number, node);
                 const uint column = y / TILE_Y * TILES_X + x / TILE_X;
                 const uint lane = y % TILE_Y * TILE_X + x % TILE_X;
                 const float* sums =
                     (const float*)&caps[column * VXL_SLICES + z - (uint)first_slice];
-                row |= (uint)((float)closed - sums[lane] * TURNS > 0.5f) << x;
+                row |= (uint)((float)whole - sums[lane] * TURNS > 0.5f) << x;
             }
             inside[256u * slot + 16u * z + y] = (ushort)row;
         }

@@ -30,6 +30,18 @@
 #define BRICK_CENTER (LATTICE_BRICK / 2)
 #define NO_TRIANGLE 0xFFFFFFFFu
 
+/// The triangle that is closest to each voxel of the stored bricks, whose coordinates these are:
+/// the parameters that `bind` of NearestTriangles sets, in its order.
+#define VXL_NEAREST_PARAMETERS                                                               \
+    int4 bricks, float4 scale, VXL_MESH_PARAMETERS, global const uint *restrict coordinates, \
+        global const uint *restrict nearest
+
+/// The textures that triangles wear: the parameters that `bind` of WornTextures sets, in its order.
+#define VXL_WORN_PARAMETERS                                                          \
+    global const uint *restrict texture_words, global const uint *restrict textures, \
+        global const uint *restrict texels, global const uint *restrict uv_indices,  \
+        global const float *restrict uvs
+
 typedef struct {
     lane_float squared;
     lane_uint number;
@@ -185,14 +197,12 @@ static inline float3 weights_of(const LatticeTriangle* t, float4 scale) {
 /// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the
 /// centre: that between the corners' colours, times that of the texture there, in linear light.
 /// `thresholds` and `linear_levels` are the sRGB curve from and to linear values.
-kernel void color_voxels(
-    uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
-    global const uint* restrict coordinates, global const uint* restrict nearest,
-    global const uint* restrict color_indices, global const float* restrict vertex_colors,
-    global const float* restrict thresholds, global const float* restrict linear_levels,
-    global const uint* restrict texture_words, global const uint* restrict textures,
-    global const uint* restrict texels, global const uint* restrict uv_indices,
-    global const float* restrict uvs, global uint* restrict colors) {
+kernel void color_voxels(uint count, VXL_NEAREST_PARAMETERS,
+                         global const uint* restrict color_indices,
+                         global const float* restrict vertex_colors,
+                         global const float* restrict thresholds,
+                         global const float* restrict linear_levels, VXL_WORN_PARAMETERS,
+                         global uint* restrict colors) {
     const uint number = work_item();
     if (number >= count) return;
     const LatticeMesh mesh = VXL_MESH;
@@ -249,9 +259,7 @@ static inline uint mean_normal(global const uint* codes, float3 weights, float3 
 
 /// One work-item: one voxel. Its normal is that of its closest triangle at the point closest to the
 /// centre; VXL_NO_NORMAL if no triangle is near.
-kernel void give_normals(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
-                         global const uint* restrict coordinates,
-                         global const uint* restrict nearest,
+kernel void give_normals(uint count, VXL_NEAREST_PARAMETERS,
                          global const uint* restrict corner_normals,
                          global uint* restrict normals) {
     const uint number = work_item();

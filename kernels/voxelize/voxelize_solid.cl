@@ -70,13 +70,12 @@ kernel void sample_solid(global const SolidShape* restrict solids,
 /// Writes the mask of one leaf of a stored brick, and the mask of those of its voxels that floats
 /// can't decide.
 ///
-/// `set` is VXL_SET_*; `leaf_reach` is half a leaf's diagonal, `voxel_reach` half a voxel's, in
-/// shortest edges. `undecided_count` counts the leaves with such voxels.
+/// `set` is VXL_SET_*; `reach` is half the diagonal of a leaf (x) and of a voxel (y), in shortest
+/// edges. `undecided_count` counts the leaves with such voxels.
 kernel void occupy_solid(global const SolidShape* restrict solids,
                          global const uint* restrict coordinates, int4 bricks, int4 size,
-                         uint leaf_count, uint set, float leaf_reach, float voxel_reach,
-                         global uint2* restrict occupancy, global uint2* restrict undecided,
-                         global uint* restrict undecided_count) {
+                         uint leaf_count, uint set, float2 reach, global uint2* restrict occupancy,
+                         global uint2* restrict undecided, global uint* restrict undecided_count) {
     const uint number = work_item();
     if (number >= leaf_count) return;
     const int brick = (int)coordinates[number >> 6];
@@ -87,13 +86,13 @@ kernel void occupy_solid(global const SolidShape* restrict solids,
     const SolidDistance middle = solid_distance(
         solids, 0, lattice_point((lane_int)(x + 2), (lane_int)(y + 2), (lane_int)(z + 2), 0.0f));
     uint2 set_bits = (uint2)(0u, 0u), open_bits = (uint2)(0u, 0u);
-    const int near = lanes_any(LANE_MASK(fabs(middle.distance) <= leaf_reach + middle.rounding));
+    const int near = lanes_any(LANE_MASK(fabs(middle.distance) <= reach.x + middle.rounding));
     const int all_in = set == VXL_SET_SOLID && lanes_any(LANE_MASK(middle.distance <= 0.0f));
     for (int first = 0; first < 64; first += VXL_LANES) {
         const lane_int voxel = (lane_int)first + LANES_NUMBERS;
         const lane_int vx = x + (voxel & 3), vy = y + (voxel >> 2 & 3), vz = z + (voxel >> 4);
         lane_int is_open = (lane_int)0, is_set = (lane_int)(-(all_in != 0));
-        if (near) is_set = covered_voxels(solids, set, voxel_reach, vx, vy, vz, &is_open);
+        if (near) is_set = covered_voxels(solids, set, reach.y, vx, vy, vz, &is_open);
         const lane_int in_grid =
             LANE_MASK(vx < size.x) & LANE_MASK(vy < size.y) & LANE_MASK(vz < size.z);
         const lane_int bit = (lane_int)1 << (voxel & 31);

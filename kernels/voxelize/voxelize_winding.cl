@@ -107,13 +107,13 @@ kernel void carry_rows(uint count, int4 bins, global const uint* restrict number
 /// One work-item: one brick. Bit x of inside[16 z + y] says whether the winding number of point
 /// (x, y, z) is above 1/2.
 kernel void find_inside(uint count, global const short* restrict winding,
-                        global const short* restrict carried, global ushort* restrict inside) {
+                        global const short* restrict row_starts, global ushort* restrict inside) {
     const uint slot = work_item();
     if (slot >= count) return;
     const short16 bits = (short16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192,
                                    16384, (short)-32768);
     for (uint i = 0; i < 256u; ++i) {
-        const short16 w = vload16(256u * slot + i, winding) + carried[256u * slot + i];
+        const short16 w = vload16(256u * slot + i, winding) + row_starts[256u * slot + i];
         const short16 set = select((short16)(0), bits, w > (short16)(0));
         const short8 h8 = set.lo | set.hi;
         const short4 h4 = h8.lo | h8.hi;

@@ -7,6 +7,10 @@ void bind(KernelArguments& to, const RayQueue& queue) {
     to.add(queue.rays, queue.paths, queue.starts, queue.inside, queue.stride);
 }
 
+void bind(KernelArguments& to, const CountedQueue& counted) {
+    to.add(counted.counters, counted.queue);
+}
+
 void bind(KernelArguments& to, const RayBatch& batch) {
     bind(to, static_cast<const RayQueue&>(batch));
     to.add(batch.beams, batch.hits, batch.positions, batch.normals, batch.shading,

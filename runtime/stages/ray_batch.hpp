@@ -23,6 +23,13 @@ struct RayQueue {
 /// VXL_QUEUE_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayQueue& queue);
 
+/// VXL_COUNTED_QUEUE_PARAMETERS of kernels.
+struct CountedQueue {
+    const Buffer<uint32_t>& counters;  ///< kPathCounters of them
+    const RayQueue& queue;
+};
+void bind(KernelArguments& to, const CountedQueue& counted);
+
 /// Rays and their hits.
 struct RayBatch : RayQueue {
     Buffer<uint32_t> beams;   ///< VXL_BEAM_COMPONENTS, for sight rays; empty if no beams were sent

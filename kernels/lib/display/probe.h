@@ -27,6 +27,11 @@ typedef struct {
 #define VXL_POINTS \
     { point_count, total, points, view_of_point }
 
+/// Where rays look from at the voxels of a lattice: the parameters that `bind` of ProbeViews sets,
+/// in its order. views[0] stands for E.
+#define VXL_VIEW_PARAMETERS \
+    Camera camera, PyramidShape shape, DisplayLattice lattice, global const float4 *restrict views
+
 /// Lattice coordinates in the world's voxels.
 static inline Vector point_in_world(const DisplayLattice* l, Vector p) {
     const Vector result = {

@@ -5,6 +5,7 @@
 
 #include "lib/lanes/vector.h"
 #include "lib/light/paths.h"
+#include "lib/medium/space_medium.h"
 #include "lib/medium/veil.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/scene.h"
@@ -23,13 +24,6 @@ typedef struct {
     lane_float opacity;
     Vector point;  // in the world's voxels
 } SeenLight;
-
-/// The medium between rays' starts and their surfaces.
-typedef struct {
-    Environment environment;
-    DensityView density;
-    global const float* colors;  // of its voxels
-} SpaceMedium;
 
 /// The light of rays first .. first + VXL_LANES - 1. The medium between a ray's start and its
 /// surface counts as air. Where surfaces let light through, the nodes hold the surface's own light

@@ -4,6 +4,7 @@
 #define VXL_SENT_RAYS_H
 
 #include "lib/lanes/fixed_point.h"
+#include "lib/light/light_rays.h"
 #include "lib/light/paths.h"
 #include "lib/traverse/ray_queue.h"
 
@@ -13,10 +14,16 @@ static inline lane_float t_after(lane_float metres, Vector direction, float4 edg
     return exact_divide(metres, LANES_SELECT(LANE_MASK(per_t > 0.0f), per_t, (lane_float)1.0f));
 }
 
-/// The queue for rays to emitters, which `bind` of a RayQueue sets as it does VXL_QUEUE_PARAMETERS.
-#define VXL_EMITTER_QUEUE_PARAMETERS                                    \
-    global float *restrict sent_rays, global uint *restrict sent_paths, \
-        global float *restrict sent_starts, global uint *restrict sent_inside, uint sent_stride
+/// The emitters and the sky that paths look for, and the queue for rays to them: the parameters
+/// that `bind` of SoughtLight sets, in its order.
+#define VXL_SOUGHT_LIGHT_PARAMETERS                                                    \
+    VXL_EMITTER_PARAMETERS VXL_SOUGHT_SKY_PARAMETERS global float *restrict sent_rays, \
+        global uint *restrict sent_paths, global float *restrict sent_starts,          \
+        global uint *restrict sent_inside, uint sent_stride
+
+/// The value of that RayQueue in a kernel with these parameters.
+#define VXL_SENT_QUEUE \
+    { sent_rays, sent_paths, sent_starts, sent_inside, sent_stride }
 
 /// The number of surfaces met, in the states of rays that go on from one more.
 static inline lane_uint met_after(lane_uint state) {

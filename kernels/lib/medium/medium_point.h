@@ -39,6 +39,11 @@ static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float 
     return r;
 }
 
+/// The parameters that `bind` of MediumPoints sets, in its order.
+#define VXL_MEDIUM_POINTS_PARAMETERS                                \
+    VXL_COUNTED_QUEUE_PARAMETERS, global uint *restrict point_hits, \
+        global float *restrict point_radiance
+
 /// Puts points into a queue, with the throughput of the light from there.
 static inline void put_points(const RayQueue* points, const NewRays* point, const Slots* slots,
                               global uint* restrict hits, global float* restrict radiance) {

@@ -33,6 +33,9 @@ typedef struct {
     global float *restrict next_rays, global uint *restrict next_paths, \
         global float *restrict next_starts, global uint *restrict next_inside, uint next_stride
 
+/// The same behind the counters of rays that are sent on, VXL_COUNT_*: `bind` of a CountedQueue.
+#define VXL_COUNTED_QUEUE_PARAMETERS global uint *restrict counters, VXL_QUEUE_PARAMETERS
+
 /// A queue of new rays, with `stride` places.
 typedef struct {
     global float* rays;

@@ -74,7 +74,23 @@ VoxelCover cover_of(const uint32_t* sums, const glm::uvec3& lines) {
     return cover;
 }
 
+/// VXL_COVERED_PARAMETERS of display_cover.cl.
+struct CoveredVoxels {
+    const Buffer<uint32_t>& mask;
+    const ShownVoxels& shown;
+    const Buffer<uint32_t>& logs;
+};
+
+void bind(KernelArguments& to, const CoveredVoxels& covered) {
+    const VoxelArrays& voxels = covered.shown.voxels;
+    to.add(covered.mask, covered.shown.starts, voxels.objects, voxels.opacities, covered.logs);
+}
+
 }  // namespace
+
+void bind(KernelArguments& to, const LinePoints& lines) {
+    to.add(lines.starts, lines.points.total, lines.points.coordinates, lines.surfaces);
+}
 
 Buffer<uint32_t> allocate_covers(const Device& device, uint32_t voxels) {
     return {device, "display covers", size_t(voxels) * 3 * size_t(VXL_COVER_SUMS)};
@@ -112,10 +128,8 @@ DisplayCoverStage::DisplayCoverStage(const Device& device, const Features& featu
 
 void DisplayCoverStage::add(int axis, const LinePoints& lines, const LineSurfaces& surfaces,
                             const Buffer<uint32_t>& mask) {
-    cover_.launch(WorkItem::light, lines.lines, lattice_, lines.lines, lines.starts,
-                  lines.points.total, lines.points.coordinates, lines.surfaces, uint32_t(axis),
-                  surfaces.opacities, surfaces.logs, mask, shown_.starts, shown_.voxels.objects,
-                  shown_.voxels.opacities, logs_, covers_);
+    cover_.launch(WorkItem::light, lines.lines, lattice_, lines.lines, lines, uint32_t(axis),
+                  surfaces.opacities, surfaces.logs, CoveredVoxels{mask, shown_, logs_}, covers_);
 }
 
 void DisplayCoverStage::adjust(const glm::uvec3& lines, Volume& volume) const {

@@ -34,6 +34,9 @@ double mean_crossings(const VolumeFrame& frame, const glm::ivec3& cell,
 /// The axis along which a voxel's opacity is meant; -1 for lines that lead along none.
 int axis_seen_along(const VolumeFrame& frame, const MeanCrossings& along_axes);
 
+/// VXL_LINE_PARAMETERS of display_cover.cl.
+void bind(KernelArguments& to, const LinePoints& lines);
+
 /// The kernel of display_cover.cl.
 class DisplayCoverStage {
   public:

@@ -62,8 +62,8 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
 
 void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
                               uint32_t count, RayBatch& batch) {
-    aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views_, points, search, first,
-                        count, batch.stride, batch.rays);
+    aim_.launch_packets(count, ProbeViews{camera_, shape_of(world_), lattice_, views_}, points,
+                        search, first, count, batch.stride, batch.rays);
     rays_ += count;
 }
 
@@ -186,8 +186,7 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces, 
 void DisplayLatticeStage::keep(const SpaceMedium& medium, const RayBatch& batch,
                                const NodeLight& nodes, const LightTask& task, uint32_t first,
                                uint32_t count, VoxelArrays& voxels) {
-    keep_.launch_packets(count, camera_, shape_of(world_), medium.environment, medium.density,
-                         medium.density.colors, batch, nodes, task.targets,
+    keep_.launch_packets(count, camera_, shape_of(world_), medium, batch, nodes, task.targets,
                          uint32_t(!task.targets.empty()), first, count, voxels);
 }
 

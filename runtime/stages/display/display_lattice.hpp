@@ -39,12 +39,6 @@ struct SampledRays {
 using LightRays =
     std::function<void(RayBatch& batch, const SampledRays& rays, const LayerSink& sink)>;
 
-/// The medium between the observer and surfaces. `density` is empty where it is 1 everywhere.
-struct SpaceMedium {
-    Environment environment;
-    DensityGrid density;
-};
-
 /// The kernels of display_lattice.cl: the paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:

@@ -137,9 +137,9 @@ void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& 
     for (uint32_t first = 0; first < layer.count; first += maximum) {
         const uint32_t now = std::min(maximum, layer.count - first);
         amounts.fill(0);
-        density_.value().launch_packets(now, camera_, shape_of(world), steps_, environment_,
-                                        density, density.colors, uint32_t(layer.is_first),
-                                        layer.entries, first, now, maximum, amounts);
+        density_.value().launch_packets(
+            now, camera_, shape_of(world), steps_, SpaceMedium{environment_, density},
+            uint32_t(layer.is_first), layer.entries, first, now, maximum, amounts);
         const std::vector<float> dense = amounts.read();
         for (uint32_t n = 0; n < now; ++n) {
             size_t begin = 0, end = steps;

@@ -7,7 +7,7 @@
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/features.hpp"
-#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/medium/space_medium.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/stages/trace/scatter.hpp"
 

@@ -51,9 +51,8 @@ void DisplaySampleStage::add(const LightRays& light_rays, const SpaceMedium& med
                              RayBatch& batch, const Facing& facing, const SampledRays& which) {
     const uint32_t first = which.first, count = which.count;
     const auto add = [&](const RayBatch& entries, const NodeLight& nodes) {
-        add_.launch_packets(count, shape_of(world_), lattice_, medium.environment, medium.density,
-                            medium.density.colors, entries, nodes, facing.shown.voxels.indices,
-                            sums_.weights, first, count, sums_.light);
+        add_.launch_packets(count, shape_of(world_), lattice_, medium, entries, nodes,
+                            facing.shown.voxels.indices, sums_.weights, first, count, sums_.light);
     };
     if (!transmission_) {
         light_rays(batch, which, {});
@@ -75,10 +74,11 @@ void DisplaySampleStage::light_facing(const LightRays& light_rays, const SpaceMe
     for (uint32_t first = 0; first < voxels; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, voxels - first);
         const auto aim = [&](uint32_t sample, uint32_t samples) {
-            aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views, facing.points,
-                                facing.shown.voxels.indices, sums_.normals, facing.points.axis,
-                                sample, samples, turn_of(sample), log2_of_places(samples_), first,
-                                count, batch.stride, sums_.weights, batch.rays);
+            const SampleAim at{facing.points.axis, sample, samples, turn_of(sample),
+                               log2_of_places(samples_)};
+            aim_.launch_packets(count, ProbeViews{camera_, shape_of(world_), lattice_, views},
+                                facing.points, facing.shown.voxels.indices, sums_.normals, at,
+                                first, count, batch.stride, sums_.weights, batch.rays);
             rays_ += count;
         };
         const auto keep = [&](const RayBatch& entries) {

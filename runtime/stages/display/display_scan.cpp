@@ -122,6 +122,14 @@ void bind(KernelArguments& to, const ProbePoints& points) {
     to.add(points.count, points.total, points.coordinates, points.views);
 }
 
+void bind(KernelArguments& to, const ProbeViews& views) {
+    to.add(views.camera, views.world, views.lattice, views.views);
+}
+
+void bind(KernelArguments& to, const CrossingArrays& arrays) {
+    to.add(arrays.counts, arrays.crossings, arrays.surfaces);
+}
+
 DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
                                    const VolumeFrame& frame, const GridFrame& world,
                                    LineSurfaces surfaces)
@@ -211,22 +219,23 @@ LinePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fami
     const uint32_t stride = (count + 15) / 16 * 16;
     std::vector<uint32_t> counts;
     for (;;) {
-        if (crossings_.size() < size_t(stride) * slots_)
-            crossings_ = allocate_crossings(device_, stride, slots_);
-        if (transmission_ && crossed_.size() < size_t(stride) * slots_)
-            crossed_ = allocate_surfaces(device_, stride, slots_);
-        if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
+        if (crossed_.crossings.size() < size_t(stride) * slots_)
+            crossed_.crossings = allocate_crossings(device_, stride, slots_);
+        if (transmission_ && crossed_.surfaces.size() < size_t(stride) * slots_)
+            crossed_.surfaces = allocate_surfaces(device_, stride, slots_);
+        if (crossed_.counts.size() < stride)
+            crossed_.counts = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,
-                             stride, uint32_t(covers_), counts_, crossings_, crossed_);
-        counts = counts_.read(0, count);
+                             stride, uint32_t(covers_), crossed_);
+        counts = crossed_.counts.read(0, count);
         const uint32_t maximum = *std::ranges::max_element(counts);
         if (maximum <= slots_) break;
         slots_ = std::max(maximum, 2 * slots_);
     }
     if (transmission_) {
         order_.launch(WorkItem::light, count, count, stride, surfaces_.ranks, surfaces_.opacities,
-                      counts_, crossings_, crossed_);
-        counts = counts_.read(0, count);
+                      crossed_);
+        counts = crossed_.counts.read(0, count);
     }
     std::vector<uint32_t> starts(size_t(count) + 1);
     std::inclusive_scan(counts.begin(), counts.end(), starts.begin() + 1);
@@ -237,10 +246,11 @@ LinePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fami
     points.views.fill(kNoView);
     found.starts = Buffer<uint32_t>(device_, "probe starts", std::span<const uint32_t>(starts));
     if (covers_) found.surfaces = Buffer<uint32_t>(device_, "probe surfaces", points.count);
-    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.camera.width), family.last.x,
-                 family.last.y, float(family.parts.x), float(family.parts.y), family.offset.x,
-                 family.offset.y, counts_, found.starts, crossings_, first_line, count, stride,
-                 points.total, points.coordinates, crossed_, found.surfaces);
+    const LineGrid lines{
+        family.axis,           uint32_t(family.camera.width), family.last.x,   family.last.y,
+        float(family.parts.x), float(family.parts.y),         family.offset.x, family.offset.y};
+    pack_.launch(WorkItem::light, count, lines, crossed_, found.starts, first_line, count, stride,
+                 points.total, points.coordinates, found.surfaces);
     return found;
 }
 

@@ -34,6 +34,26 @@ struct LinePoints {
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
+/// VXL_POINTS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const ProbePoints& points);
+
+/// Where the voxels of a lattice are looked at from: VXL_VIEW_PARAMETERS of kernels.
+struct ProbeViews {
+    const Camera& camera;
+    PyramidShape world;
+    const DisplayLattice& lattice;
+    const Buffer<float4>& views;
+};
+void bind(KernelArguments& to, const ProbeViews& views);
+
+/// The crossings of lines with surfaces: VXL_CROSSINGS_PARAMETERS of display_scan.cl.
+struct CrossingArrays {
+    Buffer<uint32_t> counts;  ///< of each line
+    Buffer<float> crossings;
+    Buffer<uint32_t> surfaces;  ///< only where light goes through some
+};
+void bind(KernelArguments& to, const CrossingArrays& arrays);
+
 /// The arrays of `count` points, which have no views yet; and the crossings of `lines` lines, with
 /// `slots` places for each, and their surfaces.
 ProbePoints allocate_points(const Device& device, uint32_t count);
@@ -43,9 +63,6 @@ inline constexpr uint32_t kFirstSlots = 64;
 
 /// The number of lines that are scanned together with a batch of `rays` rays.
 uint32_t scanned_lines(uint32_t rays);
-
-/// VXL_POINTS_PARAMETERS of kernels.
-void bind(KernelArguments& to, const ProbePoints& points);
 
 /// The kernels of display_scan.cl: probe lines along the three axes of a lattice.
 ///
@@ -112,9 +129,7 @@ class DisplayScanStage {
     bool transmission_;
     bool covers_ = false;           ///< see scan_lines
     uint32_t slots_ = kFirstSlots;  ///< number of crossings that a line has room for; it grows
-    Buffer<float> crossings_;
-    Buffer<uint32_t> crossed_;  ///< surfaces of crossings
-    Buffer<uint32_t> counts_;
+    CrossingArrays crossed_;
     uint64_t lines_ = 0, clear_lines_ = 0;
 };
 

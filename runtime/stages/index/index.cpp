@@ -43,6 +43,12 @@ Pyramid upload(const Device& device, const BrickGrid& grid, const Numbering& num
 
 }  // namespace
 
+void bind(KernelArguments& to, const WrittenVoxels& written) {
+    const Pyramid& p = written.pyramid;
+    to.add(p.leaves, p.leaf_voxels, p.attributes, p.colors, p.normals, p.fields, p.primitive_first,
+           p.primitives);
+}
+
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts) {
     const PyramidParts parts{.attributes = !grid.attributes.empty() || has_two_sorts(grid),
                              .colors = !grid.colors.empty(),
@@ -106,8 +112,7 @@ Pyramid write_pyramid(const Device& device, const Program& program, const BrickG
     const Buffer<uint32_t> starts(device, "index starts", numbers.starts);
     program.kernel("write_voxels")
         .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid, marks.masks,
-                starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
-                pyramid.normals, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+                starts, WrittenVoxels{pyramid});
     const auto end = uint32_t(numbers.totals[1]);
     if (!pyramid.primitive_first.empty())
         pyramid.primitive_first.write(std::span(&end, 1), pyramid.voxel_count);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
-#include "runtime/opencl/device.hpp"
+#include "runtime/opencl/program.hpp"
 #include "runtime/stages/index/index_fields.hpp"
 
 namespace voxelume {
@@ -49,6 +49,12 @@ struct PyramidParts {
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts);
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidParts& parts,
                          const PyramidCounts& counts);
+
+/// The arrays of a pyramid that kernels fill: VXL_WRITTEN_PARAMETERS of kernels.
+struct WrittenVoxels {
+    const Pyramid& pyramid;
+};
+void bind(KernelArguments& to, const WrittenVoxels& written);
 
 /// Builds the pyramids of one state of a grid after another, and looks for voxels only where the
 /// grid has changed. The result is that of `build_index`.

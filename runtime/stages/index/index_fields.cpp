@@ -19,7 +19,8 @@ namespace {
 constexpr size_t kCounts = 3;      // of each brick: voxels, primitives, listed fields
 constexpr size_t kEntryWords = 3;  // a brick of a field, its object's rank, its brackets
 
-/// VXL_ENTRY_PARAMETERS of index_fields.cl, and what else is known of the world's bricks.
+/// The entries of VXL_UNITED_PARAMETERS of index_fields.cl, and what else is known of the world's
+/// bricks.
 struct UnitedBricks {
     std::vector<uint32_t> numbers;     ///< the bricks, ascending
     std::vector<uint32_t> base_slots;  ///< for each: its slot in the base grid or kBrickOutside
@@ -98,6 +99,12 @@ struct UnitedArrays {
     Buffer<uint64_t> masks;                     ///< of each field's leaves
     Buffer<uint64_t> united, listing, of_base;  ///< of the world's
 };
+
+/// VXL_UNITED_PARAMETERS of index_fields.cl.
+void bind(KernelArguments& to, const UnitedArrays& arrays) {
+    to.add(arrays.first, arrays.entries, arrays.masks, arrays.united, arrays.listing,
+           arrays.of_base);
+}
 
 UnitedArrays upload(const Device& device, const UnitedBricks& united, bool has_base) {
     const auto words = [&](const char* name, const std::vector<uint32_t>& values) {
@@ -192,8 +199,7 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
     const Buffer<uint32_t> counts(device_, "united counts", arrays.count * kCounts);
     program.kernel("unite_marks")
         .launch(WorkItem::heavy, arrays.count, arrays.count, base, arrays.numbers,
-                arrays.base_slots, Buffer<uint32_t>(device_, "ranks", world.ranks), arrays.first,
-                arrays.entries, arrays.masks, arrays.united, arrays.listing, arrays.of_base,
+                arrays.base_slots, Buffer<uint32_t>(device_, "ranks", world.ranks), arrays,
                 leaf_masks, counts);
     const Numbering numbers = number_united(base.frame, bricks, leaf_masks, counts);
     Pyramid pyramid = allocate_pyramid(device_, base, parts_of(world, numbers),
@@ -205,18 +211,15 @@ Pyramid FieldIndexer::index(const PlacedWorld& world) {
     pyramid.bricks.write(numbers.bricks);
     const Buffer<uint32_t> starts(device_, "index starts", numbers.starts);
     program.kernel("write_united")
-        .launch(WorkItem::heavy, arrays.count, arrays.count, base, arrays.base_slots, arrays.first,
-                arrays.entries, arrays.masks, arrays.united, arrays.listing, arrays.of_base, starts,
-                pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
-                pyramid.normals, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+        .launch(WorkItem::heavy, arrays.count, arrays.count, base, arrays.base_slots, arrays,
+                starts, WrittenVoxels{pyramid});
     for (size_t i = 0; i < world.fields.size(); ++i) {
         const PlacedField& field = world.fields[i];
         pyramid.transparent |= field.grid.transparent;
         Program(device_, "index_fields.cl", features_of(world, &field))
             .kernel("write_fields")
             .launch(WorkItem::heavy, field.grid.brick_count, field.grid.brick_count,
-                    bricks.first_of[i], field.place.links(), field.grid, arrays.bricks_of,
-                    arrays.first, arrays.entries, arrays.masks, arrays.united, arrays.listing,
+                    bricks.first_of[i], field.place.links(), field.grid, arrays.bricks_of, arrays,
                     starts, pyramid.attributes, pyramid.colors, pyramid.fields);
     }
     const auto end = uint32_t(numbers.totals[1]);

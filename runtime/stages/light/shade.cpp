@@ -20,6 +20,21 @@ void bind(KernelArguments& to, const CubeStepsArgument& argument) {
     if (!argument.steps.empty()) to.add(argument.steps);
 }
 
+namespace {
+
+/// VXL_HIT_DETAIL_PARAMETERS of shade.cl.
+struct HitDetails {
+    const FootprintArgument& footprint;
+    SourceMeshes sources;
+    CubeStepsArgument steps;
+};
+
+void bind(KernelArguments& to, const HitDetails& details) {
+    to.add(details.footprint, details.sources, details.steps);
+}
+
+}  // namespace
+
 Environment environment_of(const World& world) {
     return {to_float4(glm::dvec3(world.background)), to_float4(glm::dvec3(world.ambient)),
             to_float4(glm::dvec3(world.medium.absorption)),
@@ -53,15 +68,15 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count,
                          bool from_observer) {
-    const SourceMeshes sources = has_sources_ ? pyramid.sources : SourceMeshes();
-    const CubeStepsArgument steps{has_cube_steps_ ? pyramid.cube_steps : Buffer<float>()};
+    const HitDetails details{footprint_,
+                             has_sources_ ? pyramid.sources : SourceMeshes(),
+                             {has_cube_steps_ ? pyramid.cube_steps : Buffer<float>()}};
     if (sky_is_hidden_)
         surface_.launch_packets(count, pyramid, environment_, sky_, uint32_t(from_observer),
-                                emitters_, footprint_, sources, steps, materials_, ranks_, batch,
-                                count);
+                                emitters_, details, materials_, ranks_, batch, count);
     else
-        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, footprint_, sources,
-                                steps, materials_, ranks_, batch, count);
+        surface_.launch_packets(count, pyramid, environment_, sky_, emitters_, details, materials_,
+                                ranks_, batch, count);
 }
 
 }  // namespace voxelume

@@ -5,6 +5,10 @@
 
 namespace voxelume {
 
+void bind(KernelArguments& to, const SoughtLight& sought) {
+    to.add(sought.emitters, sought.sky, sought.queue);
+}
+
 ExtendStage::ExtendStage(const Device& device, const Features& features, Surroundings surroundings)
     : surroundings_(std::move(surroundings)),
       counters_(device, "path counters", kPathCounters),
@@ -17,8 +21,8 @@ NextRays ExtendStage::paths(const Pyramid& pyramid, const PathSampling& sampling
                             RayQueue& to_emitters) {
     counters_.fill(0);
     extend_.launch_packets(count, shape_of(pyramid), surroundings_, pyramid.colors, sampling,
-                           uint32_t(is_first), entries, count, nodes, counters_, next, emitters,
-                           sky_, to_emitters);
+                           uint32_t(is_first), entries, count, nodes, CountedQueue{counters_, next},
+                           SoughtLight{emitters, sky_, to_emitters});
     const std::vector<uint32_t> counts = counters_.read();
     return {counts[kCountChildren], counts[kCountToEmitters]};
 }

@@ -19,6 +19,14 @@ struct NextRays {
     uint32_t paths = 0, to_emitters = 0;
 };
 
+/// What paths send rays to, and the queue for these: VXL_SOUGHT_LIGHT_PARAMETERS of kernels.
+struct SoughtLight {
+    const EmitterTable& emitters;
+    const SkyMap& sky;
+    const RayQueue& queue;
+};
+void bind(KernelArguments& to, const SoughtLight& sought);
+
 /// The kernel of extend.cl for one feature set: global light.
 class ExtendStage {
   public:

@@ -7,6 +7,20 @@
 #include "runtime/grid/grid_arguments.hpp"
 
 namespace voxelume {
+namespace {
+
+/// The points that are chosen in a medium: VXL_MEDIUM_POINTS_PARAMETERS of kernels.
+struct MediumPoints {
+    const Buffer<uint32_t>& counters;
+    const RayBatch& points;
+};
+
+void bind(KernelArguments& to, const MediumPoints& chosen) {
+    to.add(CountedQueue{chosen.counters, chosen.points}, chosen.points.hits,
+           chosen.points.radiance);
+}
+
+}  // namespace
 
 MediumPathStage::MediumPathStage(const Device& device, const Features& features,
                                  const float4& absorption, const MediumScattering& scattering,
@@ -30,8 +44,7 @@ uint32_t MediumPathStage::scatter(const Pyramid& pyramid, const PathSampling& sa
                                   RayBatch& entries, uint32_t count, RayBatch& points) {
     counters_.fill(0);
     scatter_.launch_packets(count, shape_of(pyramid), absorption_, scattering_, density_, sampling,
-                            entries, count, counters_, static_cast<const RayQueue&>(points),
-                            points.hits, points.radiance);
+                            entries, count, MediumPoints{counters_, points});
     return counters_.read()[kCountChildren];
 }
 
@@ -40,8 +53,8 @@ uint32_t MediumPathStage::near(const Pyramid& pyramid, const LightRecord& light,
                                uint32_t count, RayBatch& points) {
     counters_.fill(0);
     near_->find.launch_packets(count, shape_of(pyramid), light, absorption_, scattering_, density_,
-                               sampling, uint32_t(is_first), entries, count, counters_,
-                               static_cast<const RayQueue&>(points), points.hits, points.radiance);
+                               sampling, uint32_t(is_first), entries, count,
+                               MediumPoints{counters_, points});
     return counters_.read()[kCountChildren];
 }
 
@@ -70,7 +83,8 @@ NextRays MediumPathStage::paths(const Pyramid& pyramid, const PathSampling& samp
                                 RayQueue& to_emitters) {
     counters_.fill(0);
     extend_.launch_packets(count, shape_of(pyramid), scattering_, sampling, points, count, nodes,
-                           counters_, taken, next, emitters, sky_, to_emitters);
+                           taken, CountedQueue{counters_, next},
+                           SoughtLight{emitters, sky_, to_emitters});
     const std::vector<uint32_t> counts = counters_.read();
     return {counts[kCountChildren], counts[kCountToEmitters]};
 }

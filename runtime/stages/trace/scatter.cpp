@@ -40,7 +40,7 @@ uint32_t ScatterStage::layer(const Pyramid& pyramid, RayBatch& entries, uint32_t
     counters_.fill(0);
     layer_.launch_packets(count, shape_of(pyramid), surroundings_, pyramid.colors, min_weight_,
                           uint32_t(first_layer), entries, count, children.node_weights, nodes,
-                          counters_, next);
+                          CountedQueue{counters_, next});
     return take(kCountLayer);
 }
 
@@ -49,7 +49,7 @@ uint32_t ScatterStage::rays(const Pyramid& pyramid, RayBatch& entries, uint32_t 
     counters_.fill(0);
     rays_.launch_packets(end - begin, shape_of(pyramid), surroundings_, min_weight_,
                          uint32_t(compact_), pyramid.colors, entries, begin, end, children,
-                         counters_, static_cast<const RayQueue&>(queue));
+                         CountedQueue{counters_, queue});
     const uint32_t sent = take(kCountChildren);
     return compact_ ? sent : branches_ * (end - begin);
 }

@@ -10,10 +10,10 @@ namespace {
 Windings count_windings(VoxelizeJob& job, const Program& winding, const TriangleBins& b) {
     Windings w = allocate_windings(job.device, b.stored, b.count, job.grid.slots.size());
     winding.kernel("count_crossings")
-        .launch(WorkItem::heavy, b.count, job.triangles, b, w.numbers, w.carried);
+        .launch(WorkItem::heavy, b.count, job.triangles, b, w.numbers, w.row_starts);
     const auto rows = static_cast<uint32_t>(job.bricks.y * job.bricks.z);
     winding.kernel("carry_rows")
-        .launch(WorkItem::heavy, rows, rows, b.size, b.number_of_bin, w.carried, job.grid.slots,
+        .launch(WorkItem::heavy, rows, rows, b.size, b.number_of_bin, w.row_starts, job.grid.slots,
                 w.passing);
     return w;
 }
@@ -31,8 +31,8 @@ std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
     states = Buffer<uint32_t>(job.device, "brick states", count);
     caps.kernel("classify_open_bricks")
         .launch(WorkItem::heavy, (count + lanes - 1) / lanes, count, job.bricks, scale, radius,
-                job.caps, job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin,
-                w.numbers, w.carried, w.passing, states);
+                job.caps, job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin, w,
+                states);
     return states.read();
 }
 
@@ -73,9 +73,13 @@ Buffer<uint32_t> upload(const VoxelizeJob& job, const char* name,
 Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places) {
     Windings w;
     w.numbers = allocate_distances(device, "winding numbers", stored);
-    w.carried = Buffer<int16_t>(device, "crossing totals", 256 * bins);
+    w.row_starts = Buffer<int16_t>(device, "crossing totals", 256 * bins);
     w.passing = Buffer<int16_t>(device, "passing windings", places);
     return w;
+}
+
+void bind(KernelArguments& to, const Windings& windings) {
+    to.add(windings.numbers, windings.row_starts, windings.passing);
 }
 
 Buffer<uint16_t> allocate_inside(const Device& device, size_t stored) {
@@ -87,7 +91,7 @@ Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding) {
     const Windings w = count_windings(job, winding, job.bins);
     Buffer<uint16_t> inside = allocate_inside(job.device, stored);
     winding.kernel("find_inside")
-        .launch(WorkItem::heavy, stored, stored, w.numbers, w.carried, inside);
+        .launch(WorkItem::heavy, stored, stored, w.numbers, w.row_starts, inside);
     return inside;
 }
 
@@ -105,7 +109,7 @@ Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, cons
     caps.kernel("find_inside_open")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
                 edge_scale(job.grid.frame), job.caps, job.bins.coordinates, states,
-                upload(job, "bin numbers", r.numbers), w.numbers, w.carried, w.passing, inside);
+                upload(job, "bin numbers", r.numbers), w, inside);
     return inside;
 }
 

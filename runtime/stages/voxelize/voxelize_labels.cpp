@@ -31,24 +31,50 @@ Buffer<float> floats_of(const Device& device, const char* name,
     return {device, name, std::span(&vectors.front().x, vectors.size() * size_t(Vector::length()))};
 }
 
+/// VXL_NEAREST_PARAMETERS of voxelize_label.cl.
+struct NearestTriangles {
+    const VoxelizeJob& job;
+    const Buffer<uint32_t>& nearest;  ///< of each voxel of the stored bricks
+};
+
+void bind(KernelArguments& to, const NearestTriangles& of) {
+    to.add(of.job.bricks, edge_scale(of.job.grid.frame), of.job.triangles, of.job.bins.coordinates,
+           of.nearest);
+}
+
+/// VXL_WORN_PARAMETERS of voxelize_label.cl.
+struct WornTextures {
+    DeviceTextures textures;
+    Buffer<uint32_t> corners;
+    Buffer<float> uvs;
+};
+
+void bind(KernelArguments& to, const WornTextures& worn) {
+    to.add(worn.textures.words, worn.textures.records, worn.textures.texels, worn.corners,
+           worn.uvs);
+}
+
+WornTextures upload_worn(const VoxelizeJob& job, const Mesh& mesh) {
+    const bool has_textures = !mesh.textures.empty();
+    return {upload_textures(job, mesh),
+            corner_indices(job, kCornerUvs,
+                           has_textures ? mesh.triangle_uvs : std::vector<glm::uvec3>()),
+            floats_of(job.device, kUvs, has_textures ? mesh.uvs : std::vector<glm::vec2>())};
+}
+
 void color_voxels(VoxelizeJob& job, const Program& label, const Mesh& mesh,
                   const Buffer<uint32_t>& nearest) {
     const size_t voxels = size_t(4096) * job.bins.stored;
     const std::vector<float> thresholds = srgb_thresholds(255), levels = srgb_levels();
     const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds)),
         linear(job.device, "linear levels", std::span(levels));
-    const DeviceTextures textures = upload_textures(job, mesh);
-    const bool has_textures = !mesh.textures.empty();
+    const WornTextures worn = upload_worn(job, mesh);
     job.grid.colors = allocate_words(job.device, "voxel colors", job.bins.stored);
     label.kernel("color_voxels")
-        .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels), job.bricks,
-                edge_scale(job.grid.frame), job.triangles, job.bins.coordinates, nearest,
+        .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels),
+                NearestTriangles{job, nearest},
                 corner_indices(job, "corner colors", mesh.triangle_colors),
-                floats_of(job.device, "vertex colors", mesh.vertex_colors), codes, linear,
-                textures.words, textures.records, textures.texels,
-                corner_indices(job, kCornerUvs,
-                               has_textures ? mesh.triangle_uvs : std::vector<glm::uvec3>()),
-                floats_of(job.device, kUvs, has_textures ? mesh.uvs : std::vector<glm::vec2>()),
+                floats_of(job.device, "vertex colors", mesh.vertex_colors), codes, linear, worn,
                 job.grid.colors);
 }
 
@@ -57,8 +83,8 @@ void give_normals(VoxelizeJob& job, const Program& label, const std::vector<uint
     const size_t voxels = size_t(4096) * job.bins.stored;
     job.grid.normals = allocate_words(job.device, "voxel normals", job.bins.stored);
     label.kernel("give_normals")
-        .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels), job.bricks,
-                edge_scale(job.grid.frame), job.triangles, job.bins.coordinates, nearest,
+        .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels),
+                NearestTriangles{job, nearest},
                 Buffer<uint32_t>(job.device, "corner normals", of_corners), job.grid.normals);
 }
 

@@ -129,7 +129,7 @@ class SolidVoxelizer {
         code_.kernel("occupy_solid")
             .launch(WorkItem::light, leaves, solids_, grid_.coordinates,
                     int4_of(grid_.frame.bricks()), int4_of(grid_.frame.size), leaves,
-                    static_cast<uint32_t>(set), reach(kLeafSize, 0.0), reach(1, 0.0),
+                    static_cast<uint32_t>(set), glm::vec2(reach(kLeafSize, 0.0), reach(1, 0.0)),
                     grid_.occupancy, undecided, undecided_count);
         if (undecided_count.read_one(0) != 0) decide(set, undecided.read());
     }

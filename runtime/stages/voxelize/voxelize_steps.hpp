@@ -37,10 +37,13 @@ glm::ivec3 band_reach(const GridFrame& frame, double band);
 
 /// Winding numbers of a closed mesh.
 struct Windings {
-    Buffer<int16_t> numbers;  ///< 4096 per brick with triangles, from its left face
-    Buffer<int16_t> carried;  ///< 256 per bin with triangles: at its left face
-    Buffer<int16_t> passing;  ///< one per brick of the frame: of those without triangles
+    Buffer<int16_t> numbers;     ///< 4096 per brick with triangles, from its left face
+    Buffer<int16_t> row_starts;  ///< 256 per bin with triangles: at its left face
+    Buffer<int16_t> passing;     ///< one per brick of the frame: of those without triangles
 };
+
+/// VXL_WINDING_PARAMETERS of kernels.
+void bind(KernelArguments& to, const Windings& windings);
 
 /// Allocate arrays: of winding numbers in `stored` bricks and `bins` with triangles, for a frame of
 /// `places` bricks; of which points of stored bricks are inside, row by row; and of triangles'
