@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where along a ray's way through a medium a light that isn't far away shines most.
+// Where along a ray's way through a medium a light near by shines most.
 //
 // Points are spread evenly over the angle at which the light sees the way (Kulla & Fajardo 2012,
-// "Importance sampling techniques for path tracing in participating media"), of a spot light over
+// "Importance sampling techniques for path tracing in participating media"); for a spot light, over
 // the part of the way in its cone. Paths that the medium scatters find the same light by chance;
 // both are weighted by the balance heuristic (Veach & Guibas 1995).
 #ifndef VXL_NEAR_LIGHT_H
@@ -12,21 +12,23 @@
 #include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
-/// What of a ray's way a light shines on: metres along it from the point next to the light.
+/// The part of a ray's way that a light shines on, in metres along it from the point closest to the
+/// light.
 typedef struct {
     lane_float begin, end;
-    lane_float height;  // of the light above that point, metres
-    lane_float angle;   // at which the light sees the part
+    lane_float height;  // distance of the light from that point, metres
+    lane_float angle;   // the angle at which the light sees the part
     lane_int some;      // mask: there is such a part
 } NearPart;
 
-/// Cuts off what isn't in the cone of a spot light, which sees the point next to it at `next`.
+/// Cuts off what isn't in the cone of a spot light. The point closest to the light is at `next`
+/// from it.
 static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearPart* p) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const Vector axis = {(lane_float)light.direction.x, (lane_float)light.direction.y,
                          (lane_float)light.direction.z};
     const float squared_cosine = light.outer_cosine * light.outer_cosine;
-    // Points x on the way with (next + x way) axis = outer_cosine |next + x way|.
+    // The solutions are points x on the way with (next + x way) axis = outer_cosine |next + x way|.
     const lane_float ahead = dot_product(next, axis), along = dot_product(way, axis);
     const lane_float a = fma(along, along, -squared_cosine), b = ahead * along;
     const lane_float c = fma(ahead, ahead, -squared_cosine * dot_product(next, next));
