@@ -53,8 +53,8 @@ static inline float inverse_of_power(float power) {
 
 /// The square root of x >= 0, correctly rounded, for x = 0 or far from underflow.
 ///
-/// A corrected root is within one unit of the true one; Tuckerman's test, y (y - unit) < x <= y (y
-/// + unit), then finds the right one. (The correction alone gives 1 for the float below 1.)
+/// A corrected root is within one unit of the true one. Then Tuckerman's test, y (y - unit) < x <=
+/// y (y + unit), finds the right one. (The correction alone gives 1 for the float below 1.)
 static inline lane_float exact_sqrt(lane_float x) {
     lane_float root = sqrt(x);
     if (!VXL_NATIVE_DIVIDE) {

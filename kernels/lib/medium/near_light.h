@@ -38,7 +38,8 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
     const lane_float safe = LANES_SELECT(meets, a, one);
     const lane_float p0 = exact_divide(-b - root, safe), p1 = exact_divide(root - b, safe);
     const lane_float low = fmin(p0, p1), high = fmax(p0, p1);
-    // Across the cone, the way is in it between both points, unless they lie behind the light.
+    // If the way runs across the cone, it is inside between the two points, unless these lie behind
+    // the light.
     const lane_int across = LANE_MASK(a < 0.0f);
     const lane_int before = LANE_MASK(fma(along, 0.5f * (low + high), ahead) > 0.0f);
     const lane_int towards = LANE_MASK(along > 0.0f);
@@ -49,12 +50,13 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
     p->some &= (across & meets & before) | (~across & LANE_MASK(along != 0.0f));
 }
 
-/// The part of the ways along the unit vectors `way` that the light shines on: the light's middle
-/// lies at `to_light` from their origins, and they reach from `begin` to `end`, all in metres.
+/// The part of the ways along the unit vectors `way` that the light shines on. The light's middle
+/// lies at `to_light` from the ways' origins, and the ways reach from `begin` to `end`, all in
+/// metres.
 ///
-/// If the rays begin at a light, as for an observer who carries one, the medium scatters an
-/// infinite amount of its light. Within a voxel of it, chance alone finds that, so that pictures
-/// show more.
+/// If a ray begins at a light, for example because the observer carries one, the medium scatters an
+/// infinite amount of its light towards the observer. Within one voxel of the light only chance
+/// finds that light, so pictures become brighter with more samples.
 static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light, Vector way,
                                  lane_float begin, lane_float end, lane_int valid) {
     const lane_float one = (lane_float)1.0f;
@@ -65,7 +67,7 @@ static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light
     NearPart p;
     p.begin = begin - nearest;
     p.end = end - nearest;
-    // Where the light is on the way, no density of points would be finite.
+    // If the light lay on the way itself, the density of points would not be finite.
     p.height = fmax(exact_sqrt(dot_product(across, across)), 1e-6f);
     const float voxel = fmax(edge.x, fmax(edge.y, edge.z));
     const lane_int at_light = LANE_MASK(fma(p.height, p.height, p.begin * p.begin) < voxel * voxel);
@@ -80,7 +82,7 @@ static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light
     return p;
 }
 
-/// The density per metre of the points at `x` metres from the point next to the light.
+/// The density, per metre, of points at `x` metres from the point closest to the light.
 static inline lane_float near_density(const NearPart* p, lane_float x) {
     const lane_int inside = p->some & LANE_MASK(x >= p->begin) & LANE_MASK(x <= p->end);
     const lane_float all = p->angle * fma(p->height, p->height, x * x);
@@ -89,7 +91,7 @@ static inline lane_float near_density(const NearPart* p, lane_float x) {
                         (lane_float)0.0f);
 }
 
-/// The point of this fraction of the angle, in metres from the point next to the light.
+/// The point at this fraction of the angle, in metres from the point closest to the light.
 static inline lane_float near_point(const NearPart* p, lane_float fraction) {
     lane_float sine, cosine;
     exact_sincos(fraction * p->angle, &sine, &cosine);
