@@ -177,8 +177,8 @@ bool has_twins(const std::vector<Part>& parts) {
     return false;
 }
 
-/// Separates runs whose outputs have the same name in different folders. The parts of one run may
-/// also lie in several folders.
+/// Separates runs in different folders whose outputs have the same name, which shows in parts that
+/// occur twice. The parts of one run may also lie in several folders.
 Runs told_apart(Runs runs) {
     Runs all;
     for (auto& [output, parts] : runs) {

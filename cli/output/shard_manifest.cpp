@@ -66,8 +66,8 @@ ShardManifest manifest_of(const Json& json) {
     return manifest;
 }
 
-/// True if an unreadable file was meant to be a part: it has the name of a part, or begins like
-/// one.
+/// True if an unreadable file was meant to be a part: it has the name of a part, or contains the
+/// format's key.
 bool is_meant(const std::filesystem::path& file, const std::string& text) {
     return file.extension() == ".shard" ||
            text.find(fmt::format("\"{}\"", kFormatKey)) != std::string::npos;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options for model files in place of scenes: the direction of the view, the ground, the units.
+// The options for model files in place of scenes, such as the view, the background and the ground.
 #pragma once
 
 #include <optional>

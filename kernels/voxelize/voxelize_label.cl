@@ -113,7 +113,7 @@ static inline float3 closest_weights(float3 a, float3 b, float3 c) {
     // Where the sides are parallel, a component of n is only the rounding error of a product: below
     // 2^-24 of the product, so n is below 2^-23 of the sides' product. The square of that is
     // 1.4e-14; the rest of the bound is for edges of voxels that aren't cubes, which round the
-    // corners. A triangle above the bound has a usable normal, or its weights are rejected below.
+    // corners. A triangle above the bound uses its normal if that gives valid weights.
     const float noise = 1e-13f * dot_product(ab, ab) * dot_product(ac, ac);
     float3 w = (float3)(dot_product(n, cross_product(b, c)), dot_product(n, cross_product(c, a)),
                         dot_product(n, cross_product(a, b)));

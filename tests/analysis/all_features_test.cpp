@@ -188,7 +188,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     EXPECT_GT(maximum, minimum);
 }
 
-/// By default, only some of the other numbers of lanes run.
+/// By default, only one of the other numbers of lanes runs.
 TEST_P(AllFeatures, HaveTheSameBitsOnAnyNumberOfLanes) {
     const bool is_global = GetParam() == std::string("global");
     const Scene scene = scene_here();

@@ -115,7 +115,7 @@ static inline uint keep_row(const short* node, short reach) {
     const int16 y = largest_of_edges(node, VXL_NODE_ROW, 1, VXL_NODE_LAYER);
     const int16 z = largest_of_edges(node, VXL_NODE_LAYER, 1, VXL_NODE_ROW);
     const int16 twice = x + y + z;
-    const int16 reach16 = twice + (twice >> 7) + 16;  // 16 m, up to 1 too small
+    const int16 reach16 = twice + (twice >> 7) + 16;  // 16 m, less than 1 too small
     const int16 kept = convert_int16(low) * 16 <= reach16 & convert_int16(high) * 16 >= -reach16 &
                        convert_int16(nearest) < VXL_SATURATED;
     return lanes_to_bits(kept);

@@ -39,7 +39,7 @@ double vertex_alpha(double u, double v) {
     return 0.1 + 0.6 * u + 0.2 * v;
 }
 
-/// The coverage of a sheet with a given alpha mode at this alpha.
+/// The coverage at a point of a sheet with this alpha mode.
 double covered(const std::string& mode, double u, double v) {
     const double alpha = alpha_at(u, v);
     return mode == "BLEND" ? alpha : mode == "MASK" ? double(alpha >= 0.4) : 1.0;
