@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands, and what they end with.
+// The table of commands, and the exit codes.
 #include <array>
 
 #include "cli/shared/commands.hpp"

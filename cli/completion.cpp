@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume completion SHELL: a script with which the shell completes commands and options.
+// voxelume completion SHELL: prints a script with which the shell completes commands and options.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -48,14 +48,16 @@ _voxelume() {{
 complete -F _voxelume voxelume
 )";
 
-/// What bash sets for the values of an option; a list begins with what is listed already.
+/// The variables that bash sets for the values of an option. In a list, words begin with what is
+/// already listed.
 std::string bash_values(const OptionFacts& option) {
     return fmt::format("words=\"{}{}\"{}", fmt::join(option.words, " "),
                        option.is_device ? " $(_voxelume_devices)" : "",
                        option.is_list ? " start=-" : "");
 }
 
-/// True if files are offered for it: other values have a name of their own, such as FRAMES.
+/// True if files are offered for an option; other kinds of values have their own names, such as
+/// FRAMES.
 bool takes_files(const OptionFacts& option) {
     return option.value == "TEXT";
 }
@@ -72,7 +74,7 @@ std::string bash_script(const std::vector<CommandFacts>& commands) {
     for (const CommandFacts& command : commands) {
         std::string names;
         for (const OptionFacts& option : command.options) {
-            if (option.names.empty() && !option.words.empty())  // what follows the command
+            if (option.names.empty() && !option.words.empty())  // the word that follows the command
                 values += fmt::format("        {0}:{0}) words=\"{1}\" ;;\n", command.name,
                                       fmt::join(option.words, " "));
             for (const std::string& name : option.names) {
@@ -89,7 +91,7 @@ std::string bash_script(const std::vector<CommandFacts>& commands) {
     return fmt::format(kBash, names_of_commands(commands), values, options);
 }
 
-/// The text with a backslash before each of the characters.
+/// The text with a backslash before each of the given characters.
 std::string escaped(const std::string& text, std::string_view characters) {
     std::string result;
     for (const char c : text) {
@@ -99,7 +101,7 @@ std::string escaped(const std::string& text, std::string_view characters) {
     return result;
 }
 
-/// A text in single quotes of a shell.
+/// The text in single quotes, for a shell.
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text)
@@ -119,14 +121,14 @@ std::string zsh_values(const OptionFacts& option) {
     return takes_files(option) ? ":file:_files" : ":" + escaped(option.value, ":\\") + ": ";
 }
 
-/// What follows a command: one of a few words, or files.
+/// What may follow a command: one of a few words, or files.
 std::string zsh_arguments(const CommandFacts& command) {
     for (const OptionFacts& option : command.options)
         if (option.names.empty() && !option.words.empty()) return "1" + zsh_values(option);
     return "*:file:_files";
 }
 
-// Devices have a line each: their number, and after a colon their name.
+// Each device has a line: its number, a colon, and its name.
 constexpr const char* kZshStart = R"zsh(#compdef voxelume
 _voxelume_devices() {
     local -a found=($@ ${(f)"$(voxelume devices 2>/dev/null |
@@ -150,8 +152,8 @@ constexpr const char* kZshCommands = R"(    )
         help) (( CURRENT == 2 )) && _describe command commands ;;
 )";
 
-// Zsh calls the function at once when it loads it from $fpath. When .zshrc evaluates the script,
-// the function is only defined.
+// Zsh calls the function immediately when it loads it from $fpath. When .zshrc evaluates the
+// script, the function is only defined.
 constexpr const char* kZshEnd = R"(    esac
 }
 if [ "$funcstack[1]" = _voxelume ]; then
@@ -181,7 +183,7 @@ std::string zsh_script(const std::vector<CommandFacts>& commands) {
     return text + kZshEnd;
 }
 
-// Fish's own functions would take any word of the line for the command, even the name of a file.
+// Fish's own functions would take any word of the line for the command, even a file's name.
 constexpr const char* kFish = R"(# fish completion for voxelume
 function __voxelume_command
     set -l words (commandline -opc)

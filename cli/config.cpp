@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume config: the values of all settings, and where each comes from.
+// voxelume config: the values of all settings and their origins.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// A row for each setting: name, variable, value (null: the default) and origin.
+/// One row for each setting: name, variable, value (null: the default) and origin.
 Report rows_of_settings() {
     Report rows = Report::array();
     for (const SettingValue& value : loaded_settings()) {
@@ -34,7 +34,7 @@ Report rows_of_settings() {
     return rows;
 }
 
-/// The variables of other programs, with what they are set to.
+/// The variables of other programs and their values.
 Report rows_of_shared_variables() {
     Report rows = Report::array();
     for (const SharedVariable& shared : shared_variables()) {
@@ -46,7 +46,8 @@ Report rows_of_shared_variables() {
     return rows;
 }
 
-/// Variables that are named as settings are, and are none: a slip of the keyboard is silent else.
+/// Variables that are named like settings but aren't settings: otherwise a typing error would go
+/// unnoticed.
 Report unknown_variables() {
     std::vector<std::string_view> known = {"VOXELUME_CONFIG"};
     for (const Setting& setting : settings()) known.emplace_back(setting.variable);
@@ -59,7 +60,7 @@ Report unknown_variables() {
     return unknown;
 }
 
-/// What holds for a row, for people.
+/// The effective value of a row, for people.
 std::string shown_value(const Report& row) {
     if (!row["value"].is_null()) return quote(row["value"].get<std::string>());
     for (const Setting& setting : settings())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program `voxelume`: finds the command in its table, reads the options, runs it and turns
-// failures into exit codes.
+// The program `voxelume`: finds the command in its table, reads the options, runs the command and
+// turns failures into exit codes.
 #include <fcntl.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -64,7 +64,7 @@ int run_command(const Command& command, std::vector<std::string> arguments) {
     CLI::App app(command.help, fmt::format("voxelume {}", command.name));
     const Action action = command.add(app);
     try {
-        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes arguments from the back
         app.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
         fmt::print("{}", app.help());
@@ -93,8 +93,8 @@ int run(std::vector<std::string> arguments) {
     return run_command(find_command(first), std::move(arguments));
 }
 
-/// Loads the settings. A fault in their file ends commands that render; commands that help to find
-/// the fault only tell of it. Returns the exit code of `config`.
+/// Loads the settings. A mistake in their file ends commands that render; commands that help to
+/// find the mistake only report it. Returns the exit code of `config`.
 int load_settings_for(const std::string& command) try {
     load_settings();
     return 0;
@@ -110,15 +110,15 @@ std::string stdout_failure() {
     return fmt::format("can't write to standard output: {}", std::strerror(errno));
 }
 
-/// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
+/// Throws if what was printed did not arrive: `voxelume info x >/dev/full` has failed.
 void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         throw Error(ErrorKind::output, stdout_failure());
 }
 
 /// Opens standard streams that the caller has closed, so that no file or pipe gets their numbers:
-/// `-` would read from the program itself, and messages would go into images. Reading from and
-/// writing to those that are opened here fails.
+/// otherwise `-` would read from the program itself, and messages would be written into images.
+/// Reading from and writing to the streams opened here fails.
 void open_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF &&
@@ -126,9 +126,10 @@ void open_closed_streams() {
             return;
 }
 
-/// The helper processes that may compile beside a command, if it is one that makes pictures:
-/// VOXELUME_COMPILERS, or else one if a core is idle. An image has one program, so more would have
-/// nothing to do; on busy cores even one would take time from others and save none.
+/// The number of helper processes that may compile while a command runs, if the command makes
+/// pictures: VOXELUME_COMPILERS, otherwise one if a core is idle. An image has one program, so more
+/// helpers would have nothing to do; on busy cores even one would take time from other work and
+/// save none.
 int kernel_compilers(const std::string& command) {
     constexpr std::array kHelped = {"render", "view"};
     if (std::ranges::find(kHelped, command) == kHelped.end()) return 0;
@@ -139,10 +140,10 @@ int kernel_compilers(const std::string& command) {
 
 }  // namespace
 
-/// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
-/// every frame on a CPU, and the system would clear each of their pages again. Measured at 1024 x
-/// 1024 pixels: 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers
-/// take aligned pieces that glibc 2.36 doesn't use again in theirs, 21 kB a frame.
+/// Keeps freed memory in the process: on a CPU, buffers of some hundred megabytes come and go with
+/// every frame, and the system would clear each of their pages again. Measured at 1024 x 1024
+/// pixels: 75 -> 12 ms per frame outside of kernels. All threads share one heap, because PoCL's
+/// workers take aligned pieces that glibc 2.36 doesn't reuse in their own heaps: 21 kB per frame.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
@@ -157,14 +158,15 @@ void keep_freed_memory() {
 int main(int count, char** arguments) {
     using voxelume::ErrorKind;
     namespace cli = voxelume::cli;
-    // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
+    // If a file reaches `ulimit -f`, the write fails like any other; the process doesn't end.
     std::signal(SIGXFSZ, SIG_IGN);
     cli::open_closed_streams();
     cli::keep_freed_memory();
     try {
         const std::string command = count > 1 ? arguments[1] : "";
         const int fault = cli::load_settings_for(command);
-        cli::handle_interrupts();  // before there are threads: all are to ignore what this one does
+        cli::handle_interrupts();  // before there are threads, so that all of them ignore what this
+                                   // one does
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
                              .kernel_compilers = cli::kernel_compilers(command),

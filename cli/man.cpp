@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume man: the manual page, in the language of man.
+// voxelume man: the manual page, in troff.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// Text that troff takes as it is.
+/// The text, escaped so that troff prints it as it is.
 std::string plain(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -24,7 +24,7 @@ std::string plain(const std::string& text) {
         else
             result += c;
     }
-    // A line that begins with a dot or a quote would be a request.
+    // A line that begins with a dot or a quote would be a request to troff.
     if (result.starts_with('.') || result.starts_with('\'')) result.insert(0, "\\&");
     return result;
 }
@@ -39,7 +39,7 @@ std::string breakable(const std::string& text) {
     return result;
 }
 
-/// Lines of text, each on its own in the page.
+/// Prints lines of text, each on its own line of the page.
 void print_lines(const std::string& text) {
     size_t start = 0;
     while (start < text.size()) {

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// The names in the rows of a table.
+/// The names in a table's rows.
 template <auto table>
 Words names_of() {
     Words names;
@@ -22,7 +22,8 @@ Words names_of() {
     return names;
 }
 
-/// Names of channels in files, as `diff --channels` takes them; those that number others have none.
+/// The names of channels in files, as `diff --channels` accepts them; channels that number others
+/// have no name.
 Words plane_names() {
     Words names;
     for (const ChannelRow& row : channel_table())
@@ -43,7 +44,7 @@ Words several_devices() {
     return {"auto", "cpu", "gpu", "all"};
 }
 
-/// The values of a type of options whose name doesn't list them.
+/// The values of a type of options whose name doesn't list its values.
 struct KnownValues {
     const char* type;
     Words (*words)();

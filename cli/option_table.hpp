@@ -9,11 +9,12 @@ namespace voxelume::cli {
 
 struct OptionFacts {
     std::vector<std::string> names;  ///< "-o", "--output"; empty for an argument
-    std::string argument;            ///< what an argument is called: "SCENE"
-    std::string value;               ///< what follows, as help has it: "TEXT"; empty for a flag
-    std::vector<std::string> words;  ///< the values that there are, if they are few
-    bool is_list = false;            ///< true if several of them may be given, with commas between
-    bool is_device = false;          ///< true if the number of a device is a value, too
+    std::string argument;            ///< the name of an argument: "SCENE"
+    std::string value;               ///< the kind of value that follows, as in help: "TEXT"; empty
+                                     ///< for a flag
+    std::vector<std::string> words;  ///< the possible values, if they are few
+    bool is_list = false;            ///< true if several of them may be given, separated by commas
+    bool is_device = false;          ///< true if the number of a device is also a value
     std::string help;
 };
 
@@ -22,7 +23,7 @@ struct CommandFacts {
     std::vector<OptionFacts> options;  ///< in the order of help
 };
 
-/// All commands with what they declare.
+/// All commands with the options that they declare.
 std::vector<CommandFacts> command_facts();
 
 }  // namespace voxelume::cli

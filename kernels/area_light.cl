@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points of paths + a light with an area -> a queue of shadow rays to points of it, and the
-// light that paths find where they run into it: those that come from mirrors, through glass and
-// from physically based surfaces.
+// surface points of paths + a light with an area -> a queue of shadow rays to points of the light;
+// and paths that run into the light -> the light that they find there. The latter paths come from
+// mirrors, through glass and from physically based surfaces.
 #include "lib/lanes/work_item.h"
 #include "lib/light/area_points.h"
 #include "lib/light/direct_light.h"
 #include "lib/light/paths.h"
 #include "lib/medium/sight_loss.h"
 
-/// Adds light number `number`: each surface point sends a shadow ray to a point of the light that
-/// the path's sample chooses, all of which are equally probable.
+/// Adds light number `number`: each surface point sends a shadow ray to a point of the light. The
+/// path's sample chooses the point; all points are equally probable.
 kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRecord area,
                            PathSampling sampling, uint number,
                            global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
@@ -29,8 +29,9 @@ kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRec
     shine_from(&world, light, from, met_too, materials, &queue, &batch, first);
 }
 
-/// The part of a light, per square metre of its `area`, that paths bring which run into it: what
-/// rays sent to the light leave to them, and the whole light behind mirrors and glass.
+/// The weight, per square metre of the light's `area`, of the light that paths find by running into
+/// it. Behind mirrors and glass this is the whole light; elsewhere it is what the rays sent to the
+/// light leave to such paths.
 static inline lane_float met_share(const RayBatch* batch, uint first, lane_uint state,
                                    lane_float falloff, float area) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
@@ -44,8 +45,8 @@ static inline lane_float met_share(const RayBatch* batch, uint first, lane_uint 
     return LANES_SELECT(alone, exact_reciprocal((lane_float)area), share);
 }
 
-/// Adds the light that paths find where they run into a light, before anything else, to that of
-/// the sight rays that they began as: the share that rays sent to the light leave to them.
+/// Adds the light of paths that run into a light before they meet anything else to the sight rays
+/// that the paths began as. Weights it by met_share.
 kernel void meet_area_light(PyramidShape shape, LightRecord light, LightAreaRecord area,
                             VXL_SURROUNDINGS_PARAMETERS, VXL_BATCH_PARAMETERS, uint count,
                             VXL_NODE_PARAMETERS) {

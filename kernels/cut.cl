@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// object grid, rest of space without solids -> object grid: the intersection of both.
+// object grid, rest of space without solids -> object grid: the intersection of the two.
 //
-// A brick of the result has its slots in the operands as sources. An operand that doesn't store the
-// brick is wholly inside or wholly outside there.
+// `sources` name each brick of the result by its slots in the operands. An operand that doesn't
+// store the brick is wholly inside or wholly outside there.
 #include "lib/lanes/work_item.h"
 #include "shared/normal.h"
 #include "shared/voxel.h"
@@ -16,8 +16,9 @@ static inline ulong mask_at(global const ulong* restrict occupancy, uint slot, u
     return slot == VXL_BRICK_INSIDE ? ~0ul : 0ul;
 }
 
-/// One work-item: one leaf of the result. Finds the voxels of each body's cover that are in the
-/// other's cover or inside it. `sources`: slots in body, body_inside, rest, rest_inside.
+/// One work-item takes one leaf of the result. It finds the voxels of each body's cover that are in
+/// the other's cover or inside the other. `sources` holds the slots in body, body_inside, rest and
+/// rest_inside.
 kernel void join_covers(uint count, global const uint4* restrict sources,
                         global const ulong* restrict body, global const ulong* restrict body_inside,
                         global const ulong* restrict rest, global const ulong* restrict rest_inside,
@@ -31,8 +32,8 @@ kernel void join_covers(uint count, global const uint4* restrict sources,
                         (b & (a | mask_at(body_inside, slots.y, leaf)));
 }
 
-/// One work-item: one brick. Its voxels' normals are those of the body, or where it has none those
-/// of what the cuts leave. `sources` is as in join_covers.
+/// One work-item takes one brick. Its voxels get the body's normals or, where the body has none,
+/// the normals of what the cuts leave. `sources` is as in join_covers.
 kernel void join_normals(uint count, global const uint4* restrict sources,
                          global const uint* restrict body, global const uint* restrict rest,
                          global uint* restrict normals) {
@@ -46,8 +47,8 @@ kernel void join_normals(uint count, global const uint4* restrict sources,
     }
 }
 
-/// One work-item: one brick. Copies its voxels' words from its slot in `from`, or writes `word` if
-/// it has no slot there.
+/// One work-item takes one brick. It copies the brick's words from its slot in `from`, or writes
+/// `word` if the brick has no slot there.
 kernel void keep_words(uint count, global const uint* restrict slots,
                        global const uint* restrict from, uint word, global uint* restrict words) {
     const uint brick = work_item();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// pieces of smooth objects' emissive surfaces -> what their emission maps multiply their light by.
+// pieces of smooth objects' emissive surfaces -> the factors by which emission maps multiply their
+// light.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/surface/paint.h"
 
-/// Finds what emission maps multiply the light of smooth objects' pieces by: their means over
-/// squares of the pieces' areas. `places` has seven components, `stride` values apart: the place in
-/// voxels, the unit normal in metres' space, and the length of the square's sides in metres.
-/// `objects` holds the number of each piece's object.
+/// Finds the factors by which emission maps multiply the light of smooth objects' pieces: the maps'
+/// means over squares of the pieces' areas. `places` has seven components, `stride` values apart:
+/// the position in voxels, the unit normal in metric space, and the length of the square's sides in
+/// metres. `objects` holds the number of each piece's object.
 kernel void mean_emission_maps(PyramidShape shape, const uint count, const uint stride,
                                global const uint* restrict objects,
                                global const float* restrict places,

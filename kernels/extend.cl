@@ -3,9 +3,9 @@
 //
 // Global light: an unbiased estimate of the light along each sight ray (Kajiya 1986). Lights are
 // sampled at every surface that a path meets; the sky and the background are what its rays run
-// into. Emission is found in both ways, which share it: lib/light/emission_share.h. So are lights
-// with an area by physically based surfaces, while mirrors and glass leave these to paths:
-// area_light.cl.
+// into. Emission is found in both ways, by rays sent to it and by paths that run into it, and the
+// two share it (lib/light/emission_share.h). Physically based surfaces find lights with an area in
+// both ways, too; mirrors and glass find them only by paths that run into them (area_light.cl).
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/layer.h"
@@ -18,7 +18,7 @@
 #include "lib/traverse/segment.h"
 
 /// Adds the light at the paths' surfaces to the light of their sight rays, whose sums the first
-/// surfaces begin. Multiplies `throughput` by what the medium and objects on the way let through.
+/// surfaces start. Multiplies `throughput` by what the medium and objects on the way let through.
 static inline void add_path_light(const RayBatch* batch, uint first, lane_int valid, uint is_first,
                                   const NodeLight* nodes, lane_uint target,
                                   lane_float* throughput) {
@@ -30,9 +30,9 @@ static inline void add_path_light(const RayBatch* batch, uint first, lane_int va
     }
 }
 
-/// Notes how much of what lies behind the paths' first surfaces these cover: all, unless a path has
-/// left the world on a straight way. Paths that were scattered have noted it before. For first
-/// surfaces alone, it is their opacity.
+/// Notes the coverage of paths that nothing has scattered yet: 1 where a surface is met, and
+/// otherwise what the surfaces on the straight way behind a path have covered. With VXL_OWN_LIGHT
+/// it is the opacity of the first surfaces.
 static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_int met,
                                  lane_uint target, lane_float clear, lane_float opacity) {
     int add[VXL_LANES];
@@ -48,8 +48,8 @@ static inline void note_coverage(const NodeLight* nodes, lane_int valid, lane_in
         if (add[lane]) nodes->coverage[node[lane]] = covered[lane];
 }
 
-/// Sets, of physically based surfaces, how `likely` their paths go along a direction, and the share
-/// of what they return that comes from there, per solid angle.
+/// For paths on physically based surfaces, sets how `likely` they go along a direction, and which
+/// share of the light that they return comes from there, per solid angle.
 static inline void return_physically(const ScatterPoint* p, const PhysicalView* view,
                                      Vector direction, lane_float* likely, lane_float* returned,
                                      lane_int* above) {
@@ -67,9 +67,9 @@ static inline void return_physically(const ScatterPoint* p, const PhysicalView* 
     }
 }
 
-/// Fills rays from surfaces to emitters or the sky, but for their state and target. Their
-/// throughput is that of the path for light from there, times the share of it that falls to these
-/// rays. Returns the mask of rays to send.
+/// Fills rays from surfaces to emitters or the sky, except for their state and target. Their
+/// throughput is the path's throughput for light from there, times the share of that light that
+/// falls to these rays. Returns the mask of rays to send.
 static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings* around,
                                          const ScatterPoint* p, const RayBatch* batch, uint first,
                                          const Lobes* lobes, const lane_float* throughput,
@@ -110,7 +110,7 @@ static inline lane_int look_for_emitters(PyramidShape shape, const Surroundings*
     return wanted;
 }
 
-/// The states of paths that the surfaces have scattered, or let pass straight.
+/// The states of paths that the surfaces have scattered or let pass straight.
 static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_uint state) {
     const lane_uint bounces = (state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES;
     const lane_uint next = ((bounces + 1u) << VXL_STATE_BOUNCE_SHIFT) |
@@ -119,7 +119,8 @@ static inline lane_uint state_after(const Choice* way, lane_int scattered, lane_
 }
 
 /// Chooses directions for paths that matt and physically based surfaces scatter. Clears `diffuse`
-/// of `way` for paths that a surface swallows, and makes those refracted that go through glass.
+/// of `way` for paths that a surface absorbs, and sets `refracted` instead for those that go
+/// through glass.
 static inline ScatteredWay scatter_diffusely(const ScatterPoint* p, const RayBatch* batch,
                                              uint first, const PhysicalView* view,
                                              const PathSamples* samples, Choice* way) {
@@ -161,14 +162,14 @@ static inline void send_on(PyramidShape shape, const Surroundings* around, const
     put_rays(queue, &ray, &slots);
 }
 
-/// True if paths can send rays to light: that of the sky, or of an emitter.
+/// True if paths can send rays to light, which is the sky's or an emitter's.
 static inline bool finds_light(const Emitters* table) {
     return VXL_SKY_RAYS ? true : table->count > 0u;
 }
 
-/// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as,
-/// and sends each path on along one way, unless it ends, and a ray to an emitter. `entries` of the
-/// batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
+/// Adds the light at a packet's surfaces to the light of the sight rays that their paths began as.
+/// Sends each path on along one way, unless it ends, and sends a ray to an emitter. `entries` of
+/// the batch name their sight ray in VXL_PATH_TARGET, whose light is kept in the nodes; rays to
 /// emitters may be entries, too.
 kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                          global const uint* restrict colors, PathSampling sampling, uint is_first,
@@ -212,7 +213,7 @@ kernel void extend_paths(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     Choice way = choose_way(&lobes, throughput, path_point(&samples, VXL_DECISION_LOBE),
                             LANE_MASK(bounces >= VXL_ROULETTE_BOUNCES));
 
-    // Misses, last bounces and the rays sent themselves scatter nothing.
+    // Misses, paths at their last bounce and rays sent to emitters scatter nothing.
     const Emitters table = VXL_EMITTER_TABLE;
     const SkyMap sky = VXL_SOUGHT_SKY;
     if (VXL_LOOKS && finds_light(&table) && lanes_any(LANE_MASK(largest(lobes.diffuse) > 0.0f))) {

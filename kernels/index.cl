@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // BrickGrid -> Pyramid: the voxels that a ray must see, and their data in the pyramid's order.
 //
-// Two passes over the stored bricks, one brick a work-item: `mark_voxels` finds each brick's voxels
-// and counts them, the host numbers them by prefix sums, `write_voxels` fills the pyramid.
+// There are two passes over the stored bricks, one brick a work-item: `mark_voxels` finds each
+// brick's voxels and counts them, the host numbers them by prefix sums, and `write_voxels` fills
+// the pyramid.
 //
 // Build constants: VXL_OCCUPANCY, VXL_SMOOTH, VXL_ATTRIBUTES, VXL_WRITE_ATTRIBUTES, VXL_COLORS,
 // VXL_VOXEL_NORMALS, VXL_PRIMITIVES say which of the grid's buffers exist.
@@ -13,7 +14,7 @@
 #include "lib/voxelize/leaf_voxels.h"
 #include "lib/voxelize/written_voxels.h"
 
-// Moves the mask of one leaf of a brick to another slot. `moves` holds pairs of slots, from and to.
+// Moves the mask of one leaf of a brick to another slot. `moves` holds pairs of slots: from, to.
 kernel void move_masks(const uint count, global const uint* restrict moves, global ulong* masks) {
     const uint item = work_item();
     if (item >= count) return;
@@ -21,9 +22,9 @@ kernel void move_masks(const uint count, global const uint* restrict moves, glob
     masks[(size_t)slots.y * 64 + (item & 63u)] = masks[(size_t)slots.x * 64 + (item & 63u)];
 }
 
-// Marks one brick of those `listed`, or of all if that is null: writes the masks of its voxels, the
-// mask of its leaves, and its counts of voxels and primitives. Leaf masks and counts are in the
-// list's order.
+// Marks one brick of those `listed`, or of all bricks if that is null: writes the masks of its
+// voxels, the mask of its leaves, and its counts of voxels and primitives. Leaf masks and counts
+// are in the list's order.
 kernel void mark_voxels(const uint count, global const uint* restrict listed,
                         VXL_BRICK_GRID_PARAMETERS, global ulong* restrict masks,
                         global ulong* restrict leaf_masks, global uint* restrict counts) {
@@ -61,18 +62,18 @@ kernel void mark_voxels(const uint count, global const uint* restrict listed,
     vstore2((uint2)(voxels, primitives), item, counts);
 }
 
-// The packed attributes of a voxel in the pyramid, with the kind bits of voxels in the occupancy
-// masks (kinds.x) or of the others (kinds.y).
+// The packed attributes of a voxel in the pyramid. Their kind bits are kinds.x for voxels in the
+// occupancy masks, and kinds.y for others.
 static inline uint word_with_kind(const BrickGrid* grid, size_t voxel, bool smooth, uint2 kinds) {
     const uint packed = VXL_ATTRIBUTES ? grid->attributes[voxel] : grid->attribute;
     const uint without_kind = packed & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
     if (smooth) return without_kind | kinds.y;
-    // An occupied voxel of a grid with attributes says itself whether it is exact.
+    // The attributes of an occupied voxel already say whether it is exact.
     return VXL_ATTRIBUTES ? packed : without_kind | kinds.x;
 }
 
-// Writes the voxel at `index` of a brick of the grid as voxel `number` of the pyramid, and its
-// primitives from number `primitive` on. Returns the number after the last primitive.
+// Writes the voxel at `index` of a brick of the grid to voxel `number` of the pyramid, and its
+// primitives to number `primitive` and up. Returns the number after the last primitive.
 static inline uint write_voxel(const BrickGrid* grid, uint slot, int index, bool smooth,
                                uint2 kinds, const short* nodes, uint number, uint primitive,
                                const WrittenVoxels* to) {
@@ -92,9 +93,9 @@ static inline uint write_voxel(const BrickGrid* grid, uint slot, int index, bool
     return primitive;
 }
 
-// Writes the leaves and voxels of one brick from the numbers in `starts` (first leaf, voxel,
-// primitive of each slot) on. `kinds` holds the kind bits of voxels in the occupancy masks (x) and
-// of the others (y). The host writes the last voxel's end in `voxel_primitive_first`.
+// Writes the leaves and voxels of one brick. Their numbers begin at those in `starts` (first leaf,
+// voxel and primitive of each slot). `kinds` holds the kind bits of voxels in the occupancy masks
+// (x) and of others (y). The host writes the last voxel's end in `voxel_primitive_first`.
 kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PARAMETERS,
                          global const ulong* restrict masks, global const uint* restrict starts,
                          VXL_WRITTEN_PARAMETERS) {

@@ -2,13 +2,14 @@
 // distance fields of several objects, and voxels among them -> Pyramid.
 //
 // Each smooth object has a grid of its own in the world's lattice, and `mark_voxels` (index.cl) has
-// found the voxels that its surface may cross. Here they are united brick by brick: a voxel with
-// one field has its record, one with several lists records behind the voxels' (shared/voxel.h).
+// found the voxels that its surface may cross. The kernels here unite these grids brick by brick: a
+// voxel with one field has its record, and a voxel with several fields lists records behind the
+// voxels' own (shared/voxel.h).
 //
 // Build constants: VXL_BASE: there are cubes or exact voxels, too. VXL_BASE_ATTRIBUTES,
-// VXL_PRIMITIVES: these have attributes of their own, primitives. VXL_COLORS: the world has
+// VXL_PRIMITIVES: those voxels have attributes of their own, primitives. VXL_COLORS: the world has
 // colours. VXL_VOXEL_NORMALS: its cubes have normals. VXL_ATTRIBUTES, VXL_OWN_COLORS: the object
-// whose fields are written has them. VXL_LINKED: the field before it is the same object's.
+// whose fields are written has them. VXL_LINKED: the preceding field may belong to the same object.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
 #include "lib/surface/brick_nodes.h"
@@ -18,25 +19,25 @@
 #include "lib/voxelize/leaf_voxels.h"
 #include "lib/voxelize/written_voxels.h"
 
-// The fields in the world's bricks that hold any voxels: entries first[b] .. first[b + 1] are those
-// in brick b, the object that comes first in the order of priorities first. An entry is the number
-// of an object's brick among all objects' (x), the object's rank (y), and the brackets that the
-// field stands in (z, shared/field_place.h). `masks` are those of each field's leaves; the others
-// are of the world's bricks: of all voxels, of those that list fields, and of the base grid's.
+// The fields in the world's bricks that hold any voxels. Entries first[b] .. first[b + 1] - 1 are
+// the fields in brick b, in the order of priorities. An entry is the number of an object's brick
+// among all objects' bricks (x), the object's rank (y), and the brackets that the field stands in
+// (z, shared/field_place.h). `masks` holds the masks of each field's leaves. The other masks are of
+// the world's bricks: of all voxels, of those that list fields, and of the base grid's voxels.
 #define VXL_UNITED_PARAMETERS                                                     \
     global const uint *restrict entry_first, global const uint *restrict entries, \
         global ulong *restrict masks, global ulong *restrict united,              \
         global ulong *restrict listing, global ulong *restrict of_base
 
-// Copies the masks of one object's leaves behind those of others.
+// Copies the masks of one object's leaves behind the masks of the objects before it.
 kernel void append_masks(const uint count, const uint first, global const ulong* restrict from,
                          global ulong* restrict to) {
     const uint item = work_item();
     if (item < count) to[(size_t)first * 64 + item] = from[item];
 }
 
-// One brick of a part of a solid, number `first` + its slot among all fields' bricks: the masks of
-// the cells that lie inside of it.
+// One work-item takes one brick of a part of a solid, number `first` + its slot among all fields'
+// bricks. It writes the masks of the cells that lie inside the part.
 kernel void mark_inside(const uint count, const uint first, global const short* restrict distance,
                         global const ulong* restrict masks, global ulong* restrict inside) {
     const uint slot = work_item();
@@ -51,11 +52,11 @@ kernel void mark_inside(const uint count, const uint first, global const short* 
     }
 }
 
-// One brick of a solid: takes the cells from its parts' masks in which a part's surface is not the
-// solid's, since another part decides there. Entries chain_first[b] .. chain_first[b + 1] are the
-// parts in brick b, in their order: the number of a part's brick among all fields', or that it has
-// none (x), the brackets that it stands in (y), and their links and its own (z,
-// shared/field_place.h).
+// One work-item takes one brick of a solid. It removes from the parts' masks the cells in which a
+// part's surface is not the solid's, because another part decides there. Entries chain_first[b] ..
+// chain_first[b + 1] - 1 are the parts in brick b, in their order: the number of a part's brick
+// among all fields' bricks, or that it has none (x), the brackets that it stands in (y), and the
+// links of these and its own (z, shared/field_place.h).
 kernel void join_parts(const uint count, global const uint* restrict chain_first,
                        global const uint* restrict chain, global const ulong* restrict inside,
                        global ulong* masks) {
@@ -83,14 +84,14 @@ kernel void join_parts(const uint count, global const uint* restrict chain_first
     }
 }
 
-// The kind of an occupied voxel of the grid of cubes and exact voxels.
+// The packed attributes of a voxel in the base grid, which holds cubes and exact voxels.
 static inline uint base_attributes(const BrickGrid* grid, size_t voxel) {
     return VXL_BASE_ATTRIBUTES ? grid->attributes[voxel] : grid->attribute;
 }
 
-// Decides which of the voxels that both cubes and fields are in stay cubes alone: those whose cube
-// comes before the fields in the order of priorities. Returns them, and clears them in the fields'
-// masks.
+// Decides which of the voxels that hold `both` cubes and fields stay cubes alone: those whose cube
+// comes before the fields in the order of priorities. Returns these voxels, and clears them in the
+// fields' masks.
 static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulong both,
                                  global const uint* restrict ranks, uint begin, uint end,
                                  global const uint* restrict entries, global ulong* masks) {
@@ -110,9 +111,10 @@ static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulo
     return stay;
 }
 
-// One brick of the world: the masks of its voxels, of those that list fields, and of those whose
-// attributes are the base grid's; the mask of its leaves; and its counts of voxels, primitives and
-// listed fields. `base_slots` holds the brick's slot in the base grid, or VXL_BRICK_OUTSIDE.
+// One work-item takes one brick of the world. It writes the masks of its voxels, of those that list
+// fields, and of those whose attributes are the base grid's; the mask of its leaves; and its counts
+// of voxels, primitives and listed fields. `base_slots` holds the brick's slot in the base grid, or
+// VXL_BRICK_OUTSIDE.
 kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
                         global const uint* restrict brick_numbers,
                         global const uint* restrict base_slots, global const uint* restrict ranks,
@@ -163,8 +165,9 @@ kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
     counts[3 * item + 2] = fields;
 }
 
-// One brick of the world: its leaves, and all of its voxels but the records of their fields, from
-// the numbers in `starts` (first leaf, voxel, primitive, listed field of each brick) on.
+// One work-item takes one brick of the world. It writes the leaves and voxels, except for the
+// records of their fields. Their numbers begin at those in `starts` (first leaf, voxel, primitive
+// and listed field of each brick).
 kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
                          global const uint* restrict base_slots, VXL_UNITED_PARAMETERS,
                          global const uint* restrict starts, VXL_WRITTEN_PARAMETERS) {
@@ -211,9 +214,10 @@ kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
     }
 }
 
-// One brick of an object, number `first` + its slot among all objects': the records of its fields.
-// `bricks_of` holds the brick of the world of each; numbers of voxels are as `write_united` has
-// them. `links` are those of the field's brackets and its own.
+// One work-item takes one brick of an object, number `first` + its slot among all objects' bricks.
+// It writes the records of its fields. `bricks_of` holds the world brick of each; voxels are
+// numbered as `write_united` numbers them. `links` are the links of the field's brackets and its
+// own.
 kernel void write_fields(const uint count, const uint first, const uint links,
                          VXL_BRICK_GRID_PARAMETERS, global const uint* restrict bricks_of,
                          VXL_UNITED_PARAMETERS, global const uint* restrict starts,

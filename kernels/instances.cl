@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// pyramids of models -> the world's pyramid with the models' data appended, for instances.
+// pyramids of models -> the world's pyramid with the models' data appended; instances read it.
 #include "lib/lanes/work_item.h"
 #include "shared/texture.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// Copies one word.
+// Copies one word per work-item.
 kernel void append_instance_words(const uint count, const uint start,
                                   global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i];
 }
 
-// Writes one copy of `word`.
+// Writes one copy of `word` per work-item.
 kernel void append_copies(const uint count, const uint start, const uint word,
                           global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = word;
 }
 
-// Copies one number, increased by `first`, the number of entries that now precede; numbers with a
-// bit of `kept` stay as they are.
+// Copies one number, increased by `first`, the number of entries that now precede it. Numbers with
+// a bit of `kept` stay as they are.
 kernel void append_numbers(const uint count, const uint start, const uint first, const uint kept,
                            global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i] & kept ? from[i] : from[i] + first;
 }
 
-// Copies the record of a field, or of a list of fields, which `first` records now precede. Zeros
-// list none.
+// Copies the record of a field, or of a list of fields, behind `first` other records. A list of
+// zeros is empty.
 kernel void append_fields(const uint count, const uint first,
                           global const uint* restrict attributes, global const uint* restrict from,
                           global uint* restrict to) {
@@ -39,7 +39,7 @@ kernel void append_fields(const uint count, const uint first,
     vstore8(record, first + i, to);
 }
 
-// Copies one brick record. Its halves' first leaves get new numbers, unless it is empty.
+// Copies one brick record. Increases the first leaves of its two halves, unless the brick is empty.
 kernel void append_bricks(const uint count, const uint start, const uint first_leaf,
                           global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
@@ -49,7 +49,7 @@ kernel void append_bricks(const uint count, const uint start, const uint first_l
     vstore4(record, start + i, to);
 }
 
-// Copies an entry of a list of primitives and gives it its number in the whole scene.
+// Copies one entry of the lists of primitives and turns it into a number in the whole scene.
 kernel void append_instance_primitives(const uint count, const uint start,
                                        const uint first_triangle, const uint first_solid,
                                        global const uint* restrict from, global uint* restrict to) {
@@ -58,7 +58,7 @@ kernel void append_instance_primitives(const uint count, const uint start,
     to[start + i] = from[i] + (from[i] & VXL_SOLID_PRIMITIVE ? first_solid : first_triangle);
 }
 
-// Copies one word of the records of textures; numbers of textures grow by `first`.
+// Copies one word of the records of textures, and increases numbers of textures by `first`.
 kernel void append_instance_worn(const uint count, const uint start, const uint first,
                                  global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();

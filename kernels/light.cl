@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points + a light -> a queue of shadow rays, each with the light that it would bring.
+// surface points + a light -> a queue of shadow rays, each with the light that it brings if nothing
+// blocks it.
 #include "lib/lanes/work_item.h"
 #include "lib/light/direct_light.h"
 
-/// Adds one light that shines from one point or direction.
+/// Adds a light that shines from one point or direction.
 kernel void add_light(VXL_WORLD_PARAMETERS, LightRecord light,
                       global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
                       VXL_BATCH_PARAMETERS, uint count) {

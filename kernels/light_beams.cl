@@ -4,10 +4,10 @@
 #include "lib/traverse/beam.h"
 #include "shared/light_beams.h"
 
-/// Sends the beams of `count` tiles of the grid, and writes their ends to their places in `ends`.
-/// Everything that a beam's rays meet lies at this coordinate of the grid's axis or beyond it (of
-/// minus that axis if its sign is negative); the end is +infinity if they meet nothing. `shape`,
-/// `sectors` and `bricks` are the dilated occupancy's.
+/// Sends the beams of `count` tiles of the grid, and writes their ends to the tiles' slots in
+/// `ends`. An end is a coordinate on the grid's axis, or on minus that axis if its sign is
+/// negative: everything that the beam's rays meet lies there or beyond. It is +infinity if the rays
+/// meet nothing. `shape`, `sectors` and `bricks` are the dilated occupancy's.
 kernel void send_light_beams(PyramidShape shape, global const uint* restrict sectors,
                              global const uint* restrict bricks, BeamGrid grid,
                              global const uint* restrict tiles, uint count,
@@ -25,14 +25,14 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     const int size = grid.axis == 0 ? shape.size_x : grid.axis == 1 ? shape.size_y : shape.size_z;
     const float s_near = grid.sign > 0.0f ? 0.0f : -(float)size;
     const float s_far = s_near + (float)size;
-    // The far side itself: a coarse dilated occupancy's grid may end beyond it.
+    // The far side is used as it is: a coarse dilated occupancy's grid may end beyond it.
     const float s_grid = grid.sign * grid.scale * grid.far_side;
     BeamAxis b, c;
     b.m = grid.sign * (grid.slope_b - at_b * grid.converging);
     c.m = grid.sign * (grid.slope_c - at_c * grid.converging);
     b.b0 = grid.scale * at_b - b.m * s_grid;
     c.b0 = grid.scale * at_c - c.m * s_grid;
-    b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the squares are as wide as beams may be
+    b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the cross-sections are as wide as beams may be
     const lane_float s = run_beams(&dilated_occupancy, (lane_int)grid.axis, (lane_float)grid.sign,
                                    &b, &c, (lane_float)s_near, (lane_float)s_far, (lane_int)-1);
     const lane_float end = (s - 2.0f * VXL_BEAM_STEP) * inverse_of_power(grid.scale);

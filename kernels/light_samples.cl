@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// world, or the model of an instance -> the pieces of surface of its emissive objects.
+// world, or the model of an instance -> the pieces of its emissive objects' surfaces.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/solid/solid.h"
@@ -30,7 +30,8 @@ static inline bool is_cube_kind(uint kind) {
     return kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
 }
 
-/// True if a cube fills the cell, or if the cell is outside of the world.
+/// True if a cube fills the cell, or if the cell lies outside the world. Outside a model is not
+/// covered.
 static inline bool is_covered(const WorldView* world, bool is_model, int x, int y, int z) {
     const PyramidView* p = &world->pyramid;
     if (x < 0 || y < 0 || z < 0) return !is_model;
@@ -49,14 +50,15 @@ static inline bool is_covered(const WorldView* world, bool is_model, int x, int 
     return is_cube_kind(attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT);
 }
 
-/// The emissive surfaces to list, with a value per object and one per material. `found` counts all
-/// pieces; the first `capacity` of them are listed, in no particular order.
+/// The emissive surfaces to list. The first two tables hold one flag per object and one per
+/// material. `found` counts all pieces; the first `capacity` of them are listed, in no particular
+/// order.
 typedef struct {
     global const uint* restrict emissive_objects;
     global const uint* restrict emissive_materials;
     uint capacity;
-    bool by_voxel;  // voxels with emissive surfaces are listed, and not their pieces
-    bool is_model;  // the voxels are those of an instance's model, and not the world's
+    bool by_voxel;  // lists voxels with emissive surfaces instead of their pieces
+    bool is_model;  // the voxels are those of an instance's model, not the world's
     global uint* restrict found;
     global uint4* restrict pieces;
 } EmissivePieces;
@@ -67,7 +69,7 @@ static inline bool emits(const EmissivePieces* g, uint packed) {
            g->emissive_materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK] != 0u;
 }
 
-/// Lists the piece of `number`, a voxel's or solid's, in voxel (x,y,z).
+/// Lists a piece of form `form` in voxel (x,y,z). `number` is that of its voxel, field or solid.
 static inline void list_piece(const EmissivePieces* g, int x, int y, int z, uint form, uint number,
                               uint packed) {
     const uint place = atomic_inc(g->found);
@@ -98,7 +100,7 @@ static inline void list_faces(const WorldView* world, const EmissivePieces* g, i
 
 #define VXL_NO_EMISSION 0xFFFFFFFFu
 
-/// The attributes of the first emissive triangle or solid of a voxel, or VXL_NO_EMISSION.
+/// The packed attributes of a voxel's first emissive triangle or solid, or VXL_NO_EMISSION.
 static inline uint first_emission(const SurfaceView* s, const EmissivePieces* g, uint voxel) {
     for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
         const uint number = s->primitives[i];
@@ -110,7 +112,8 @@ static inline uint first_emission(const SurfaceView* s, const EmissivePieces* g,
     return VXL_NO_EMISSION;
 }
 
-/// Lists a voxel by the numbers that hits on its emissive surfaces have: its own or its fields'.
+/// Lists a voxel under the numbers that hits on its emissive surfaces have: the voxel's or its
+/// fields'.
 static inline void list_emitter(const WorldView* world, const EmissivePieces* g, int x, int y,
                                 int z, uint voxel, uint packed) {
     const SurfaceView* s = &world->surface;
@@ -143,7 +146,7 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
         list_emitter(world, g, x, y, z, voxel, packed);
         return;
     }
-    // What is in front of a cube in its own voxel covers its faces.
+    // A cube that shares its voxel with other surfaces lists no faces: those surfaces cover them.
     if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
         list_faces(world, g, x, y, z, voxel, packed);
     if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
@@ -165,8 +168,8 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
 
 /// Lists the emissive surfaces in one brick: the open faces of cubes, smooth voxels, and solids in
 /// the voxels that list them. One work-item takes one of each sector's 64 bricks. The table of
-/// sectors begins at `first_sector`, which is 0 for the world's and more for a model's. With
-/// `by_voxel` the voxels of these surfaces are listed.
+/// sectors begins at `first_sector`, which is 0 for the world and larger for a model. With
+/// `by_voxel`, lists the voxels of these surfaces instead.
 kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS, const uint first_sector,
                           global const uint* restrict emissive_objects,
                           global const uint* restrict emissive_materials, const uint by_voxel,
@@ -208,8 +211,8 @@ kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS, const uint fir
 }
 
 /// Finds the surface in each piece's voxel, near its middle. Writes seven components, `stride`
-/// values apart: the point within the voxel, the gradient of the distance there, along the grid's
-/// axes in voxels, and the distance of the point from the surface, in voxels. Cubes are left out.
+/// values apart: the point within the voxel; the gradient of the distance there, along the grid's
+/// axes, in voxels; and the point's distance from the surface, in voxels. Leaves out cubes.
 kernel void find_surface(PyramidShape shape, const uint count, const uint stride,
                          global const uint* restrict pieces, global const uint* restrict fields,
                          global const SolidShape* restrict solids, global float* restrict found) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // samples -> mattes: which objects, or materials, cover most of each pixel, and by how much.
 //
-// With VXL_EARLIER the ranks of samples before are there already, with the sums of what they cover,
-// and those behind the ones that are named. Of more objects in a pixel a new one takes the place
-// and the share of the last: none that covers more than a 24th of the pixel is lost.
+// With VXL_EARLIER, the buffers already hold the ranks of earlier samples and the sums of what they
+// cover, including the ranks kept behind those that the image names. If a pixel shows more objects
+// than there are ranks, a new object takes over the last rank and its weight. No object that covers
+// more than a 24th of the pixel is lost.
 //
 // Source: Friedman, Jones: "Fully Automatic ID Mattes with Support for Motion Blur and
-// Transparency", 2015, whose ranks are Cryptomatte's. Metwally, Agrawal, El Abbadi: "Efficient
+// Transparency", 2015; the ranks are those of Cryptomatte. Metwally, Agrawal, El Abbadi: "Efficient
 // Computation of Frequent and Top-k Elements in Data Streams", 2005.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/ray_batch.h"
@@ -15,26 +16,27 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// The field of packed attributes that a matte is of.
+/// The field of packed attributes that a matte shows: the object or the material.
 typedef struct {
     uint shift, mask;
 } MatteField;
 
-/// The samples of a pixel: every 16th ray from its first one on.
+/// The samples of a pixel: every 16th ray, beginning with `first`.
 typedef struct {
     const RayBatch* batch;
     uint first;
     MatteField field;
 } PixelSamples;
 
-/// The number of what a sample's ray met first, from 1 on; 0 for nothing.
+/// The number, from 1 on, of what a sample's ray met first; 0 for nothing.
 static inline uint sample_number(const PixelSamples* s, uint sample) {
     const uint ray = s->first + sample * 16u;
     if (s->batch->hits[VXL_HIT_VOXEL * s->batch->stride + ray] == VXL_NO_VOXEL) return 0u;
     return ((s->batch->hit_attributes[ray] >> s->field.shift) & s->field.mask) + 1u;
 }
 
-/// What a sample adds to the pixel's A, which belongs to the surface that it met first.
+/// A sample's contribution to the pixel's A, which belongs to the surface that the sample met
+/// first.
 static inline float sample_coverage(const PixelSamples* s, uint sample) {
     return VXL_TRANSMISSION ? s->batch->coverage[s->first + sample * 16u] : 1.0f;
 }
@@ -47,7 +49,7 @@ static inline bool was_met_before(const PixelSamples* s, uint sample, uint numbe
 
 #define VXL_RANKS (VXL_EARLIER ? VXL_MATTE_HELD : VXL_MATTE_RANKS)
 
-/// The numbers that cover most of a pixel, and their shares; ties go to the lower number.
+/// The numbers that cover most of a pixel, and their weights; ties go to the lower number.
 typedef struct {
     uint number[VXL_RANKS];
     float share[VXL_RANKS];
@@ -67,8 +69,8 @@ static inline void insert_rank(Ranks* ranks, uint number, float share) {
     }
 }
 
-/// Takes a number out of the ranks, or the last one if there is no place for it. Returns what share
-/// that leaves to it.
+/// Removes a number from the ranks, or the last rank if the number isn't there. Returns the weight
+/// that the removed rank had.
 static inline float take_rank(Ranks* ranks, uint number) {
     float share = 0.0f;
     for (uint i = 0; i < VXL_RANKS; ++i) {
@@ -82,8 +84,8 @@ static inline float take_rank(Ranks* ranks, uint number) {
     return share;
 }
 
-/// One work-item ranks what one pixel shows. Rank r of a pixel is `pixels` * r behind its first, in
-/// `numbers`, 0 for none, and in `shares`, the part of the pixel that it covers.
+/// One work-item ranks what one pixel shows. Rank r of a pixel is stored `pixels` * r behind its
+/// first, as a number in `numbers`, 0 for none, and as the covered part of the pixel in `shares`.
 kernel void rank_matte(Camera camera, VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                        uint shift, uint mask, global uint* restrict numbers,
                        global float* restrict shares) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// radiance at surfaces -> radiance at the rays' starts: what the medium of S, and of the objects
-// that rays go through, takes and adds.
+// radiance at surfaces -> radiance at the rays' starts: the light that the medium of S, and of
+// objects that rays go through, absorbs and adds.
 //
-// The density of the medium scales its absorption alone, so the sum of density times length stands
-// for a ray's whole way:
+// The density of the medium scales its absorption alone, so one number describes a ray's whole way:
+// the sum of density times length.
 //     transmittance = exp(-absorption * sum), emitted = color * (1 - transmittance).
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
@@ -13,14 +13,14 @@
 #include "shared/scene.h"
 #include "shared/trace.h"
 
-/// Lanes whose rays are to be followed. Places beyond the queue's end hold what was there before.
+/// Mask: lanes whose rays are followed. Slots beyond the queue's end hold stale rays.
 lane_int followed_lanes(const RayBatch* batch, uint first, uint count) {
     return LANE_MASK(LANES_LOAD(batch->rays, VXL_RAY_END * batch->stride + first) >= 0.0f) &
            LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
 }
 
-/// The part of a channel's light that a medium of colours lets through. What is sent to emitters,
-/// `looks`, loses what the medium scatters, too.
+/// The part of a channel's light that a coloured medium lets through. Rays sent to emitters,
+/// `looks`, also lose the light that the medium scatters.
 lane_float veil_transmittance(const Veil* veil, MediumScattering scattered, lane_int looks,
                               int channel) {
     lane_float transmittance = veil->transmittance[channel];
@@ -66,7 +66,7 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
     for (int channel = 0; channel < 3; ++channel) {
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
-        // Paths are scattered by chance, but what is sent to emitters loses its share.
+        // The medium scatters paths by chance, but rays sent to emitters lose the scattered part.
         if (VXL_SCATTERING && VXL_LOOKS)
             per_metre +=
                 LANES_SELECT(looks, (lane_float)scattered.per_metre[channel], (lane_float)0.0f);
@@ -90,9 +90,8 @@ kernel void absorb_sight(PyramidShape shape, Environment environment,
     }
 }
 
-/// Takes the part that the medium absorbs from the light in the queue of shadow rays. Without
-/// shadows the rest is added to the radiance of the targets, each of which stands in the queue at
-/// most once.
+/// Removes the light that the medium absorbs from the queue of shadow rays. Without shadows, adds
+/// the rest to the radiance of the targets, each of which stands in the queue at most once.
 kernel void absorb_shadows(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
                            VXL_SHADOW_QUEUE_PARAMETERS, VXL_BATCH_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
@@ -102,7 +101,7 @@ kernel void absorb_shadows(PyramidShape shape, Environment environment, VXL_DENS
     if (first >= count) return;
     const DensityView density = VXL_DENSITY;
     const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
-    // Places beyond the queue's end hold what was there before.
+    // Slots beyond the queue's end hold stale rays.
     const Segment segment = {load_vector(queue.rays, stride, first),
                              load_vector(queue.rays + VXL_RAY_DX * stride, stride, first),
                              (lane_float)0.0f,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// paths on their way through a scattering medium -> the points where it scatters them, the light
-// there, and the next rays of the paths.
+// paths on their way through a scattering medium -> the points where the medium scatters them, the
+// light there, and the next rays of the paths.
 //
-// Scattering is chance, see lib/medium/free_path.h; absorption is a weight, as on all rays.
+// Scattering happens by chance (lib/medium/free_path.h); absorption is a weight, as on all rays.
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/area_points.h"
@@ -15,10 +15,10 @@
 #include "lib/medium/phase.h"
 #include "lib/traverse/segment.h"
 
-/// Finds the paths that the medium scatters before the surfaces that their rays have met, among
-/// entries 0 .. count-1: puts the points, with the throughput of the light from there, into a
-/// queue, and marks the entries, whose end transmittance[0] has. Paths inside of objects are
-/// scattered nowhere.
+/// Among entries 0 .. count-1, finds the paths that the medium scatters before their rays come to
+/// the surfaces that they have met. Puts the points, with the throughput of the light from there,
+/// into a queue, and marks the entries; transmittance[0] holds where they end. Paths inside objects
+/// are not scattered.
 kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
                               VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS,
                               PathSampling sampling, VXL_BATCH_PARAMETERS, uint count,
@@ -50,7 +50,7 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
     const float absorbed[3] = {absorption.x, absorption.y, absorption.z};
     for (uint c = 0; c < 3; ++c) {
         point.throughput[c] = throughput[c] * exact_exp(-absorbed[c] * depth);
-        // It is also that of the medium's own light on the way.
+        // The stored throughput also applies to the medium's own light on the way.
         LANES_STORE(LANES_AS_UINT(throughput[c]), paths,
                     (VXL_PATH_THROUGHPUT + c) * stride + first);
     }
@@ -67,9 +67,9 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
              (part.t_last - path.t) * metres, chance_density(&medium, depth, thick), &slots);
 }
 
-/// Adds the light that a source sends from the points `from` and the medium scatters towards the
-/// viewer: every point gets a slot in the queue of shadow rays. A light's intensity is pi times its
-/// power per solid angle, as Lambert's surfaces have it.
+/// Adds the light that a source sends to the points `from` and that the medium scatters towards the
+/// viewer. Every point gets a slot in the queue of shadow rays. A light's intensity is pi times its
+/// power per solid angle, as for Lambertian surfaces.
 static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vector from, float g,
                                      const ShadowQueue* queue, const RayBatch* batch, uint first,
                                      lane_int valid) {
@@ -102,7 +102,7 @@ static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vect
     queue_rays(queue, &r, i.lit, (lane_uint)VXL_NO_PRIMITIVE, stride, first);
 }
 
-/// Adds one light that shines from one point or direction to points in the medium.
+/// Adds a light that shines from one point or direction to points in the medium.
 kernel void add_light_to_medium(PyramidShape shape, LightRecord light,
                                 VXL_SCATTERING_PARAMETER VXL_SHADOW_QUEUE_PARAMETERS,
                                 VXL_BATCH_PARAMETERS, uint count) {
@@ -119,7 +119,7 @@ kernel void add_light_to_medium(PyramidShape shape, LightRecord light,
 
 #if VXL_AREA_SAMPLES
 /// Adds light number `number`, which has an area, to points in the medium: each sends a shadow ray
-/// to a point of the light that the path's sample chooses.
+/// to a point of the light, which the path's sample chooses.
 kernel void add_area_light_to_medium(PyramidShape shape, LightRecord light, LightAreaRecord area,
                                      PathSampling sampling, uint number,
                                      VXL_SCATTERING_PARAMETER VXL_SHADOW_QUEUE_PARAMETERS,
@@ -136,8 +136,8 @@ kernel void add_area_light_to_medium(PyramidShape shape, LightRecord light, Ligh
 }
 #endif
 
-/// Ends some of the paths that bring little light: the mask of those that go on, whose throughput
-/// stands for all.
+/// Ends some of the paths that bring little light (Russian roulette). Returns the mask of the
+/// others, and raises their throughput so that they stand for all.
 static inline lane_int keep_some(lane_float chance, lane_uint bounces, lane_float* throughput) {
     const lane_float one = (lane_float)1.0f;
     const lane_float brings = largest(throughput);
@@ -172,8 +172,8 @@ static inline lane_int look_from_medium(PyramidShape shape, const MediumScatteri
 }
 
 /// Adds the light at points 0 .. count-1 in the medium to the light of the sight rays that their
-/// paths began as, sends each path on, behind `taken` rays of the queue, unless it ends, and a ray
-/// to an emitter.
+/// paths began as. Sends each path on, behind the first `taken` rays of the queue, unless it ends,
+/// and sends a ray to an emitter.
 kernel void extend_in_medium(PyramidShape shape, VXL_SCATTERING_PARAMETER PathSampling sampling,
                              VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS, uint taken,
                              VXL_COUNTED_QUEUE_PARAMETERS, VXL_SOUGHT_LIGHT_PARAMETERS) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// rays of paths through a scattering medium -> points of it that a light is near to, and the
-// light that comes from there. See lib/medium/near_light.h.
+// rays of paths through a scattering medium -> points of the medium near a light, and the light
+// that comes from there. See lib/medium/near_light.h.
 #include "lib/lanes/work_item.h"
 #include "lib/light/path_samples.h"
 #include "lib/light/paths.h"
 #include "lib/medium/free_path.h"
 #include "lib/medium/medium_point.h"
 
-/// Chooses a point for each of the rays 0 .. count-1 that the light shines on in the medium, before
-/// the surfaces that they have met: puts it, with the throughput of the light from there, into a
-/// queue. Rays that begin their paths (`is_first`) have lost no light yet, whatever was noted of
-/// them since.
+/// Chooses a point in the medium for each of the rays 0 .. count-1 that the light shines on before
+/// the surfaces that the rays have met. Puts the point, with the throughput of the light from
+/// there, into a queue. Rays that begin their paths (`is_first`) have throughput 1, whatever has
+/// been stored for them since.
 kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absorption,
                              VXL_SCATTERING_PARAMETER VXL_DENSITY_PARAMETERS, PathSampling sampling,
                              uint is_first, VXL_BATCH_PARAMETERS, uint count,
@@ -24,7 +24,7 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
     lane_int active = in_the_open(&batch, first, count);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
-    // The medium scatters none of these paths.
+    // The state of these paths is that of rays that the medium doesn't scatter.
     const lane_uint state =
         LANES_LOAD(paths, VXL_PATH_STATE * stride + first) & (lane_uint)~VXL_STATE_IN_MEDIUM;
     Segment segment = part_in_world(shape, whole_segment(&batch, first));
@@ -64,7 +64,7 @@ kernel void find_near_points(PyramidShape shape, LightRecord light, float4 absor
     put_ways(point_hits, points.stride, zero, zero, zero, &slots);
 }
 
-/// Adds the light at points 0 .. count-1 to the light of the sight rays that they lie on.
+/// Adds the light at points 0 .. count-1 to the light of the sight rays whose paths they belong to.
 kernel void add_near_light(global const uint* restrict paths, global const float* restrict radiance,
                            uint stride, uint count, VXL_NODE_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// object grids -> S: every object's bricks, resampled into the world's by the inverse map.
+// object grids -> S: every object's bricks, resampled into the world's bricks by the inverse map.
 //
-// Objects are painted one after another, the winner of an overlap last, each by one launch over the
-// leaves of the bricks listed in `painted`, so no two work-items write the same voxel. Which voxel
-// is set is decided in integers alone, and a brick's voxels depend on nothing but the objects.
+// Objects are painted one after another, the winner of an overlap last. Each object is painted by
+// one launch over the leaves of the bricks listed in `painted`, so no two work-items write the same
+// voxel. Integers alone decide which voxel is set, and a brick's voxels depend on nothing but the
+// objects.
 //
-// Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
+// Build constants: VXL_SMOOTH: the object has distances instead of occupancy. VXL_ATTRIBUTES,
 // VXL_COLORS, VXL_VOXEL_NORMALS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS,
-// VXL_OBJECT_NORMALS: the object has them.
-// VXL_REACH: the reach is not 0. VXL_KEEPS_INSIDE: bricks inside of the object are stored, too.
+// VXL_OBJECT_NORMALS: the object has them. VXL_REACH: the reach is not 0. VXL_KEEPS_INSIDE: bricks
+// inside of the object are stored, too.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/world_bounds.h"
 #include "lib/voxelize/painted_world.h"
@@ -16,14 +17,15 @@
 #include "lib/voxelize/placed_field.h"
 #include "lib/voxelize/placed_normal.h"
 
-// One brick of an object: which of its leaves hold voxels, or distances below `threshold`.
+// One work-item takes one brick of an object. It finds which of the brick's leaves hold voxels, or
+// distances below `threshold`.
 kernel void mark_near_leaves(const uint count, const int threshold,
                              global const ulong* restrict occupancy,
                              global const short* restrict distance, global ulong* restrict near) {
     const uint slot = work_item();
     if (slot >= count) return;
     ulong mask = 0;
-    for (int layer = 0; layer < 16; ++layer) {  // of leaves: four rows of nodes in y, four in z
+    for (int layer = 0; layer < 16; ++layer) {  // four rows of nodes in y, four in z
         const int first = (layer & 3) << 2, leaf = layer << 2;
         if (VXL_SMOOTH) {
             global const short* nodes =
@@ -47,9 +49,9 @@ kernel void mark_near_leaves(const uint count, const int threshold,
     near[slot] = mask;
 }
 
-// One brick of the world, of those listed or, without a list, of all: raises its state to what the
-// object has there. A brick is full only if the voxels around it are too, since a brick next to an
-// empty voxel, or the world's end, must be stored.
+// One work-item takes one brick of the world: one of those listed or, without a list, of all. It
+// raises the brick's state to what the object has there. A brick is full only if the voxels around
+// it are full, too, since a brick next to an empty voxel or to the world's end must be stored.
 kernel void classify_bricks(const uint count, global const uint* restrict listed,
                             const int4 world_bricks, const WorldBounds bounds,
                             VXL_OBJECT_PARAMETERS, global uchar* restrict states) {
@@ -74,7 +76,8 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
     states[index] = (uchar)max((uint)states[index], state);
 }
 
-// One leaf of the world: the smaller of its distances and the object's.
+// One work-item takes one leaf of the world. It keeps the smaller of the leaf's distances and the
+// object's.
 kernel void paint_distances(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
@@ -112,7 +115,7 @@ kernel void paint_distances(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED
     }
 }
 
-// One leaf of the world: ends its distances at the world's bounds.
+// One work-item takes one leaf of the world. It cuts the distances off at the world's bounds.
 kernel void close_distances(const uint count, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
@@ -128,7 +131,8 @@ kernel void close_distances(const uint count, VXL_PAINTED_PARAMETERS) {
     }
 }
 
-// One leaf of the world: the attributes and colours of the voxels near the object's surface.
+// One work-item takes one leaf of the world. It writes the attributes and colours of the voxels
+// near the object's surface.
 kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT_PARAMETERS,
                                 VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
@@ -149,8 +153,8 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
         const int place = leaf_index(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
-        // Where the surface crosses, the corners' distances are within a voxel's diagonal: most
-        // voxels need no more than this look.
+        // Where the surface crosses, the corners' distances are within a voxel's diagonal: for most
+        // voxels this one test is enough.
         if (world.distance[number] > 3 * crossing) continue;
         const int4 half_steps = low + voxel * 2 + (int4)(1, 1, 1, 0);
         const FixedPoint centre = map_half_steps(&object, half_steps);
@@ -176,17 +180,17 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
     }
 }
 
-// True if a voxel with the packed attributes `before` that is painted `packed` stays a cube: an
-// exact object leaves cubes where they are, behind its surface. Voxels with colours have one for
-// all that they hold, so there the cubes make way.
+// True if a cube with the packed attributes `before` stays when its voxel is painted `packed`: an
+// exact object leaves cubes behind its surface. Where voxels have colours, one colour holds for all
+// of a voxel, so cubes are replaced and this is not asked.
 static inline bool stays_cube(uint before, uint packed) {
     const uint kind = before >> VXL_KIND_SHIFT;
     const bool is_cube = kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
     return is_cube && packed >> VXL_KIND_SHIFT == VXL_KIND_EXACT;
 }
 
-// One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
-// has one within the reach.
+// One work-item takes one leaf of the world. It sets the voxels whose centre's image lies in an
+// occupied voxel of the object, or has one within the reach.
 kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world's stored bricks as such: made empty before objects are painted into them, and moved
-// where others have gone, so that slots stay without gaps.
+// The world's stored bricks as a whole: they are cleared before objects are painted into them, and
+// moved into the slots of removed bricks so that no gaps remain.
 //
-// Build constants: VXL_SMOOTH, VXL_OCCUPANCY, VXL_ATTRIBUTES, VXL_COLORS, VXL_VOXEL_NORMALS: what
-// the world has.
+// Build constants: VXL_SMOOTH, VXL_OCCUPANCY, VXL_ATTRIBUTES, VXL_COLORS, VXL_VOXEL_NORMALS: the
+// world has them.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_nodes.h"
 #include "shared/normal.h"
 
-// One leaf's worth of a listed brick's values, 64 in their order.
+// Clears one leaf's worth of a listed brick's values, 64 in their order.
 kernel void clear_bricks(const uint count, global const uint* restrict listed,
                          global short* restrict distance, global ulong* restrict occupancy,
                          global uint* restrict attributes, global uint* restrict colors,
@@ -25,7 +25,7 @@ kernel void clear_bricks(const uint count, global const uint* restrict listed,
     }
 }
 
-// Copies 64 voxels of a brick that moves; `moves` holds pairs of slots, from and to.
+// Copies 64 voxels of a brick that moves. `moves` holds pairs of slots: from, to.
 kernel void move_bricks(const uint count, global const uint* restrict moves,
                         global short* restrict distance, global ulong* restrict occupancy,
                         global uint* restrict attributes, global uint* restrict colors,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// object grids -> S, exact surfaces: the primitive lists of all objects, joined voxel by voxel.
+// object grids -> S, for exact surfaces: the primitive lists of all objects, joined voxel by voxel.
 //
 // All grids are in the world's frame here. Objects are counted and appended one after another in
 // the scene's order, so a list has the first object's primitives first.
@@ -9,7 +9,8 @@
 #include "shared/texture.h"
 #include "shared/trace.h"
 
-// One brick of the world: adds the lengths of the object's lists to its voxels' counts.
+// One work-item takes one brick of the world. It adds the lengths of the object's lists to the
+// brick's counts, one per voxel.
 kernel void count_primitives(const uint count, global const uint* restrict coordinates,
                              global const uint* restrict slots, global const uint* restrict first,
                              global uint* restrict counts) {
@@ -23,7 +24,7 @@ kernel void count_primitives(const uint count, global const uint* restrict coord
         sums[voxel] += list[voxel + 1] - list[voxel];
 }
 
-// One brick of the world: the sum of its counts.
+// One work-item takes one brick of the world. It adds up the brick's counts.
 kernel void sum_counts(const uint count, global const uint* restrict counts,
                        global uint* restrict sums) {
     const uint slot = work_item();
@@ -34,8 +35,8 @@ kernel void sum_counts(const uint count, global const uint* restrict counts,
     sums[slot] = sum;
 }
 
-// One brick of the world: where its voxels' lists start. `ends` takes the place of the counts, and
-// holds the end of what is written so far.
+// One work-item takes one brick of the world. It computes where its voxels' lists start. `ends`
+// holds the counts before, and after it the end of what has been written so far.
 kernel void start_lists(const uint count, global const uint* restrict starts,
                         global uint* restrict ends, global uint* restrict first) {
     const uint slot = work_item();
@@ -49,7 +50,8 @@ kernel void start_lists(const uint count, global const uint* restrict starts,
     }
 }
 
-// One brick of the world: appends the object's lists, with its primitives' new numbers.
+// One work-item takes one brick of the world. It appends the object's lists, with the primitives'
+// new numbers.
 kernel void append_primitives(const uint count, const uint first_triangle, const uint first_solid,
                               global const uint* restrict coordinates,
                               global const uint* restrict slots, global const uint* restrict first,
@@ -71,14 +73,14 @@ kernel void append_primitives(const uint count, const uint first_triangle, const
     }
 }
 
-// One word of a buffer that is joined to others.
+// Copies one word of a buffer that is appended to others.
 kernel void append_words(const uint count, const uint start, global const uint* restrict from,
                          global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i];
 }
 
-// One word of what triangles wear; their textures begin by `first` later now.
+// Copies one word of what triangles wear, and increases numbers of textures by `first`.
 kernel void append_worn(const uint count, const uint start, const uint first,
                         global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
@@ -87,7 +89,7 @@ kernel void append_worn(const uint count, const uint start, const uint first,
     to[start + i] = is_place ? from[i] + first : from[i];
 }
 
-// One triangle's packed attributes.
+// Writes one triangle's packed attributes.
 kernel void append_triangle_attributes(const uint count, const uint start, const AttributeMap map,
                                        global const uint* restrict materials,
                                        global const uint* restrict attributes,
@@ -97,7 +99,7 @@ kernel void append_triangle_attributes(const uint count, const uint start, const
     to[start + i] = attributes_of(map, materials, attributes, i);
 }
 
-// One shape's packed attributes, in its record in the world.
+// Writes one shape's packed attributes into its record in the world.
 kernel void set_solid_attributes(const uint count, const uint start, const AttributeMap map,
                                  global const uint* restrict materials,
                                  global SolidShape* restrict solids) {

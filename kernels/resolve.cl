@@ -2,11 +2,11 @@
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
 // The build constants VXL_SHOWS_COLOR, VXL_SHOWS_VARIANCE, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE,
-// VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, in addition to the
-// features', are the channels asked for. With VXL_EARLIER the image holds what samples before came
-// to: their sums, or, of an image that was finished, means of a number of them that is a power of
-// two, which make sums without rounding. They go on as if all had been added up in one run. Where
-// others follow, the image becomes the sums, and variance the sum of the squares of deviations.
+// VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL say which channels
+// are asked for. With VXL_EARLIER the image already holds earlier samples: their sums or, in an
+// image that was finished, the means of a power of two of them, from which sums follow without
+// rounding. The result equals that of one run over all samples. If more samples follow, the image
+// becomes the sums, and the variance the sum of squared deviations.
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
@@ -16,7 +16,7 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// The first planes of what an image shows.
+// The indices of the first planes of what an image shows.
 #define VXL_PLANE_VARIANCE (4 * VXL_SHOWS_COLOR)
 #define VXL_PLANE_DEPTH (VXL_PLANE_VARIANCE + 3 * VXL_SHOWS_VARIANCE)
 #define VXL_PLANE_DISTANCE (VXL_PLANE_DEPTH + VXL_SHOWS_DEPTH)
@@ -27,8 +27,8 @@
 typedef struct {
     size_t place[VXL_LANES];
     bool is_in_image[VXL_LANES];
-    bool is_whole;   // all are in the image, and each row begins at every fourth of them
-    lane_int known;  // mask: show something that earlier samples met
+    bool is_whole;   // all are in the image; each four lanes are a row of the tile
+    lane_int known;  // mask: pixels that show something that earlier samples met
 } Pixels;
 
 static inline Pixels pixels_of(const Camera* camera, uint tile, uint first) {
@@ -58,26 +58,27 @@ static inline void store_pixels(lane_float value, const Pixels* p, global float*
         if (p->is_in_image[i]) plane[p->place[i]] = values[i];
 }
 
-/// What a plane holds; 0 outside of the image.
+/// The values of a plane; 0 outside the image.
 static inline lane_float load_pixels(const Pixels* p, global const float* plane) {
     float values[VXL_LANES];
     for (uint i = 0; i < VXL_LANES; ++i) values[i] = p->is_in_image[i] ? plane[p->place[i]] : 0.0f;
     return LANES_LOAD(values, 0);
 }
 
-/// Stores what pixels show that earlier samples didn't meet.
+/// Stores values of pixels to which earlier samples gave none.
 static inline void store_shown(lane_float value, const Pixels* p, global float* plane) {
     if (VXL_EARLIER) value = LANES_SELECT(p->known, load_pixels(p, plane), value);
     store_pixels(value, p, plane);
 }
 
-/// Mask: pixels that show something by the numbers of a plane, which 0 and infinity are not.
+/// Mask: pixels whose value in a plane is neither 0 nor infinity, and thus shows something.
 static inline lane_int shown_in(const Pixels* p, global const float* plane) {
     const lane_uint value = LANES_AS_UINT(load_pixels(p, plane)) & 0x7FFFFFFFu;
     return LANE_MASK(value != 0u) & LANE_MASK(value != 0x7F800000u);
 }
 
-/// Mask: pixels that show something already. A point alone doesn't tell: it may be the origin.
+/// Mask: pixels that show something already. A position alone cannot tell, because it may be the
+/// origin.
 static inline lane_int shown_already(const Pixels* p, size_t pixels, global const float* image,
                                      global const uint* ids) {
     lane_int shown = (lane_int)0;
@@ -89,14 +90,14 @@ static inline lane_int shown_already(const Pixels* p, size_t pixels, global cons
     return shown;
 }
 
-/// The samples of a packet's pixels, summed.
+/// The sums over the samples of a packet's pixels.
 typedef struct {
     lane_float color[3];
     lane_float covered;
-    lane_uint shown;  // the first sample's ray that met something, VXL_NO_VOXEL for none
+    lane_uint shown;  // the first sample's ray that met something, or VXL_NO_VOXEL
 } Samples;
 
-/// The sums of the samples that the image holds.
+/// The sums of the earlier samples, which the image holds.
 static inline Samples earlier_samples(const Camera* camera, const Pixels* at, size_t pixels,
                                       global const float* image) {
     const lane_float zero = (lane_float)0.0f;
@@ -110,7 +111,8 @@ static inline Samples earlier_samples(const Camera* camera, const Pixels* at, si
     return s;
 }
 
-/// Adds the `samples` samples of pixels whose first one's ray is `first_ray` to `s`.
+/// Adds samples to the sums `s`. `samples` is the number per pixel, `first_ray` the ray of the
+/// first.
 static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples, Samples s) {
     for (uint sample = 0; sample < samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
@@ -151,8 +153,9 @@ static inline lane_float squares_from(const RayBatch* batch, uint first_ray, uin
     return squares;
 }
 
-/// The sum of the squares of the deviations of all samples, whose sum is `sum`, from their mean.
-/// `before` is that of the samples before, and `own` the sum of the others.
+/// The sum of the squared deviations of all samples from their mean. `sum` is the sum of all
+/// samples. `before` is the sum of squared deviations of the earlier samples; `own` and
+/// `own_squares` are the sum and the sum of squared deviations of the new ones.
 ///
 /// Source: Chan, Golub, LeVeque: "Updating Formulae and a Pairwise Algorithm for Computing Sample
 /// Variances", 1979.
@@ -166,9 +169,9 @@ static inline lane_float joined_squares(const Camera* camera, lane_float before,
     return before + fma(off * off, weight, own_squares);
 }
 
-/// Stores the variance of the mean of a channel's samples, as if they were independent: the mean
-/// square of their deviations over the number of samples, less one. It is infinite for one sample,
-/// of which nothing is known, and finite for others. `sum` is that of all samples.
+/// Stores the variance of the mean of a channel's samples, as if these were independent: the mean
+/// square of their deviations, divided by the number of samples less one. One sample leaves it
+/// unknown, which is stored as infinity; otherwise it is finite. `sum` is the sum of all samples.
 static inline void store_variance(const Camera* camera, const RayBatch* batch, uint first_ray,
                                   uint channel, lane_float sum, const Pixels* at, size_t pixels,
                                   global float* restrict image) {
@@ -195,14 +198,14 @@ static inline void store_variance(const Camera* camera, const RayBatch* batch, u
     store_pixels(value, at, plane);
 }
 
-/// The distances of points in metres along their sight rays. `depth` is that along Z_E, and
-/// `square` the square of the distance from E.
+/// The distances of points along their sight rays, in metres. `depth` is the distance along Z_E,
+/// and `square` the square of the distance from E.
 static inline lane_float distance_of(const Camera* camera, lane_float depth, lane_float square) {
     return camera->shape == VXL_SHAPE_BOX ? depth : exact_sqrt(square);
 }
 
-/// Stores depth, distance, position and normal of the `hit` pixels' rays; the normal is that of
-/// their light.
+/// Stores depth, distance, position and normal for the rays of the `hit` pixels. The normal is the
+/// one used for their light.
 static inline void store_geometry(const Camera* camera, float4 voxel_edge, float4 world_origin,
                                   const RayBatch* batch, lane_uint ray, lane_int hit,
                                   const Pixels* at, size_t pixels, global float* restrict image) {
@@ -243,17 +246,17 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                     image + VXL_PLANE_DISTANCE * pixels);
 }
 
-/// Stores the numbers of what the `hit` pixels show, from 1 on, and 0 for others.
+/// Stores the numbers of what the `hit` pixels show, from 1 on, and 0 for other pixels.
 static inline void store_number(lane_uint number, lane_int hit, const Pixels* at,
                                 global uint* restrict plane) {
     store_shown(LANES_AS_FLOAT(LANES_SELECT(hit, number + 1u, (lane_uint)0)), at,
                 (global float*)plane);
 }
 
-/// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A variance.R
-/// variance.G variance.B Z distance P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart;
-/// `ids` holds the numbers of the object and the material plus 1, those that are asked for,
-/// `pixels` apart; 0 for none.
+/// One work-item makes VXL_LANES pixels. `image` holds the planes that are asked for, `pixels`
+/// values apart, in this order: R G B A variance.R variance.G variance.B Z distance P.X P.Y P.Z N.X
+/// N.Y N.Z. `ids` holds, likewise, the number of the object plus 1 and the number of the material
+/// plus 1, and 0 for none.
 kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                            global float* restrict image, global uint* restrict ids,
@@ -276,7 +279,7 @@ kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origi
     }
     if (VXL_SHOWS_COLOR) store_pixels(s.covered * sample_weight, &at, image + 3 * pixels);
     const lane_int hit = LANE_MASK(s.shown != VXL_NO_VOXEL);
-    // What pixels show that is known stays, and so does nothing where there still is nothing.
+    // A pixel keeps what it already shows. A pixel that still shows nothing keeps that, too.
     if (VXL_EARLIER && camera.earlier_samples > 0 && !lanes_any(hit & ~at.known)) return;
     const lane_uint ray = s.shown & LANES_AS_UINT(hit);
     store_geometry(&camera, shape.edge, world_origin, &batch, ray, hit, &at, pixels, image);

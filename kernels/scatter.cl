@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points -> the rays that go on from them: straight, reflected, refracted; and back: their
-// light.
+// surface points -> the rays that continue from them (straight, reflected, refracted); and those
+// rays' light -> the light of the points.
 //
-// Every ray is an entry of a batch and belongs to a node, the light along one ray of the tree that
-// Whitted 1980 describes. Surfaces that transmit light straight on make further entries of the same
-// node, layer by layer; reflection and refraction make nodes of the next depth. Light is gathered
-// by each entry from its own children, so that no sum depends on the order of the queues.
+// Every ray is an entry of a batch and belongs to a node: the light along one ray of the tree that
+// Whitted 1980 describes. Surfaces that transmit light straight add further entries of the same
+// node, layer by layer; reflection and refraction make nodes of the next depth. Each entry gathers
+// light from its own children, so that no sum depends on the order of the queues.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/child_rays.h"
@@ -20,9 +20,9 @@
 #include "lib/traverse/ray_queue.h"
 #include "shared/scene.h"
 
-/// Makes each ray from an observer the entry of a node of its own. `bodies` are the solids that
-/// transmit light, in which a ray may begin. A ray that comes into the world through a face on its
-/// side begins in front of this face.
+/// Makes each ray from an observer the entry of its own node. `bodies` are the solids that transmit
+/// light, in which a ray may begin. A ray that enters the world through one of its faces begins in
+/// front of this face.
 kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict solids,
                         uint body_count, global const uint* restrict bodies,
                         VXL_SURROUNDINGS_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
@@ -74,9 +74,9 @@ kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict so
     LANES_STORE(medium_inside(&in, around.ranks), batch.inside, first);
 }
 
-/// Adds a layer's light to its nodes, whose sums the first layer begins, and sends on the rays that
-/// surfaces don't cover wholly. Writes to `node_weights` the weight that an entry's reflected and
-/// refracted light has in its node.
+/// Adds a layer's light to its nodes, whose sums the first layer starts. Sends on the rays whose
+/// surfaces don't cover what lies behind completely. Writes to `node_weights` the weight that an
+/// entry's reflected and refracted light has in its node.
 kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
                        global const uint* restrict colors, float min_weight, uint first_layer,
                        VXL_BATCH_PARAMETERS, uint count, global float* restrict node_weights,
@@ -100,18 +100,18 @@ kernel void pass_layer(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS,
     put_rays(&queue, &on, &slots);
 }
 
-/// The place to which the reflected or refracted rays of a packet's entries are written.
+/// Where the reflected or refracted rays of a packet's entries are written.
 typedef struct {
     RayQueue queue;
-    uint compact;  // 0: lane i writes to `place` + i, even without a ray
+    uint compact;  // 0: lane i writes to slot `place` + i, even without a ray
     uint place;
     global uint* counters;
     global uint* restrict nodes;           // of the entries' children
     global float* restrict child_weights;  // of the children
 } Destination;
 
-/// Puts the wanted lanes of `r` into the queue of children and notes where, for gather_light.
-/// Without compaction every entry has its place, and unwanted places hold idle rays.
+/// Puts the wanted lanes of `r` into the queue of children and notes their slots for gather_light.
+/// Without compaction every entry has a slot, and unwanted slots hold idle rays.
 static inline void put_children(const Destination* to, NewRays* r, Scattered s, lane_int valid) {
     Slots slots;
     lane_uint at;
@@ -129,7 +129,7 @@ static inline void put_children(const Destination* to, NewRays* r, Scattered s, 
     LANES_STORE(s.returned, to->child_weights, 0);
 }
 
-/// The share of a pixel that the entries' reflected and refracted light may still add.
+/// The weight in a pixel that the entries' reflected and refracted light may still have.
 static inline lane_float weight_behind(const RayBatch* batch,
                                        global const float* restrict node_weights, uint first) {
     const lane_float one = (lane_float)1.0f;
@@ -143,13 +143,12 @@ static inline lane_float weight_behind(const RayBatch* batch,
     return path_float(batch->paths, VXL_PATH_WEIGHT, batch->stride, first) * largest(node_weight);
 }
 
-/// The index of a value of VXL_TINTED among the children's weights: of the colours that surfaces
-/// give to what they mirror.
+/// The index, in `child_weights`, of the tint that a surface gives to what it mirrors.
 static inline uint tint_of(uint channel, uint stride, uint entry) {
     return ((VXL_REFRACTS ? 2u : 1u) + channel) * stride + entry;
 }
 
-/// Writes the colours that a packet's surfaces give to what they mirror.
+/// Writes the tints that a packet's surfaces give to what they mirror.
 static inline void store_tints(const Surroundings* around, const ScatterPoint* p,
                                global const uint* restrict colors, const RayBatch* batch,
                                global float* restrict child_weights, uint first) {
@@ -166,9 +165,9 @@ static inline void store_tints(const Surroundings* around, const ScatterPoint* p
                     tint_of(c, batch->stride, first));
 }
 
-/// Sends reflected and refracted rays from entries begin .. end-1 of the batch. The children hold,
-/// for each entry, the node and the weight of its reflected light and, `stride` values later, those
-/// of its refracted light.
+/// Sends reflected and refracted rays from entries begin .. end-1 of the batch. For each entry, the
+/// arrays of children hold the node and the weight of its reflected light and, `stride` values
+/// later, of its refracted light.
 kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float min_weight,
                          uint compact, global const uint* restrict colors, VXL_BATCH_PARAMETERS,
                          uint begin, uint end, VXL_CHILDREN_PARAMETERS,
@@ -203,8 +202,8 @@ kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float 
     put_children(&to, &ray, refracted, p.valid);
 }
 
-/// Adds to each node the light of its entry's children, which `light` holds. One work-item takes
-/// one entry.
+/// Adds the light of each entry's children, which `light` holds, to the entry's node. One work-item
+/// takes one entry.
 kernel void gather_light(uint begin, uint end, VXL_CHILDREN_PARAMETERS,
                          global const float* restrict transmittance,
                          global const uint* restrict paths, uint stride,

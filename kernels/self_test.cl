@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// questions -> answers that are known: a driver that gives others is refused. What is asked is what
-// images depend on, in code of their own (runtime/opencl/self_test/self_test.hpp).
+// questions -> answers that are known: a driver that gives other answers is refused. The questions
+// cover what images depend on, in code written for this test
+// (runtime/opencl/self_test/self_test.hpp).
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/walk.h"
@@ -57,7 +58,7 @@ static inline void answer_rays(PyramidShape shape, global const uint* restrict v
     ANSWER_FLOAT(LANES_SELECT(hit, w.t, (lane_float)0.0f), VXL_KNOWN_HIT_T);
 }
 
-/// One work-item: as many columns as lanes.
+/// One work-item answers as many columns as it has lanes.
 kernel void answer_lanes(global const uint* restrict questions, PyramidShape shape,
                          global const uint* restrict voxels, global uint* restrict answers) {
     const uint first = work_item() * VXL_LANES;
@@ -87,7 +88,7 @@ static inline int sum_from(short start, short factor) {
     return (int)(short)(four.x + four.y + four.z + four.w) * factor;
 }
 
-/// One work-item: one column. The atomics' answers are in one row.
+/// One work-item answers one column. The atomics' answers are in one row.
 kernel void answer_numbers(global const uint* restrict questions, global uint* restrict answers) {
     const uint first = work_item();
     if (first >= VXL_KNOWN_COLUMNS) return;

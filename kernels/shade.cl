@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hits -> surface points: the place, surface and normal that each ray met, and the light there
-// without lights: ambient light and emission.
+// hits -> surface points: the position, surface and normal that each ray met, and the light there
+// that needs no light sources: ambient light and emission.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/emission_share.h"
@@ -21,7 +21,7 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// What only scenes with textures need.
+// These headers and parameters are needed only by scenes with textures.
 #if VXL_TEXTURES
 #include "lib/surface/paint.h"
 #define VXL_FOOTPRINT_PARAMETER Footprint footprint,
@@ -44,20 +44,20 @@
 #define VXL_HIT_DETAIL_PARAMETERS \
     VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS VXL_CUBE_STEPS_PARAMETER
 
-/// The points where rays met their surfaces: the place in the voxel, and the unit normal in
+/// The points where rays met their surfaces: the position in the voxel, and the unit normal in
 /// metric space.
 typedef struct {
     Vector place, normal;
 } SurfacePoint;
 
-/// A gradient in the voxels of the hits, as a unit normal in metric space.
+/// Turns a gradient in the voxels of the hits into a unit normal in metric space.
 static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vector gradient) {
     if (VXL_INSTANCES) gradient = world_gradient(&h->ray, gradient, h->of_instance);
     return unit(scaled(gradient, world->shape.inverse_edge));
 }
 
-/// Cubes: the point lies exactly on the face that was crossed; the normal is that face's, towards
-/// the ray.
+/// Sets the points and normals of cubes: the point lies exactly on the face that was crossed; the
+/// normal is the face's, towards the ray.
 static inline void meet_cubes(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
     const Vector d = h->ray.direction;
     const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
@@ -82,7 +82,7 @@ static inline void meet_cubes(const WorldView* world, const ShadedHit* h, Surfac
         p->normal = select_vector(cubes & h->of_instance, normal_of(world, h, face), p->normal);
 }
 
-/// Smooth voxels: the normal is the gradient of the distance field.
+/// Sets the normals of smooth voxels: gradients of the distance field.
 static inline void meet_smooth(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
     const Field field = read_field(world->surface.fields, h->voxel & LANES_AS_UINT(h->smooth));
     Vector g;
@@ -90,7 +90,7 @@ static inline void meet_smooth(const WorldView* world, const ShadedHit* h, Surfa
     p->normal = select_vector(h->smooth, normal_of(world, h, g), p->normal);
 }
 
-/// Triangles: the normal is that of the plane.
+/// Sets the normals of triangles: those of their planes.
 static inline void meet_triangles(const WorldView* world, const ShadedHit* h, lane_int triangles,
                                   SurfacePoint* p) {
     global const float* corners = world->surface.triangles;
@@ -103,7 +103,7 @@ static inline void meet_triangles(const WorldView* world, const ShadedHit* h, la
     }
 }
 
-/// Solids: the normal is the gradient of the solid's formula.
+/// Sets the normals of solids: gradients of the solids' formulas.
 static inline void meet_solids(const WorldView* world, const ShadedHit* h, lane_int solids,
                                SurfacePoint* p) {
     const lane_uint solid = (h->primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(solids);
@@ -118,14 +118,14 @@ static inline void meet_solids(const WorldView* world, const ShadedHit* h, lane_
 /// Mask: surfaces whose normals point along the rays, which see them from behind.
 static inline lane_int faces_away(const WorldView* world, const ShadedHit* h, Vector normal) {
     const Vector metric = scaled(h->world_way, world->shape.edge);
-    // A smooth surface's gradient may turn too far at its silhouette, but the walk knows the side.
+    // A smooth surface's gradient may be off at its silhouette, but the walk knows the side.
     lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
     if (VXL_SMOOTH)
         behind = LANES_SELECT(h->smooth, LANE_MASK((h->face & VXL_FACE_WITHIN) != 0u), behind);
     return behind;
 }
 
-/// The points that the rays have met, each as its kind of surface tells.
+/// The points that the rays have met, according to the kind of each surface.
 static inline SurfacePoint meet_surface(const WorldView* world, const ShadedHit* h) {
     const Vector o = h->ray.origin, d = h->ray.direction, c = h->cell;
     const lane_float t = h->ray.t, zero = (lane_float)0.0f;
@@ -179,14 +179,14 @@ static inline lane_uint glass_side(const WorldView* world, const ShadedHit* h,
            (LANES_AS_UINT(between) & (inside << VXL_SIDE_BEYOND_SHIFT));
 }
 
-/// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. Sets the opacity
-/// of hidden surfaces to 0.
+/// VXL_SIDE_* bits of surfaces that rays meet inside the objects of `before`. Sets the opacity of
+/// hidden surfaces to 0.
 static inline lane_uint side_of(const WorldView* world, const ShadedHit* h, const MediumSet* before,
                                 lane_int behind, lane_uint material,
                                 global const float* restrict materials,
                                 global const uint* restrict ranks, lane_float* opacity) {
     lane_int leaving = medium_set_holds(before, h->packed) | behind;
-    lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
+    lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes; faces out of them
     lane_uint glass = (lane_uint)0;
     if (VXL_CUBE_BODIES) {
         const lane_int cube = is_cube(h->packed, h->primitive) & h->hit;
@@ -199,7 +199,7 @@ static inline lane_uint side_of(const WorldView* world, const ShadedHit* h, cons
         hidden |= exit & ~is_joined(h->packed, materials);
         hidden =
             LANES_SELECT(inner, ~same_medium(effective_medium(before, ranks), h->packed), hidden);
-        // An observer inside of a joined body is not on any face of it.
+        // An observer inside a joined body is not on any face of it.
         const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
         hidden |= is_cube(h->packed, h->primitive) & LANE_MASK(axis == 3u) &
                   is_joined(h->packed, materials);
@@ -214,7 +214,8 @@ static inline lane_uint side_of(const WorldView* world, const ShadedHit* h, cons
            (glass & ~VXL_SIDE_HIDDEN);
 }
 
-/// Starts the radiance of the rays. Maps multiply emission by `emission_factors`.
+/// Starts the radiance of the rays: ambient light and emission of surfaces, and the surroundings
+/// for rays that miss. Maps multiply emission by `emission_factors`.
 static inline void store_own_light(const WorldView* world, const ShadedHit* h,
                                    Environment environment, const SkyView* sky, uint from_observer,
                                    const Emitters* emitters, Vector position, lane_float opacity,
@@ -236,7 +237,7 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
         counts = emission_share(emitters, h, world->shape.edge, batch, first,
                                 looks | (h->hit & emits_light(materials, material)));
     }
-    lane_int in_medium = (lane_int)0;  // the path is scattered before it comes here
+    lane_int in_medium = (lane_int)0;  // mask: paths scattered before they come here
     if (VXL_SCATTERING) in_medium = scatters_before(batch, first);
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     for (int channel = 0; channel < 3; ++channel) {
@@ -255,8 +256,8 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
     }
 }
 
-/// Writes what is asked for of every hit: its point, normal, packed attributes and `sides`, and in
-/// `radiance` its ambient light and emission, or what is around the world.
+/// Writes what is asked for each hit: its point, normal, packed attributes and `sides`; and in
+/// `radiance` its ambient light and emission, or the surroundings of the world for a miss.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           VXL_SKY_PARAMETERS VXL_SKY_DEPTH_PARAMETER VXL_EMITTER_PARAMETERS
                               VXL_HIT_DETAIL_PARAMETERS global const float* restrict materials,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // observer -> rays: one sight ray for every sample of every pixel, clipped to the world.
 //
-// Rays come in tiles of 4 x 4 pixels, a tile's samples one after another. Whatever the number of
-// lanes, a ray's place is ((tile * samples) + sample) * 16 + pixel of the tile.
+// Rays come in tiles of 4 x 4 pixels, a tile's samples one after another. For every number of
+// lanes, a ray's index is ((tile * samples) + sample) * 16 + pixel of the tile.
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
@@ -11,13 +11,13 @@
 #include "lib/traverse/lens.h"
 #include "shared/scene.h"
 
-/// Observer metres to voxels, along one axis of the world.
+/// Converts observer metres to voxels, along one axis of the world.
 static inline lane_float along(float ax, float ay, float az, Vector v) {
     return fma(v.x, ax, fma(v.y, ay, v.z * az));
 }
 
-/// What packets of sight rays have in common. `offsets` holds x and y in [0, 1) of each sample in
-/// its pixel.
+/// What all packets of sight rays have in common. `offsets` holds the x and y in [0, 1) of each
+/// sample within its pixel.
 typedef struct {
     Camera camera;
     PyramidShape shape;
@@ -25,8 +25,8 @@ typedef struct {
     uint stride;
 } SightCast;
 
-/// Writes the rays of one packet, from ray `first` on: of a sample of the pixels in these columns
-/// and rows. There is none where they are outside of the image.
+/// Writes the rays of one packet: one sample of the pixels in these columns and rows, from ray
+/// `first` on. Pixels outside the image get no ray.
 static inline void cast_packet(const SightCast* cast, lane_int column, lane_int row, uint sample,
                                uint first, global float* restrict rays) {
     const Camera camera = cast->camera;
@@ -79,7 +79,7 @@ static inline void cast_packet(const SightCast* cast, lane_int column, lane_int 
     LANES_STORE(dx, rays, VXL_RAY_DX * stride + first);
     LANES_STORE(dy, rays, VXL_RAY_DY * stride + first);
     LANES_STORE(dz, rays, VXL_RAY_DZ * stride + first);
-    // The ray ends at the far surface. Where it leaves the world, the walk finds out exactly.
+    // The ray ends at the far surface. The walk finds out exactly where it leaves the world.
     const lane_float t_end = LANES_SELECT(seen, t_far - t_first, (lane_float)-1.0f);
     LANES_STORE(t_end, rays, VXL_RAY_END * stride + first);
 }
@@ -99,8 +99,8 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     cast_packet(&cast, column, row, group % (uint)camera.samples, first, rays);
 }
 
-/// Casts those of the pixels that a list names, 16 a tile: by their numbers along the image's rows,
-/// or VXL_NO_PIXEL.
+/// Casts the sight rays of the pixels that a list names, 16 a tile. `pixels` holds their numbers
+/// along the image's rows, or VXL_NO_PIXEL.
 kernel void cast_listed(Camera camera, PyramidShape shape, global const float* restrict offsets,
                         global const uint* restrict pixels, uint first_tile, uint count,
                         uint stride, global float* restrict rays) {
@@ -124,9 +124,9 @@ typedef struct {
     lane_int axis, axis_b, axis_c;  // the main axis, and the two across it
     lane_float sign, s_near, s_far;
     lane_int active;      // mask: the beam can be sent
-    lane_int idle;        // mask: the group has no ray
-    Span b_span, c_span;  // across: where the rays are at s_near and s_far
-    lane_float s_first;   // where the first ray begins
+    lane_int idle;        // mask: the group has no rays
+    Span b_span, c_span;  // across the axis: the range of the rays at s_near and s_far
+    lane_float s_first;   // s where the first ray begins
 } BeamGroup;
 
 static inline BeamGroup begin_group(PyramidShape shape, const BeamRays* r, lane_uint first_ray) {
@@ -147,7 +147,7 @@ static inline BeamGroup begin_group(PyramidShape shape, const BeamRays* r, lane_
     return g;
 }
 
-/// Widens beams by ray number `i` of their groups.
+/// Widens the beams to hold ray number `i` of their groups.
 static inline void add_ray(BeamGroup* g, const BeamRays* r, uint i) {
     const lane_uint ray = g->first_ray + i;
     const lane_int found = is_ray(r, ray), held = found & g->active;
@@ -166,7 +166,7 @@ static inline void add_ray(BeamGroup* g, const BeamRays* r, uint i) {
 
 /// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
 /// `scale`, a power of two, turns the rays' coordinates into the dilated occupancy's. Adds the
-/// number of clear beams, low word and high word, to `cleared`.
+/// number of clear beams to `cleared`, a low and a high word.
 kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
                         global const uint* restrict bricks, float scale,
                         global const float* restrict rays, uint count, uint stride,
@@ -187,8 +187,8 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * inverse_of_power(scale);
     const uint slots = VXL_BEAM_SLOTS(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * slots + first);
-    // The dilated occupancy's last leaf covers 4 voxels more, and so the step past its planes. A
-    // beam that begins within a step of the far side has looked at nothing.
+    // The dilated occupancy's last leaf extends 4 voxels beyond the world, which covers the step
+    // past its planes. A beam that begins within a step of the far side has looked at nothing.
     const lane_int clear = LANE_MASK(s_last >= g.s_far) & LANE_MASK(end >= g.s_far) &
                            LANE_MASK(g.s_first + VXL_BEAM_STEP < g.s_far);
     lane_int towards = g.axis | (~LANE_MASK(g.sign > 0.0f) & VXL_BEAM_DOWN);

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points + the sky -> a queue of shadow rays into it: local light's share of skylight.
+// surface points + the sky -> a queue of shadow rays into it: the skylight that local light
+// includes.
 #include "lib/lanes/work_item.h"
 #include "lib/light/direct_light.h"
 #include "lib/light/sky.h"
 #include "lib/sampling/directions.h"
 
-/// A number that is the same for the same points, in every image.
+/// A number that depends on the point alone, and so is equal in every image.
 static inline lane_uint seed_of_place(Vector position) {
     const lane_uint place =
         mixed_bits(mixed_bits(LANES_AS_UINT(position.x)) + LANES_AS_UINT(position.y));
     return decision_seed(mixed_number(place), LANES_AS_UINT(position.z));
 }
 
-/// A direction to a sky map, chosen in turn in proportion to the map's brightness and to the cosine
-/// with the normal. Sets its `weight` over the number of directions, by which both share all light.
+/// A direction to a sky map. Even and odd numbers alternate between a choice by the cosine with the
+/// normal and one by the map's brightness. Sets `weight` so that both choices together count all
+/// light once.
 static inline Vector direction_to_map(const SkyMap* map, Vector normal, uint number,
                                       uint directions, lane_uint seed, lane_float* weight) {
     const float to_map = (float)(directions / 2), evenly = (float)(directions - directions / 2);
@@ -33,9 +35,10 @@ static inline Vector direction_to_map(const SkyMap* map, Vector normal, uint num
     return way;
 }
 
-/// Adds the sky's light from direction `number` of `directions` above each surface point. They are
-/// as dense as the cosine with the normal, half of those to a map as dense as it is bright; the
-/// place of the point chooses them, so the same point has the same light in every image.
+/// Adds the sky's light from direction `number` of `directions` above each surface point.
+/// Directions are distributed by the cosine with the normal; with a map, half of them are
+/// distributed by the map's brightness. The point's position chooses them, so a point has the same
+/// light in every image.
 kernel void add_sky_light(VXL_WORLD_PARAMETERS, VXL_SKY_PARAMETERS uint number, uint directions,
                           global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
                           VXL_BATCH_PARAMETERS, uint count) {

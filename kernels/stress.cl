@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// rays -> what their discrete walks leave: `voxelume stress` compares it with exact arithmetic.
+// rays -> the cells and times of their discrete walks: `voxelume stress` compares these with exact
+// arithmetic.
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/walk.h"
@@ -15,7 +16,7 @@ static inline lane_uint mix_cell(lane_int x, lane_int y, lane_int z) {
            LANES_AS_UINT(z) * VXL_HASH_Z;
 }
 
-/// The edge, as a power of two, of the block around the walk's cell that is left in one step.
+/// The log2 of the edge of the block around the walk's cell that is left in one step.
 static inline lane_int block_log2(const Walk* w) {
     if (!VXL_BLOCKS) return (lane_int)0;
     const lane_uint mix = mix_cell(w->x >> 3, w->y >> 3, w->z >> 3) * VXL_HASH_FACTOR;
@@ -25,7 +26,7 @@ static inline lane_int block_log2(const Walk* w) {
 /// Walks rays 0 .. count-1 through at most `maximum` cells each. Arrays hold a multiple of 16 rays.
 ///
 /// Writes for each ray the number of cells entered, and a hash of the cells, axes and times in
-/// their order. With VXL_BLOCKS the walk leaves blocks of up to 64 cells in one step.
+/// order. With VXL_BLOCKS the walk leaves blocks of up to 64 cells in one step.
 kernel void digest_walks(PyramidShape shape, global const float* restrict rays, uint count,
                          uint stride, uint maximum, global uint* restrict digests) {
     const uint first = work_item() * VXL_LANES;
@@ -47,8 +48,8 @@ kernel void digest_walks(PyramidShape shape, global const float* restrict rays, 
     LANES_STORE(hash, digests, stride + first);
 }
 
-/// Lists the cells themselves: `maximum` places of x, y, z, axis and t, `stride` values apart.
-/// Places that a walk doesn't reach keep their contents.
+/// Lists the cells themselves: `maximum` slots of x, y, z, axis and t, `stride` values apart. Slots
+/// that a walk doesn't reach keep their contents.
 kernel void list_walks(PyramidShape shape, global const float* restrict rays, uint count,
                        uint stride, uint maximum, global int* restrict lists) {
     const uint first = work_item() * VXL_LANES;
@@ -68,8 +69,9 @@ kernel void list_walks(PyramidShape shape, global const float* restrict rays, ui
     }
 }
 
-/// Snaps rays of any origin and length to fixed point, as sight rays are, beginning where they
-/// enter the grid. Rays that miss the grid get t_end = -1. `snapped` may not be `rays`.
+/// Snaps rays of any origin and length to fixed point, as is done for sight rays. The snapped rays
+/// begin where they enter the grid. Rays that miss the grid get t_end = -1. `snapped` must not be
+/// `rays`.
 kernel void snap_rays(PyramidShape shape, global const float* restrict rays, uint count,
                       uint stride, global float* restrict snapped) {
     const uint first = work_item() * VXL_LANES;
@@ -90,7 +92,7 @@ kernel void snap_rays(PyramidShape shape, global const float* restrict rays, uin
     t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
     for (int a = 0; a < 3; ++a) {
         LANES_STORE(d[a], snapped, (uint)(VXL_RAY_DX + a) * stride + first);
-        // start_coordinate takes one rounded part of the origin for all lanes: here 0, so that the
+        // start_coordinate takes one rounded part of the origin for all lanes. It is 0 here, so the
         // rest is the lane's whole origin.
         const lane_float at = start_coordinate(0.0f, o[a], d[a], size[a], t_first);
         LANES_STORE(snap_position(at, (lane_float)0.0f, shape.fixed_point), snapped,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
+// rays -> hits: the discrete walk of every ray through the world to the first surface that it
+// meets.
 #include "lib/lanes/work_item.h"
 #include "lib/light/shadow_packet.h"
 #include "lib/packets/begin_inside.h"
@@ -35,11 +36,11 @@ kernel void trace_closest(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count
 }
 
 #if VXL_PATHS
-/// Finds the closest hits of the incoherent rays 0 .. count-1: reflected and refracted ones.
+/// Finds the closest hits of the incoherent rays 0 .. count-1, which are reflected or refracted.
 ///
-/// A work-item traces VXL_PACKETS(VXL_LANES) packets' rays in two interleaved packets. Lanes whose
-/// rays have ended wait until several have; then their hits are stored, and the lanes take on the
-/// next rays. The hits' bits are those of trace_closest.
+/// A work-item traces the rays of VXL_PACKETS(VXL_LANES) packets in two interleaved packets. Lanes
+/// whose rays have ended wait until several have ended; then the hits are stored, and the lanes
+/// take the next rays. The hits are bit for bit those of trace_closest.
 kernel void trace_scattered(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * (VXL_LANES * VXL_PACKETS(VXL_LANES));
     if (first >= count) return;
@@ -76,8 +77,8 @@ kernel void trace_scattered(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint cou
 
 #if VXL_OBSERVER_IN_MEDIUM
 /// Adds to the medium sets of rays 0 .. count-1, as begin_paths left them, the objects that only
-/// tracing finds; see find_beginnings. `maximum` is the number of such objects in the scene, smooth
-/// ones counted as one.
+/// tracing finds; see find_beginnings. `maximum` is the number of such objects in the scene, where
+/// all smooth objects count as one.
 kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
                          global const uint* restrict hollow, uint maximum, VXL_BATCH_PARAMETERS,
                          uint count) {
@@ -109,10 +110,10 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
 #endif
 
 /// Traces a queue of shadow rays that begin on surfaces. A ray that reaches its light adds its
-/// contribution to the radiance of the batch's ray for which it was sent.
+/// contribution to the radiance of the ray that it was sent for.
 ///
-/// Every target stands in the queue at most once, so no two work-items add to the same place. The
-/// first work-item alone adds the queue's length to `shadow_traced`, low word and high word.
+/// Every target stands in the queue at most once, so no two work-items add to the same value. Only
+/// the first work-item adds the queue's length to `shadow_traced`, a low and a high word.
 kernel void trace_shadows(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
                           VXL_SHADOW_QUEUE_PARAMETERS, VXL_BATCH_PARAMETERS) {
     const uint first = work_item() * (VXL_LANES * VXL_SHADOW_PACKETS);

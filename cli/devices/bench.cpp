@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume bench: run time against error, on scenes whose truth is known, and noise on any.
+// voxelume bench: measures run time against error on scenes whose truth is known, and noise on any
+// scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>

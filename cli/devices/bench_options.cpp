@@ -24,7 +24,7 @@ std::vector<int> numbers_in(const std::vector<std::string>& texts) {
     return numbers;
 }
 
-/// The scenes of files, by the names of these, in global light.
+/// The scenes of the user's files, by file name, in global light.
 std::map<std::string, Scene> own_scenes(const BenchCommand& command) {
     std::map<std::string, Scene> scenes;
     for (const std::string& file : command.own_scenes) {
@@ -40,7 +40,7 @@ std::map<std::string, Scene> own_scenes(const BenchCommand& command) {
     return scenes;
 }
 
-/// What a run of half a minute has. Kernels that aren't compiled yet take a minute more.
+/// Sets the options of a run of half a minute. Kernels that aren't compiled yet take a minute more.
 void make_quick(BenchOptions& options) {
     options.resolutions = {4, 8, 16, 32, 64, 128};
     options.finest_with_light = 64;

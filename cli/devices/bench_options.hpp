@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the command line of `bench` asks for.
+// The options of `bench`.
 #pragma once
 
 #include <string>
@@ -14,20 +14,20 @@ struct BenchCommand {
     bool is_quick = false;
     std::string page, json, csv, plot, peers;
     std::vector<std::string> only;
-    SceneOptions scene;                   ///< assets and changes of own scenes
+    SceneOptions scene;                   ///< assets and changes for the user's own scenes
     std::vector<std::string> own_scenes;  ///< files
-    std::vector<std::string> resolutions, placements, samples;  ///< with commas
+    std::vector<std::string> resolutions, placements, samples;  ///< lists with commas
     std::string size;
-    int repeats = 0;  ///< 0: as --quick says
+    int repeats = 0;  ///< 0: as --quick has it
     std::string device;
     bool quiet = false;
 };
 
-/// The options of the measurement. Reads own scenes. Throws Error::usage for a scene that there
-/// isn't, and Error as reading does.
+/// The options of the measurement. Reads the user's own scenes. Throws Error::usage for a scene
+/// that doesn't exist, and the errors of reading scenes.
 BenchOptions options_of(const BenchCommand& command);
 
-/// Refuses options that leave no row, or none of a scene that was asked for.
+/// Refuses options that leave no row at all, or no row for a scene that was asked for.
 void check_rows(const BenchCommand& command, const BenchOptions& options);
 
 }  // namespace voxelume::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume devices: what can render here, and why not otherwise.
+// voxelume devices: lists what can render here, and says why other devices can't.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -42,7 +42,7 @@ void print_json(const std::vector<DeviceInfo>& devices, int chosen) {
     fmt::print("{}\n", list.dump(2, ' ', false, keep));
 }
 
-/// The device that renders without --device, or why there is none.
+/// The device that renders without --device, or the reason why there is none.
 struct Choice {
     int index = -1;
     std::string fault;
@@ -81,7 +81,7 @@ void print_table(const std::vector<DeviceInfo>& devices, const Choice& choice) {
             "two halves of a CPU, too.\n");
 }
 
-/// There is none when what VOXELUME_DEVICE names isn't there.
+/// The chosen device. There is none if VOXELUME_DEVICE names a device that doesn't exist.
 Choice choice_of_device() {
     try {
         return {Device::open().info().index, {}};
@@ -98,7 +98,8 @@ Action add_devices(CLI::App& app) {
     app.add_flag("--json", *json, "print everything known of each device, as a JSON array");
     return [json]() -> int {
         const Choice choice = choice_of_device();
-        const std::vector<DeviceInfo> devices = list_devices();  // with the result of its self-test
+        const std::vector<DeviceInfo> devices = list_devices();  // includes the result of its
+                                                                 // self-test
         if (*json)
             print_json(devices, choice.index);
         else

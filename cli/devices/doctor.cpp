@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume doctor: what a report of a fault needs.
+// voxelume doctor: prints what a report of a fault needs.
 #include <fmt/format.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -46,7 +46,7 @@ Report system_report() {
     return report;
 }
 
-/// The variables that change what Voxelume or its OpenCL does.
+/// The environment variables that affect Voxelume or its OpenCL.
 Report environment_report() {
     Report report = Report::object();
     for (char** entry = environ; *entry != nullptr; ++entry) {

@@ -44,7 +44,7 @@ void add(const Volume& volume, Hasher& hasher) {
     hasher.add(volume.object_ids());
 }
 
-/// Each channel that kernels fill, but for what moves.
+/// All channels that kernels fill, except those about motion, samples and noise.
 Channels all_channels() {
     Channels channels = kNoChannels;
     for (const ChannelRow& row : channel_table()) channels.*row.member = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures whose bits are known: what a device's kernels make of them, for `doctor`.
+// Pictures whose bits are known: `doctor` compares them with what a device's kernels compute.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@
 
 namespace voxelume::cli {
 
-/// A scene, and the hash of all that is rendered of it, on any device.
+/// A scene, and the hash of everything that is rendered of it, on any device.
 struct KnownPicture {
     std::string_view name;
     std::string scene;       ///< JSON
-    bool is_volume = false;  ///< its volumetric image
-    std::string_view hash;   ///< 16 hexadecimal digits, of all frames
+    bool is_volume = false;  ///< hashes the volumetric image instead
+    std::string_view hash;   ///< 16 hexadecimal digits, over all frames
 };
 
-/// Together they launch every kernel that images take.
+/// The known pictures. Together they launch every kernel that images need.
 std::vector<KnownPicture> known_pictures();
 
-/// A file that scenes of known pictures name.
+/// A file that the scenes of known pictures use.
 struct KnownFile {
     std::string_view name;
     std::string text;
@@ -31,7 +31,7 @@ struct KnownFile {
 
 std::vector<KnownFile> known_files();
 
-/// A folder for the files of the known pictures, which is removed with all that is in it.
+/// A folder with the files of the known pictures. It is removed with all its contents.
 class KnownFiles {
   public:
     /// Writes the files into a new temporary folder. Throws Error::output if that fails.
@@ -47,7 +47,7 @@ class KnownFiles {
 };
 
 /// Renders all frames of a picture, without the cache of models and worlds, and returns their hash.
-/// Throws Error as render_frames does.
+/// Throws the errors of render_frames.
 std::string hash_of_render(const KnownPicture& picture, const KnownFiles& files,
                            const Device& device, const std::stop_token& stop);
 

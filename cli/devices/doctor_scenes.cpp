@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes of the known pictures: together they launch every kernel that images take.
+// The scenes of the known pictures. Together they launch every kernel that images need.
 #include <fmt/format.h>
 
 #include <initializer_list>
@@ -11,7 +11,7 @@
 namespace voxelume::cli {
 namespace {
 
-// Matt objects of each surface, without anything that sends rays on.
+// This scene has matt objects with each kind of surface, and nothing that sends rays on.
 constexpr const char* kMatt = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1.3, 1.1, 1.2]},
           "ambient": [0.2, 0.1, 0.1], "medium": {"absorption": [0.2, 0.1, 0.3]},
@@ -33,7 +33,7 @@ constexpr const char* kMatt = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [28, 18], "samples": 2, "adaptive": 0.05}})";
 
-// Glass around the observer, mirrors, an emissive object and a light with an area.
+// This scene has glass around the observer, mirrors, an emissive object and a light with an area.
 constexpr const char* kLocal = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.5, -1.1, -2.4], "max": [1.5, 1.3, 1.6]},
           "ambient": [0.2, 0.2, 0.2], "medium": {"absorption": [0.1, 0.2, 0.3]}},
@@ -61,19 +61,21 @@ constexpr const char* kLocal = R"({"voxelume": 1,
 "render": {"size": [28, 18], "samples": 2, "depth": 2, "bounces": 3, "shadow": "filtered",
            "light": "LIGHT"}})";
 
-// A medium that scatters light, and a light without an area, in place of their first words.
+// These replace the first words of a scene: a medium that scatters light, and a light without an
+// area.
 constexpr const char* kMist = R"("medium": {"scattering": [0.5, 0.6, 0.7], "anisotropy": 0.3, )";
 constexpr const char* kPoint =
     R"("lights": [{"type": "point", "position": [0.3, 0.9, 0.2], "intensity": 0.5}, )";
 
-// Metal, and a light with an area that it shows, in place of their first words.
+// These replace the first words of a scene: metal, and a light with an area that the metal
+// reflects.
 constexpr const char* kBrass =
     R"("materials": {"brass": {"base_color": [0.9, 0.7, 0.3], "metallic": 1, "roughness": 0.2}, )";
 constexpr const char* kBrassBox = R"({"model": "box", "material": "brass", )";
 constexpr const char* kDisk = R"("lights": [{"type": "disk", "position": [0.4, 0.8, -0.2],
             "direction": [-0.2, -1, 0.3], "radius": 0.2}, )";
 
-// What a display of voxels shows from all around.
+// This scene shows a voxel display that is seen from all sides.
 constexpr const char* kLattice = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
           FOG"ambient": [0.3, 0.2, 0.2]},
@@ -88,7 +90,8 @@ constexpr const char* kLattice = R"({"voxelume": 1,
                          "layout": "LAYOUT", "visibility": "VISIBILITY"}},
 "render": {"samples": 2}})";
 
-// Meshes with textures, groups and normals of their own; cuts in them; an open one.
+// This scene has meshes with their own textures, groups and normals, cuts in meshes, and an open
+// mesh.
 constexpr const char* kMeshes = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1.2, 1, 1]}},
 "materials": {"clay": {"color": [0.8, 0.6, 0.4]}, "glow": {"emission": [0.9, 0.4, 0.2]}},
@@ -112,7 +115,8 @@ constexpr const char* kMeshes = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [28, 18], "samples": 2}})";
 
-// Meshes whose tips alone are triangles: rays from one surface pass the other's back.
+// This scene has meshes of which only the tips are triangles: rays from one surface pass the
+// other's back.
 constexpr const char* kMixed = R"({"voxelume": 1,
 "world": {"voxel_size": 0.03, "bounds": {"min": [-0.9, -0.6, -0.5], "max": [0.9, 1, 0.5]},
           "ambient": [0.2, 0.2, 0.3]},
@@ -126,7 +130,7 @@ constexpr const char* kMixed = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 36}},
 "render": {"size": [36, 28], "depth": 1}})";
 
-// A block that leaves the bricks in which it was.
+// This scene has a block that leaves the bricks in which it was.
 constexpr const char* kMotion = R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-1.6, -1, -1], "max": [4.8, 1, 1]}},
 "materials": {"clay": {"color": [0.8, 0.6, 0.4]}},
@@ -142,12 +146,13 @@ constexpr const char* kMotion = R"({"voxelume": 1,
     "keys": [{"frame": 1, "value": [0.8, 0, 0]}, {"frame": 2, "value": [-1, 0, 0.1]}]}]},
 "render": {"size": [256, 128], "samples": 2}})";
 
-// Goes in front of an entry of the world.
+// This text is inserted in front of an entry of the world.
 constexpr const char* kFog = R"("medium": {"absorption": [0.3, 0.2, 0.1],
                                 "density": {"kind": "height", "base": 0.1, "scale_height": 0.5}},
           )";
 
-// Half of a tetrahedron has a texture of four half transparent pixels, by which it glows, too.
+// Half of this tetrahedron has a texture of four half-transparent pixels, which also makes it
+// emissive.
 constexpr const char* kTextured =
     R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":152,"uri":"data:application/octet-stream;b)"
     R"(ase64,AAAAAAAAAAAAAAAAAAAAPwAAAAAAAAAAAAAAAAAAAD8AAAAAAAAAAAAAAAAAAAA/Os0TvzrNE786zRO/AACAPwAA)"
@@ -175,7 +180,7 @@ f 1 2 4
 f 2 3 4
 )";
 
-/// A drop with its tip upwards. Its text is the same wherever it is made.
+/// The text of a drop with its tip upwards. It is the same on every machine.
 std::string drop() {
     constexpr int kAround = 12;
     constexpr double kHalf = 0.5, kLong = 0.866025,

@@ -13,12 +13,12 @@
 namespace voxelume::cli {
 namespace {
 
-constexpr double kRays = 1e4;  // of each test: seconds on a CPU whose kernels are compiled
+constexpr double kRays = 1e4;  // per test: seconds on a CPU whose kernels are compiled
 
-/// A test that was run, and what it found.
+/// A test that was run, and its result.
 struct Test {
     std::string name;
-    std::string hash;  ///< of a picture; empty for one that compares with exact answers
+    std::string hash;  ///< of a picture; empty for a test that compares with exact answers
     bool is_right = true;
 };
 
@@ -27,7 +27,7 @@ class KernelTests {
     KernelTests(const Device& device, std::stop_token stop)
         : device_(device), stop_(std::move(stop)) {}
 
-    /// Cases of every test with exact answers.
+    /// Runs the tests with exact answers.
     Report compare_exactly() {
         Report rows = Report::array();
         const std::string fault = fault_of_known_bits(device_);
@@ -42,7 +42,7 @@ class KernelTests {
         return rows;
     }
 
-    /// The hashes of known pictures.
+    /// Compares the hashes of known pictures.
     Report draw_pictures() {
         Report rows = Report::array();
         const KnownFiles files;
@@ -59,7 +59,8 @@ class KernelTests {
         return rows;
     }
 
-    /// Every kernel: the picture that tells of it, or else a test, and whether all are right.
+    /// Lists every kernel with the picture that tests it, or else a test, and says whether all are
+    /// right.
     Report kernels(bool as_json) const {
         Report rows = Report::array();
         for (const KernelName& kernel : kernel_names()) {
@@ -83,7 +84,7 @@ class KernelTests {
         note({name, "", result.mismatches == 0});
     }
 
-    /// Notes the kernels that a test has launched, and returns their number.
+    /// Records the kernels that a test has launched, and returns their number.
     size_t note(const Test& test) {
         size_t kernels = 0;
         for (const auto& [kernel, count] : launches_of(device_)) {

@@ -14,9 +14,9 @@ struct DeviceTests {
     bool are_right = true;
 };
 
-/// Holds the device against exact arithmetic, and its pictures against their known hashes. A kernel
-/// is right if all tests that launch it are. With `as_json` a row has all tests of its kernel, and
-/// otherwise the first. Throws Error as rendering does.
+/// Compares the device with exact arithmetic, and its pictures with their known hashes. A kernel is
+/// right if all tests that launch it are. With `as_json`, a row lists all tests of its kernel,
+/// otherwise the first. Throws the errors of rendering.
 DeviceTests test_all_kernels(const Device& device, bool as_json, const std::stop_token& stop);
 
 }  // namespace voxelume::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume stress: what a device does, held against exact arithmetic, case after case.
+// voxelume stress: compares what a device computes with exact arithmetic, case after case.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
@@ -19,11 +19,11 @@
 namespace voxelume::cli {
 namespace {
 
-/// An interrupted run ends after the batch that it is in, whose kernel may have to be compiled. A
+/// An interrupted run ends after its current batch, whose kernel may still have to be compiled. A
 /// second Ctrl-C ends the program.
 constexpr std::chrono::minutes kGrace{10};
 
-/// Each once, in the order in which they are named; all without names.
+/// The named tests, each once, in the order in which they are named; all tests if none is named.
 std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
     std::vector<StressTest> tests = stress_tests();
     if (only.empty()) return tests;
@@ -45,8 +45,8 @@ void print_examples(const StressTest& test, std::span<const StressExample> examp
     std::fflush(stdout);
 }
 
-/// Runs a test and prints its line. The first mismatches are printed as they are found, every half
-/// a minute or so, so that a run that is ended early has told them.
+/// Runs a test and prints its line. The first mismatches are printed as they are found, about every
+/// half minute, so that a run that is ended early has reported them.
 StressResult run_test(const StressTest& test, const StressCommand& command, const Device& device,
                       const std::stop_token& stop) {
     constexpr uint64_t kRaysAtOnce = 1 << 25;

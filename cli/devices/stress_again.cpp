@@ -9,13 +9,13 @@
 namespace voxelume::cli {
 namespace {
 
-/// Variables of the environment that change what a device does.
+/// Environment variables that affect what a device does.
 constexpr std::array kSettingsOfTests = {
     "VOXELUME_DEVICE",    "VOXELUME_LANES",     "VOXELUME_WORK_GROUP",
     "VOXELUME_UNITS",     "VOXELUME_BUFFER_MB", "VOXELUME_BUILD_OPTIONS",
     "VOXELUME_SELF_TEST", "VOXELUME_BATCH",     "POCL_MAX_PTHREAD_COUNT"};
 
-/// A word of a shell's line.
+/// The text as one word of a shell command.
 std::string shell_word(const std::string& text) {
     const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;

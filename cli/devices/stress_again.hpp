@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line of a shell that tries one case of `stress` again.
+// Prints the shell command that runs one case of `stress` again.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ struct StressCommand {
     bool quiet = false;
 };
 
-/// The command that tries one case of a test again, with the cases that it was tried with.
+/// The command that runs one case of a test again, with the environment variables, seed and device
+/// of the first run.
 std::string command_for(const std::string& test, uint64_t number, const StressCommand& command);
 
 }  // namespace voxelume::cli

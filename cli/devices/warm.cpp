@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume warm SCENE...: fills the cache with what rendering the scenes takes.
+// voxelume warm SCENE...: fills the cache with what rendering the scenes needs.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ struct WarmCommand {
     bool volume = false, quiet = false;
 };
 
-/// Renders a scene's frames into nothing, and says what had to be compiled for it.
+/// Renders a scene's frames without writing them, and says what had to be compiled.
 void warm_up(const WarmCommand& command, const std::string& input) {
     const auto start = std::chrono::steady_clock::now();
     SceneOptions options = command.scene;
@@ -47,8 +47,8 @@ void warm_up(const WarmCommand& command, const std::string& input) {
     int compiled = 0;
     render.compiling = [&](int, int) { ++compiled; };
     if (!command.quiet) render.warn = warning_printer(false, [] {});
-    // Pictures have kernels of their own, which compute colour alone. A newly opened device
-    // builds the programs that a new process will look for, and keeps them when it is closed.
+    // Pictures have their own kernels, which compute only colour. A newly opened device builds the
+    // programs that a new process will look for, and keeps them when it is closed.
     const Channels channels = parse_channels(command.channels, "warm: --channels");
     for (const Channels& wanted : {channels, kColorAlone}) {
         render.channels = wanted;

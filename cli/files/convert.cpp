@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume convert A B: a volumetric image, or voxels, as another format.
+// voxelume convert A B: writes a volumetric image, or voxels, in another format.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <string>
@@ -26,7 +26,7 @@ constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
                                 std::pair{std::string_view("y"), Axis::y},
                                 std::pair{std::string_view("z"), Axis::z}};
 
-/// The format of a volumetric image, which a file of voxels can't become.
+/// The format of a volumetric image. Throws for a file of voxels, which can't become one.
 VolumeFormat format_of(const std::string& from, const std::string& to) {
     const bool has_voxels = is_model_file(from) && ending_of(from) != ".vdb";
     if (has_voxels)

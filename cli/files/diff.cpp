@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume diff A B: how far two images are from each other, or the frames of two animations.
+// voxelume diff A B: compares two images, or the frames of two animations.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -17,13 +17,13 @@ namespace {
 
 struct DiffCommand {
     DiffNames names;
-    std::vector<std::string> channels;  ///< names with commas between them; empty: all
+    std::vector<std::string> channels;  ///< names separated by commas; empty: all
     double threshold = 0;
     DiffLimits limits;
     bool json = false;
 };
 
-/// Throws Error::usage where FLIP is wanted of channels that don't have the colours.
+/// Throws Error::usage if FLIP is wanted for channels without the colours.
 void check_colors(const DiffLimits& limits, const std::vector<std::string>& channels) {
     if (!limits.flip || channels.empty()) return;
     for (const char* color : {"R", "G", "B"})
@@ -31,7 +31,7 @@ void check_colors(const DiffLimits& limits, const std::vector<std::string>& chan
             fail_usage("diff: FLIP compares colours, and --channels leaves {} out", color);
 }
 
-/// Throws where images lack what is compared.
+/// Throws if images lack the channels to compare.
 void check_channels(const Image& a, const Image& b, const DiffFiles& files,
                     const ImageDifference& difference, const DiffLimits& limits) {
     if (difference.channels.empty())
@@ -44,7 +44,7 @@ void check_channels(const Image& a, const Image& b, const DiffFiles& files,
                 fail_usage("diff: FLIP compares colours, and {} has no {}", *name, color);
 }
 
-/// Compares files, writes the pictures of it, and names the files in messages.
+/// Compares two files, writes pictures of the differences, and names the files in messages.
 ImageDifference compare_files(const DiffFiles& files, const CompareOptions& options,
                               const DiffLimits& limits) {
     const Image a = Image::read(files.a), b = Image::read(files.b);
@@ -87,9 +87,9 @@ Report report_of(const ImageDifference& difference) {
     return report;
 }
 
-/// A row of an animation's table: the channel with the largest RMSE stands for all, where there is
-/// no error one with unequal ids, the one with most values that aren't finite for those, and
-/// `missing` are channels of one image alone.
+/// A row of an animation's table. The channel with the largest RMSE stands for all or, without an
+/// error, one with unequal ids. `unmatched` is the largest count of values that are finite in only
+/// one image, and `missing` are channels that only one image has.
 Report frame_row(int frame, const ImageDifference& difference) {
     const std::vector<ChannelDifference>& channels = difference.channels;
     const auto worst = std::ranges::max_element(channels, {}, [](const ChannelDifference& c) {
@@ -107,18 +107,18 @@ Report frame_row(int frame, const ImageDifference& difference) {
             {"missing", missing.empty() ? Report() : missing}};
 }
 
-/// What a frame's JSON has: its row, and all that is known of it as an image.
+/// The JSON of a frame: its row, and everything known about it as an image.
 Report whole_frame(int frame, const ImageDifference& difference) {
     Report report = frame_row(frame, difference);
     report.update(report_of(difference));
     return report;
 }
 
-/// What a comparison has found so far.
+/// The results of a comparison so far.
 struct Findings {
     Report report;
     std::optional<std::string> excess;  ///< the first limit that is exceeded
-    std::optional<Error> failure;       ///< of the first frame that can't be compared
+    std::optional<Error> failure;       ///< the error of the first frame that can't be compared
 };
 
 void add_image(const DiffFiles& files, const ImageDifference& difference,
@@ -135,13 +135,14 @@ void add_image(const DiffFiles& files, const ImageDifference& difference,
         findings.excess = fmt::format("frame {}: {}", files.frame, *findings.excess);
 }
 
-/// A frame that can't be compared is listed, and the others are compared all the same.
+/// Lists a frame that can't be compared. The others are still compared.
 void add_failure(const DiffFiles& files, const Error& error, Findings& findings) {
     findings.report["not compared"].push_back(files.frame);
     if (!findings.failure) findings.failure = error;
 }
 
-/// Throws what makes the comparison fail. Frames that can't be compared count more than limits.
+/// Throws if the comparison fails. Frames that can't be compared take precedence over exceeded
+/// limits.
 void throw_findings(const Findings& findings) {
     const std::string excess =
         findings.excess ? "the images differ: " + *findings.excess : std::string();
@@ -159,7 +160,9 @@ void throw_findings(const Findings& findings) {
 int run(DiffCommand command) {
     const CompareOptions options{listed(command.channels), command.threshold};
     DiffLimits& limits = command.limits;
-    if (!limits.flip && !command.names.flip.empty()) limits.flip = 1;  // a picture needs one, too
+    if (!limits.flip && !command.names.flip.empty())
+        limits.flip = 1;  // a picture needs a limit,
+                          // too
     check_colors(limits, options.channels);
     for (const std::string& picture : {command.names.output, command.names.flip})
         if (!picture.empty()) check_image_output(picture, "diff");

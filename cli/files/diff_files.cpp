@@ -22,7 +22,7 @@ std::vector<int> frames_of(const DiffNames& names) {
     return {frames.begin(), frames.end()};
 }
 
-/// The file that a name leads to.
+/// The file that a name leads to, with links resolved.
 fs::path target_of(const std::string& name) {
     std::error_code error;
     const fs::path target = fs::weakly_canonical(name, error);

@@ -9,14 +9,14 @@
 namespace voxelume::cli {
 namespace {
 
-/// Checks an option's text, a number of pixels or a share of them: "12" or "0.5%".
+/// Checks an option's text: a number of pixels, or a percentage such as "0.5%".
 std::string check_above(const std::string& text) {
     const bool is_share = text.ends_with('%');
     const std::string number = is_share ? text.substr(0, text.size() - 1) : text;
     return is_share ? in_range(0, 100)(number) : in_range(0, 1e18, Number::whole)(number);
 }
 
-/// How many pixels `text` allows above the threshold.
+/// The number of pixels above the threshold that `text` allows.
 double allowed_pixels(const std::string& text, uint64_t pixels) {
     if (!text.ends_with('%')) return std::stod(text);
     return std::stod(text.substr(0, text.size() - 1)) / 100 * double(pixels);
@@ -38,7 +38,7 @@ std::optional<std::string> excess_of_channels(const ImageDifference& difference,
     return {};
 }
 
-/// Tells of the channel with most unequal ids.
+/// Describes the channel with the most unequal ids, if there are too many.
 std::optional<std::string> excess_of_ids(const ImageDifference& difference,
                                          const std::string& limit) {
     const auto unequal = [](const ChannelDifference& c) { return c.is_id ? c.differing : 0; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume import FILE: the scene that `render` would show of a model file, to be changed.
+// voxelume import FILE: writes the scene that `render` would show for a model file, for editing.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>

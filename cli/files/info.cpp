@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume info FILE: what is in a file.
+// voxelume info FILE: describes what a file contains.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>

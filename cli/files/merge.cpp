@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume merge PART...: parts of a run that several processes rendered -> the run's files, or
-// that they are all there.
+// voxelume merge PART...: joins the parts of a run that several processes rendered into the run's
+// files, or checks that all parts exist.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -29,7 +29,7 @@ struct MergeCommand {
     bool quiet = false;
 };
 
-/// A part, and the file that tells of it.
+/// A part, and the file that describes it.
 struct Part {
     fs::path file;
     ShardManifest manifest;
@@ -40,7 +40,7 @@ template <class... Args>
     throw Error(ErrorKind::input, "merge: " + fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Why two parts don't belong to one run; empty if they do.
+/// The reason why two parts don't belong to one run; empty if they do.
 std::string difference(const ShardManifest& a, const ShardManifest& b) {
     if (a.shard.count != b.shard.count)
         return fmt::format("one is of {} parts, the other of {}", a.shard.count, b.shard.count);
@@ -67,7 +67,7 @@ void check_same_run(const std::vector<Part>& parts) {
                    part.file.string(), reason);
 }
 
-/// Throws where a part isn't there, or there twice.
+/// Throws if a part is missing or exists twice.
 void check_numbers(const std::vector<Part>& parts) {
     std::map<int, const Part*> known;
     for (const Part& part : parts) {
@@ -89,7 +89,7 @@ void check_numbers(const std::vector<Part>& parts) {
            count - int(known.size()) == 1 ? "is" : "are", fmt::join(missing, ", "));
 }
 
-/// The path of a part's file, which has the bytes that it was told of with.
+/// The path of a part's file, after checking that its bytes are those that the manifest lists.
 fs::path checked_file(const Part& part, const ShardFile& file) {
     fs::path path = part.file.parent_path() / file.name;
     if (const std::string hash = hash_of_file(path); hash != file.hash)
@@ -99,7 +99,8 @@ fs::path checked_file(const Part& part, const ShardFile& file) {
     return path;
 }
 
-/// Every frame of the run must be one part's, and its files as they were written.
+/// Checks that every frame of the run belongs to one part, and that its files are as they were
+/// written.
 void check_frames(const std::vector<Part>& parts) {
     std::map<int, const Part*> known;
     for (const Part& part : parts)
@@ -116,8 +117,8 @@ void check_frames(const std::vector<Part>& parts) {
         if (!known.contains(frame)) refuse("no part has frame {}", frame);
 }
 
-/// The files of the image that a part is of. A part may be someone else's, so what it names lies in
-/// its folder, links followed, unless files may lie `outside`.
+/// The files of the image that a part belongs to. A part may come from someone else, so the files
+/// must lie in the part's folder after links are followed, unless files may lie `outside`.
 std::vector<fs::path> checked_outputs(const Part& part, bool outside) {
     std::vector<fs::path> outputs;
     const fs::path folder = fs::weakly_canonical(fs::absolute(part.file).parent_path());
@@ -131,7 +132,7 @@ std::vector<fs::path> checked_outputs(const Part& part, bool outside) {
     return outputs;
 }
 
-/// Writes the files of an image of which each part has some rows. Returns them.
+/// Writes the files of an image of which each part has some rows. Returns these files.
 std::vector<fs::path> merge_rows(const std::vector<Part>& parts, bool outside) {
     std::vector<fs::path> files;
     std::vector<fs::path> outputs = checked_outputs(parts.front(), outside);
@@ -165,8 +166,8 @@ void merge_run(std::vector<Part> parts, const MergeCommand& command) {
     }
 }
 
-/// The parts of each run, by its first output: a call with several inputs, views or values leaves
-/// those of several.
+/// The parts of each run, by its first output: a call with several inputs, views or values creates
+/// parts of several runs.
 using Runs = std::map<std::string, std::vector<Part>>;
 
 bool has_twins(const std::vector<Part>& parts) {
@@ -176,7 +177,8 @@ bool has_twins(const std::vector<Part>& parts) {
     return false;
 }
 
-/// The parts of one run may lie in several folders. So may runs whose outputs have one name.
+/// Separates runs in different folders whose outputs have the same name, which shows in parts that
+/// occur twice. The parts of one run may also lie in several folders.
 Runs told_apart(Runs runs) {
     Runs all;
     for (auto& [output, parts] : runs) {
@@ -201,7 +203,7 @@ Runs read_runs(const MergeCommand& command) {
     return told_apart(std::move(runs));
 }
 
-/// A run that can't be merged doesn't stop those after it.
+/// Merges all runs. A run that can't be merged doesn't stop those after it.
 int run(const MergeCommand& command) {
     Runs runs = read_runs(command);
     if (runs.size() == 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume view: a look at a volumetric image, as a picture or as a page for a browser.
+// voxelume view: shows a volumetric image as a picture or as a page for a browser.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -27,7 +27,7 @@ struct ViewCommand {
     double exposure = 0;
 };
 
-/// What a model file holds, before a display that is a lattice.
+/// A scene with what a model file contains, and a lattice display.
 Scene scene_of_model(const std::string& from) {
     ImportOptions options;
     options.lattice = true;
@@ -46,7 +46,7 @@ bool is_scene(const Facts& facts) {
     return text != nullptr && *text == "scene";
 }
 
-/// A file of JSON is the header of a volumetric image, or a scene that shows one.
+/// Reads a JSON file, which is the header of a volumetric image or a scene that shows one.
 Volume volume_of_json(const ViewCommand& command, const std::string& from) {
     v1::SceneOptions options;
     options.assets = command.assets;
@@ -54,7 +54,8 @@ Volume volume_of_json(const ViewCommand& command, const std::string& from) {
     return volume_of_scene(command, load_scene(from, options));
 }
 
-/// An OpenVDB file is a volumetric image, or else a model. Where it is neither, the first says why.
+/// Reads an OpenVDB file, which is a volumetric image or else a model. If it is neither, the error
+/// is that of reading a volumetric image.
 Volume volume_of_vdb(const ViewCommand& command, const std::string& from) {
     std::optional<Error> refusal;
     try {
@@ -72,7 +73,7 @@ Volume volume_of_vdb(const ViewCommand& command, const std::string& from) {
     return volume_of_scene(command, *scene);
 }
 
-/// The volumetric image of a file, or of what a model file holds.
+/// The volumetric image of a file, or of the contents of a model file.
 Volume volume_of(const ViewCommand& command) {
     const std::string from = first_slice(command.from);
     if (ending_of(from) == ".vdb") return volume_of_vdb(command, from);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume voxelize FILE: the voxels of a mesh, of a file of voxels or of a scene, as files for
-// this and other programs.
+// voxelume voxelize FILE: writes the voxels of a mesh, of a file of voxels or of a scene to files
+// for this and other programs.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -51,7 +51,8 @@ bool is_cube_name(const std::string& output) {
     });
 }
 
-/// Without --surface a mesh is what suits it, but in files that hold cubes alone.
+/// The surface to write. Without --surface, the kind that suits a mesh, or cubes if all outputs
+/// hold only cubes.
 std::optional<Surface> surface_of(const VoxelizeCommand& command) {
     if (!command.surface.empty()) return choose(command.surface, kSurfaces, "voxelize: --surface");
     if (std::ranges::all_of(command.outputs, is_cube_name)) return Surface::cubes;
@@ -85,7 +86,7 @@ void tell_notes(const VoxelizeCommand& command, const std::vector<std::string>& 
     for (const std::string& note : notes) tell("note: {}\n", note);
 }
 
-/// Tells of voxels that were made of something, as in "12 triangles".
+/// Prints what was voxelized; `what` is a text such as "12 triangles".
 void tell_of(const VoxelizeCommand& command, const std::string& what, const VoxelizeReport& report,
              const Device& device) {
     if (!command.quiet)
@@ -106,7 +107,7 @@ double voxelize_mesh(const VoxelizeCommand& command) {
     return report.voxel_size;
 }
 
-/// Scenes and files of voxels are cubes anyway.
+/// Refuses options for meshes, because scenes and files of voxels always become cubes.
 void refuse_mesh_options(const VoxelizeCommand& command) {
     const bool is_other = !command.surface.empty() && command.surface != "cubes";
     if (is_other || !command.set.empty() || !command.normals.empty())
@@ -129,14 +130,14 @@ double voxelize_scene(const VoxelizeCommand& command, const Scene& scene) {
     return report.voxel_size;
 }
 
-/// The scene that shows a file of voxels, or one that moves.
+/// The scene that shows a file of voxels, which may move.
 Scene scene_of_voxels_in(const std::string& file) {
     ImportOptions import;
     import.ground = false;
     return scene_of_file(file, import);
 }
 
-/// The voxels that a file has, or larger and smaller ones in their place.
+/// Writes a file's voxels as they are or, with another size, resampled.
 double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) {
     const bool has_other_size = command.voxel_size > 0 || command.resolution > 0;
     if (has_other_size || command.frame > 0 || !command.without.empty())
@@ -148,7 +149,7 @@ double voxelize_voxels(const VoxelizeCommand& command, const std::string& file) 
 
 enum class InputKind : uint8_t { mesh, voxels, scene };
 
-/// A frame of a glTF file is one of the scene that shows it.
+/// The kind of an input. A frame of a glTF file is a frame of the scene that shows the file.
 InputKind kind_of(const std::string& file, bool is_frame) {
     const std::string ending = ending_of(file);
     if (ending == ".json" || file == "-") return InputKind::scene;
@@ -162,7 +163,8 @@ Scene scene_in(const VoxelizeCommand& command) {
     return load_scene(command.file, {command.assets, {}, {}, 0});
 }
 
-/// Makes the voxels of one file or frame. Returns their edge in metres; 0: as in the file.
+/// Writes the voxels of one file or frame. Returns their edge in metres, or 0 if it is the file's
+/// own.
 double voxelize_one(const VoxelizeCommand& command) {
     const std::string file = first_slice(command.file);
     const InputKind kind = kind_of(file, command.frame > 0);
@@ -172,7 +174,7 @@ double voxelize_one(const VoxelizeCommand& command) {
                                     : voxelize_voxels(command, file);
 }
 
-/// The frames of one scene that moves.
+/// The frames of one moving scene.
 std::vector<VoxelizeNames> moving_frames(const VoxelizeCommand& command) {
     if (kind_of(command.file, true) == InputKind::mesh)
         fail_usage(
@@ -199,8 +201,8 @@ std::vector<VoxelizeNames> frames_of(const VoxelizeCommand& command) {
     return frames;
 }
 
-/// Takes the size of the voxels that the first frame's resolution gives. Those of a given size lie
-/// as the world's do, so the first frame is made again with it.
+/// Fixes the voxel size that the resolution gives for the first frame. Voxels of a fixed size lie
+/// on the world's lattice, so the first frame is made again with it.
 void take_size(VoxelizeCommand& command) {
     VoxelizeCommand first = command;
     first.quiet = true;
@@ -208,7 +210,7 @@ void take_size(VoxelizeCommand& command) {
     if (command.voxel_size > 0) command.resolution = 0;
 }
 
-/// All frames have voxels of one size.
+/// Writes all frames with voxels of one size.
 void voxelize_frames(VoxelizeCommand command) {
     const std::vector<VoxelizeNames> frames = frames_of(command);
     const bool is_moving = !is_file_sequence(command.file);

@@ -19,7 +19,7 @@ bool is_there(const std::string& file) {
     return fs::exists(file, error);
 }
 
-/// The names with the frame's number in them. Only those of a sequence change in `file`.
+/// The names with the frame's number in them. `file` changes only if it is a sequence.
 VoxelizeNames names_of(const VoxelizeNames& names, int frame) {
     VoxelizeNames numbered{frame_path(names.file, frame, false), {}, frame};
     for (const std::string& output : names.outputs)
@@ -27,7 +27,7 @@ VoxelizeNames names_of(const VoxelizeNames& names, int frame) {
     return numbered;
 }
 
-/// Throws where frames would share an output, or replace a file that is read.
+/// Throws if frames would share an output, or replace a file that is read.
 void check_names(const std::vector<VoxelizeNames>& frames) {
     std::vector<std::string> outputs;
     std::set<fs::path> inputs;
@@ -42,7 +42,7 @@ void check_names(const std::vector<VoxelizeNames>& frames) {
                        output);
 }
 
-/// Up to five names, and how many there are.
+/// Up to five of the names, and the number of all.
 std::string listed_names(const std::vector<std::string>& names) {
     constexpr size_t kMaxNamed = 5;
     std::string text;

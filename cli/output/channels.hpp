@@ -11,7 +11,7 @@ namespace voxelume::cli {
 /// Reads "RGBA,Z". Throws Error::usage; `origin` opens the message.
 Channels parse_channels(const std::string& text, const char* origin);
 
-/// The names of the channels, as parse_channels reads them.
+/// The names of the channels, in the form that parse_channels reads.
 std::string channel_names(const Channels& channels);
 
 }  // namespace voxelume::cli

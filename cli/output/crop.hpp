@@ -13,8 +13,8 @@ struct ImagePart {
     Size first{}, size{};
 };
 
-/// Reads "X,Y,WIDTH,HEIGHT"; empty: all of the scene's image. Throws Error::usage for a text that
-/// is none of these, and for a part that isn't in the image.
+/// Reads "X,Y,WIDTH,HEIGHT"; an empty text means all of the scene's image. Throws Error::usage for
+/// other texts, and for a part that isn't inside the image.
 ImagePart part_of(const std::string& text, const Scene& scene);
 
 }  // namespace voxelume::cli

@@ -8,15 +8,15 @@
 
 namespace voxelume::cli {
 
-/// The texts that placeholders stand for, by their names without braces.
+/// The replacement texts of placeholders, by the placeholders' names without braces.
 using Placeholders = std::vector<std::pair<std::string, std::string>>;
 
-/// Puts texts in the places of `{name}`. Throws Error::usage with the nearest name for a
-/// placeholder that there isn't; `command` opens the message.
+/// Replaces each `{name}` by its text. Throws Error::usage, suggesting the nearest name, for a
+/// placeholder that doesn't exist; `command` opens the message.
 std::string fill_in(const std::string& pattern, const Placeholders& placeholders,
                     const char* command);
 
-/// A number with as many digits as the largest one has: "03" of 12.
+/// A number with as many digits as the largest one: "03" for 3 of 12.
 std::string padded(size_t number, size_t largest);
 
 }  // namespace voxelume::cli

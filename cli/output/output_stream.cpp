@@ -12,8 +12,8 @@ namespace voxelume::cli {
 
 namespace {
 
-/// The format of standard output: that of the ending behind the "-", or else the first for screens.
-/// Null for outputs that are files.
+/// The format for standard output: the one that the ending behind the "-" names, or else the first
+/// format for screens. Null for outputs that are files.
 const ImageFormat* format_of_stream(const std::string& output) {
     for (const ImageFormat& format : image_formats())
         if (output == "-" ? !format.holds_channels : output == fmt::format("-{}", format.ending))

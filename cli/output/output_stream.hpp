@@ -12,19 +12,19 @@ namespace voxelume::cli {
 /// True if an output is standard output: "-" is a PNG there, "-.exr" OpenEXR.
 bool is_stream(const std::string& output);
 
-/// The one among a job's outputs that is standard output, if there is one.
+/// The output of a job that is standard output, if there is one.
 class OutputStream {
   public:
     explicit OutputStream(const std::vector<std::string>& outputs);
 
     bool is_wanted() const { return format_ != nullptr; }
-    /// What the image has to have.
+    /// The channels that the image needs.
     Channels channels(const ImageFileOptions& options) const;
-    /// Throws Error::output.
+    /// Writes the image. Throws Error::output.
     void write(const Image& image, const ImageFileOptions& options) const;
 
   private:
-    const ImageFormat* format_ = nullptr;  ///< null: no output is
+    const ImageFormat* format_ = nullptr;  ///< null: no output is standard output
 };
 
 }  // namespace voxelume::cli

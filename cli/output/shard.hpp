@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a run that several processes share: which frames, or which rows of one image.
+// The parts of a run that several processes share: some of the frames, or some rows of one image.
 #pragma once
 
 #include <array>
@@ -18,18 +18,19 @@ struct Shard {
     friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-/// Reads "2/8". Throws Error::usage.
+/// Reads a text such as "2/8". Throws Error::usage.
 Shard parse_shard(const std::string& text);
 
-/// "2 of 8".
+/// A text such as "2 of 8".
 std::string text_of(const Shard& shard);
 
-/// Every count-th of the frames, from the number-th on: neighbours, which often take alike, are
-/// dealt out.
+/// Every count-th frame, from the number-th on: neighbouring frames, which often take equally long,
+/// go to different parts.
 std::vector<FrameFiles> frames_of(const Shard& shard, const std::vector<FrameFiles>& frames);
 
-/// The first row of the part's and the one after its last, of `height` rows: whole tiles of four,
-/// as equal in number as can be. None where there are more parts than tiles.
+/// The part's first row and the one after its last, of `height` rows. Parts consist of whole tiles
+/// of four rows, in numbers as equal as possible. A part is empty if there are more parts than
+/// tiles.
 std::array<int, 2> rows_of(const Shard& shard, int height);
 
 }  // namespace voxelume::cli

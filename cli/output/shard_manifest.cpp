@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 4;  // changes with the keys, and with what they mean
+constexpr int kFormat = 4;  // changes when the keys or their meanings change
 constexpr const char* kFormatKey = "voxelume_shard";
 
 Json json_of(const ShardFile& file) {
@@ -66,7 +66,8 @@ ShardManifest manifest_of(const Json& json) {
     return manifest;
 }
 
-/// True if what can't be read was meant to be a part: it has the name of one, or begins like one.
+/// True if an unreadable file was meant to be a part: it has the name of a part, or contains the
+/// format's key.
 bool is_meant(const std::filesystem::path& file, const std::string& text) {
     return file.extension() == ".shard" ||
            text.find(fmt::format("\"{}\"", kFormatKey)) != std::string::npos;
@@ -142,7 +143,7 @@ ShardManifest read_manifest(const std::filesystem::path& file) {
         ShardManifest manifest = manifest_of(json);
         if (is_possible(manifest)) return manifest;
     } catch (const nlohmann::json::exception&) {
-    } catch (const Error&) {  // a view transform or channels that there aren't
+    } catch (const Error&) {  // an unknown view transform or channel
     }
     refuse(file, kDamaged);
 }

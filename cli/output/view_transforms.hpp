@@ -9,7 +9,8 @@
 
 namespace voxelume::cli {
 
-/// Throws Error::usage with the nearest name; `origin` opens the message.
+/// Reads the name of a view transform. Throws Error::usage, suggesting the nearest name; `origin`
+/// opens the message.
 ViewTransform parse_view_transform(const std::string& text, const char* origin);
 
 /// The name that parse_view_transform reads.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume check SCENE: whether a scene is right, and what rendering it takes.
+// voxelume check SCENE: says whether a scene is valid, and what rendering it takes.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -26,8 +26,8 @@ Overwrite overwrite_of(const RenderCommand& command) {
 
 namespace {
 
-/// True if all files of a volume are there. Throws Error::output where only some are: they may be
-/// another program's, and aren't to be replaced.
+/// True if all files of a volume exist. Throws Error::output if only some exist: these may be
+/// another program's, and must not be replaced.
 bool is_kept(const std::filesystem::path& volume) {
     if (!volume_files(volume).empty()) return true;
     const std::vector<std::filesystem::path> others = replaced_files(volume);
@@ -38,7 +38,7 @@ bool is_kept(const std::filesystem::path& volume) {
                             others.front().string(), volume.string()));
 }
 
-/// True if a file in this state needs no rendering; otherwise the file is counted.
+/// True if a file in this state needs no rendering. Other files are counted.
 bool is_current(FrameFileState state, Finished& finished) {
     finished.damaged += size_t(state == FrameFileState::damaged);
     finished.changed += size_t(state == FrameFileState::stale);

@@ -22,8 +22,8 @@ bool is_slices(const std::string& volume) {
     return ending_of(volume) == ".png";
 }
 
-/// A frame's name of slices, which keep the last #### for themselves: the frame's number takes the
-/// place of one before it, or comes before it. A name without any is left for a message about it.
+/// A frame's name for slices. The last #### belongs to the slices, so the frame's number replaces
+/// the #### before it, or is put in front. A name without #### is left for a message about it.
 std::string slices_path(const std::string& pattern, int frame) {
     const size_t name = pattern.find_last_of('/') + 1;
     const size_t last = pattern.find_last_of("#%");
@@ -42,8 +42,8 @@ bool is_pattern(const std::string& path) {
     return frame_path(path, 1, false) != path;
 }
 
-/// True if an output without --frames asks for the whole animation: a name with #### does, but for
-/// slices, whose #### is left to their writer.
+/// True if an output without --frames asks for the whole animation: a name with #### does, except
+/// for slices, whose #### is left to their writer.
 bool wants_all_frames(const RenderCommand& options) {
     return std::ranges::any_of(options.outputs, is_pattern) ||
            std::ranges::any_of(options.volumes, [](const std::string& path) {
@@ -51,7 +51,7 @@ bool wants_all_frames(const RenderCommand& options) {
            });
 }
 
-/// The frames of --frames, or else all of a moving scene, or one.
+/// The frames of --frames; otherwise, all frames of a moving scene, or one.
 std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
     if (!options.frames.empty()) return parse_frame_list(options.frames);
     const bool all = scene.moves() && (wants_all_frames(options) || options.plan_only);
@@ -60,7 +60,7 @@ std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
     return frames;
 }
 
-/// Standard output has one image, and nothing else.
+/// Checks that standard output gets at most one image, and nothing else.
 void check_stream(const RenderCommand& options) {
     const auto count = std::ranges::count_if(options.outputs, is_stream);
     if (count == 0) return;
@@ -71,7 +71,7 @@ void check_stream(const RenderCommand& options) {
             "render: -o -: standard output is a terminal; write the image to a file or pipe");
 }
 
-/// What is rendered, and which files that makes.
+/// Adds the options for inputs and outputs.
 void add_input_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
                    "scene files, JSON (see scenes/README.md), or model files (see "
@@ -88,7 +88,7 @@ void add_input_options(CLI::App& app, RenderCommand& command) {
         ->allow_extra_args(false);
 }
 
-/// Options for several images in one run. Returns --frames.
+/// Adds the options for several images in one run. Returns --frames.
 const CLI::Option* add_frame_options(CLI::App& app, RenderCommand& command) {
     const CLI::Option* frames = app.add_option("--frames", command.frames,
                                                "frames to render, like 1-10,20,30-60x5; #### in an "
@@ -108,7 +108,7 @@ const CLI::Option* add_frame_options(CLI::App& app, RenderCommand& command) {
     return frames;
 }
 
-/// What image files hold.
+/// Adds the options for the contents of image files.
 void add_image_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--exposure", command.exposure, "exposure of .png files, in stops")
         ->check(in_range(-64, 64));
@@ -132,7 +132,7 @@ void add_image_options(CLI::App& app, RenderCommand& command) {
         ->type_name("CHANNELS");
 }
 
-/// How much is rendered, and where.
+/// Adds the options for how much is rendered, and on what.
 void add_run_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--stats-json", command.stats,
                    "write counts, times and memory to this file, JSON (see cli/STATISTICS.md)");
@@ -154,7 +154,7 @@ void add_run_options(CLI::App& app, RenderCommand& command) {
         ->type_name("DEVICES");
 }
 
-/// Files that are there already, and what is told meanwhile.
+/// Adds the options for existing files and for progress.
 void add_progress_options(CLI::App& app, RenderCommand& command) {
     app.add_option("--overwrite", command.overwrite,
                    "which files to render that are there already: always (the default), never, or "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rendering a scene takes, for people and programs.
+// Prints what rendering a scene takes, for people and programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// Three digits are what an estimate is good for.
+/// Rounds to three digits, the precision of an estimate.
 double three_digits(double value) {
     return std::stod(fmt::format("{:.3g}", value));
 }
@@ -29,7 +29,7 @@ uint64_t count(double estimate) {
     return uint64_t(std::llround(estimate));
 }
 
-/// The edges of voxels in metres: one number where they are equal.
+/// The edges of voxels in metres; one number if they are equal.
 std::string edges_text(const std::array<double, 3>& size) {
     const bool is_cube = size[0] == size[1] && size[1] == size[2];
     return is_cube ? fmt::format("{:.4g}", size[0])
@@ -75,7 +75,7 @@ Report plan_report(const Plan& plan, const Device& device) {
     return report;
 }
 
-/// What the text ends with, for programs.
+/// Adds the verdict at the end of the text, for programs.
 void add_verdict(const Plan& plan, Report& report) {
     report["verdict"] = name_of(plan.verdict);
     report["least MB"] = megabytes(plan.min_bytes);
@@ -88,7 +88,7 @@ void add_verdict(const Plan& plan, Report& report) {
             {{"kind", name_of(warning.kind)}, {"where", warning.where}, {"text", warning.text}});
 }
 
-/// What the scene leaves out, as values to copy into it.
+/// Prints the values that the scene leaves out, in a form to copy into the scene.
 void print_fitted(const Scene& scene) {
     if (scene.has_default_light())
         fmt::print(
@@ -100,7 +100,7 @@ void print_fitted(const Scene& scene) {
     fmt::print("\n");
 }
 
-/// Returns what was fitted as an object of JSON, for programs.
+/// Returns the fitted values as a JSON object, for programs.
 Report fitted_report(const Scene& scene) {
     std::string text = scene.fitted();
     if (!text.empty()) text.pop_back();
@@ -108,7 +108,8 @@ Report fitted_report(const Scene& scene) {
     return Report::parse("{" + text + "}");
 }
 
-/// The maximum bytes of the device with the stage `shown` in place of those that are wanted.
+/// The maximum bytes on the device if the stage `shown` replaced the output stages that are asked
+/// for.
 double bytes_with(const Plan& plan, std::string_view shown) {
     double bytes = 0;
     for (const StagePlan& stage : plan.stages)
@@ -117,7 +118,7 @@ double bytes_with(const Plan& plan, std::string_view shown) {
     return bytes;
 }
 
-/// Says what a volumetric image takes where that is more than what the image does.
+/// Prints what a volumetric image takes, if it takes more than the image.
 void print_volume(const Plan& plan) {
     const double bytes = bytes_with(plan, "volume");
     if (bytes > plan.max_bytes)
@@ -141,7 +142,7 @@ void print_verdict(const Plan& plan, size_t frames) {
                bytes_text(plan.device_bytes), of_frames, chosen);
 }
 
-/// Plans a scene, and shows a bar to a person, as many frames take long.
+/// Plans a scene, and shows a bar to a person, because many frames take long.
 Plan watched_plan(const Scene& scene, const Device& device, PlanOptions options, bool is_quiet) {
     std::optional<Progress> bar;
     size_t told = 0;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The option that asks for it.
+/// The option that asks for a quilt or a stereo pair.
 const char* option_of(const QuiltChoices& choices) {
     return choices.stereo > 0 ? "--stereo" : "--quilt";
 }
@@ -66,15 +66,15 @@ void refuse_others(const RenderCommand& command) {
                        option_of(command.quilt), output);
 }
 
-/// The file's name with what tells players of the quilt.
+/// The file's name with a suffix that describes the quilt to players.
 fs::path named(const fs::path& file, const std::string& suffix) {
     const std::string stem = file.stem().string();
     if (stem.ends_with(suffix)) return file;
     return file.parent_path() / (stem + suffix + file.extension().string());
 }
 
-/// Writes a frame's views to its files: all of them side by side or, where a name tells eyes apart,
-/// each to a file of its own. Returns the files.
+/// Writes a frame's views to its files: all side by side or, where a name distinguishes eyes, each
+/// to its own file. Returns the files.
 std::vector<fs::path> write_views(const std::vector<Image>& views, const Quilt& quilt,
                                   const std::vector<fs::path>& names, const QuiltChoices& choices,
                                   const ImageFileOptions& options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume render: images of scenes.
+// voxelume render: renders images of scenes.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
@@ -18,7 +18,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// The devices of a run, and those that step in where one of them fails.
+/// The devices of a run, and the devices that replace them if one fails.
 class Devices {
   public:
     Devices(const std::string& chosen, const std::string& fallback)
@@ -32,7 +32,7 @@ class Devices {
             if (!has_fallback_ || !may_be_the_device(error.kind())) throw;
             complain(error.what(), error.kind());
             tell("voxelume: the device of --fallback takes over\n");
-            // What is too large for a device says nothing of the next scene.
+            // If one scene is too large for a device, the next one may still fit.
             has_failed_ = error.kind() != ErrorKind::limit;
             render_job(without_finished(command), fallback_, label);
         }
@@ -44,7 +44,8 @@ class Devices {
                kind == ErrorKind::limit;
     }
 
-    /// Frames that were finished have the bits that any device gives them.
+    /// The command without frames that are already finished; these have the same bits on every
+    /// device.
     static RenderCommand without_finished(RenderCommand command) {
         if (command.overwrite == "always") command.overwrite.clear();
         if (command.overwrite.empty()) command.resume = true;
@@ -56,7 +57,7 @@ class Devices {
     bool has_failed_ = false;
 };
 
-/// Renders one job after the other. A job that fails doesn't stop those after it.
+/// Renders one job after another. A job that fails doesn't stop those after it.
 int run_all(const std::vector<RenderJob>& jobs, Devices& devices) {
     const auto start = std::chrono::steady_clock::now();
     const bool is_quiet = jobs.front().command.quiet;
@@ -96,7 +97,7 @@ Action add_render(CLI::App& app) {
     const auto command = std::make_shared<RenderCommand>();
     const CLI::Option* frames = add_render_options(app, *command);
     return [command, frames] {
-        // An empty list would be taken for none given.
+        // An empty list would count as not given.
         if (frames->count() > 0 && command->frames.empty()) parse_frame_list(command->frames);
         return run(*command);
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One job of `render`: a scene to its files.
+// One job of `render`: renders a scene to its files.
 #include "cli/render/render_job.hpp"
 
 #include <chrono>
@@ -21,19 +21,19 @@
 namespace voxelume::cli {
 namespace {
 
-/// The scene with the part of the image that --crop names.
+/// The scene, reduced to the part of the image that --crop names.
 Scene cropped(const Scene& scene, const std::string& text) {
     const ImagePart part = part_of(text, scene);
     return scene.with_crop(part.first, part.size);
 }
 
-/// `-q` silences what nobody asked for by name.
+/// The style of progress. `-q` silences only the automatic style.
 ProgressStyle style_of(const RenderCommand& command) {
     const ProgressStyle style = progress_style(command.progress);
     return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
 }
 
-/// Says how many of the frames are there, and why others are rendered again.
+/// Says how many of the frames already exist, and why others are rendered again.
 void tell_of(const Finished& finished, size_t count) {
     if (finished.frames > 0) tell("{} of {} frames are there already\n", finished.frames, count);
     const auto again = [](size_t files, const char* one, const char* several) {
@@ -45,8 +45,7 @@ void tell_of(const Finished& finished, size_t count) {
           "files are of another scene, file, option or version");
 }
 
-/// Leaves the frames that have to be rendered, and tells of the others. Returns whether any are
-/// left.
+/// Removes finished frames from the job, and reports them. Returns whether any frames are left.
 bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
     const size_t count = job.frames.size();
     if (count == 0 && !command.quiet)
@@ -55,7 +54,8 @@ bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob&
     const Finished finished =
         skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
     if (job.frames.empty() && OutputStream(command.outputs).is_wanted()) {
-        job.frames.push_back({numbers.front(), {}, {}});  // its image goes to the stream anyway
+        job.frames.push_back({numbers.front(), {}, {}});  // its image is still written to the
+                                                          // stream
         return true;
     }
     if (!command.quiet) tell_of(finished, count);
@@ -65,11 +65,11 @@ bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob&
 /// The files of a run, or of a part of it.
 struct RunFiles {
     FrameJob job;
-    std::string label;  ///< of the progress
+    std::string label;  ///< label of the progress
     bool is_part = false;
 };
 
-/// Renders the files of a run, and tells of them while it does.
+/// Renders the files of a run, and shows the progress.
 Statistics render_files(const Scene& scene, const std::vector<Device>& devices, RunFiles run,
                         const RenderCommand& command) {
     FrameJob& job = run.job;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One job of `render`: a scene to its files.
+// One job of `render`: renders a scene to its files.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace voxelume::cli {
 
-/// The devices of a selector, opened once, when the first scene to be rendered was read.
+/// The devices of a selector. They are opened once, after the first scene to render was read.
 class LazyDevices {
   public:
     explicit LazyDevices(std::string selector) : selector_(std::move(selector)) {}
@@ -20,8 +20,8 @@ class LazyDevices {
     std::vector<Device> devices_;
 };
 
-/// Reads the command's scene and writes what it asks for, or plans it; `label` stands before the
-/// progress bar. Throws Error.
+/// Reads the command's scene and writes what the command asks for, or plans it. `label` precedes
+/// the progress bar. Throws Error.
 void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const std::string& label);
 
 }  // namespace voxelume::cli

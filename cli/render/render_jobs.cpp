@@ -14,9 +14,9 @@
 namespace voxelume::cli {
 namespace {
 
-constexpr const char* kFrame = "####";  // what {frame} stands for until the frame is known
+constexpr const char* kFrame = "####";  // replaces {frame} until the frame is known
 
-/// The part of an input's name that outputs have. In outputs' names, # stands for a frame.
+/// The name of an input as it appears in outputs' names, where # stands for a frame.
 std::string name_of_input(const std::string& input) {
     if (input == "-") return "stdin";
     std::string name = std::filesystem::path(input).stem().string();
@@ -24,11 +24,11 @@ std::string name_of_input(const std::string& input) {
     return name;
 }
 
-/// What differs between jobs.
+/// The properties in which jobs differ.
 struct Variant {
     std::string input;
     size_t view = 0;    ///< from 0
-    size_t number = 0;  ///< of the combination of values, from 0
+    size_t number = 0;  ///< number of the combination of values, from 0
     std::vector<std::string> values;
 };
 
@@ -60,7 +60,9 @@ class JobList {
             list.emplace_back("view", padded(variant.view + 1, views_));
         else if (!command_.scene.import.view.empty())
             list.emplace_back("view", file_part(command_.scene.import.view));
-        if (command_.quilt.stereo > 0) list.emplace_back("eye", kEye);  // known when it is written
+        if (command_.quilt.stereo > 0)
+            list.emplace_back("eye", kEye);  // known only when the file
+                                             // is written
         if (sweeps_.empty()) return list;
         list.emplace_back("sweep", padded(variant.number + 1, combinations_.size()));
         for (size_t i = 0; i < sweeps_.size(); ++i) {
@@ -96,7 +98,7 @@ class JobList {
         return job;
     }
 
-    /// The placeholders that would make the files of two jobs differ, or why none would.
+    /// Names the placeholders that would make the files of two jobs differ, or says why none would.
     std::string advice(const RenderJob& a, const RenderJob& b) const {
         const std::string &first = a.command.scene.scene, &second = b.command.scene.scene;
         if (first == second && views_ * combinations_.size() == 1)
@@ -111,8 +113,8 @@ class JobList {
         return fmt::format("have {} in its name", fmt::join(names, " and "));
     }
 
-    /// What tells a sweep's values apart in a file's name: its key or, where that means something
-    /// else or the values look alike, the combination's number.
+    /// The placeholder that distinguishes a sweep's values in a file's name: the sweep's key or, if
+    /// that has another meaning or the values look alike, the combination's number.
     std::string placeholder(const Sweep& sweep) const {
         const std::string key = last_key(sweep.path);
         std::set<std::string> parts;

@@ -12,12 +12,13 @@ namespace voxelume::cli {
 /// One scene to be rendered.
 struct RenderJob {
     std::string name;       ///< for people: "a.vox, view 2, intensity=4"
-    RenderCommand command;  ///< of this scene alone; outputs have no placeholders
+    RenderCommand command;  ///< options of this job alone; outputs have no placeholders
 };
 
-/// The jobs of a command, in the order of its inputs, then of views, then of values.
+/// The jobs of a command, in the order of its inputs, then views, then values.
 ///
-/// Throws Error::usage for placeholders that there aren't, and where two jobs would write one file.
+/// Throws Error::usage for placeholders that don't exist, and if two jobs would write the same
+/// file.
 std::vector<RenderJob> render_jobs(const RenderCommand& command);
 
 }  // namespace voxelume::cli

@@ -24,12 +24,12 @@ constexpr std::array kStyles = {std::pair{std::string_view("auto"), ProgressStyl
                                 std::pair{std::string_view("json"), ProgressStyle::json},
                                 std::pair{std::string_view("none"), ProgressStyle::none}};
 
-/// Milliseconds are what a program can use.
+/// Rounds to milliseconds, which is what a program can use.
 double rounded(double value) {
     return std::round(value * 1e3) / 1e3;
 }
 
-/// Names of files may be in any encoding.
+/// Prints a JSON line. Names of files may be in any encoding.
 void print_line(const Json& object) {
     tell("{}\n", object.dump(-1, ' ', false, Json::error_handler_t::replace));
     std::fflush(stderr);

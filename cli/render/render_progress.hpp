@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `render` tells while it works: a bar, lines for logs, or JSON for programs.
+// What `render` shows while it works: a bar, lines for logs, or JSON for programs.
 #pragma once
 
 #include <memory>
@@ -12,26 +12,27 @@
 
 namespace voxelume::cli {
 
-/// How progress is told: a bar where a person watches and lines about written frames elsewhere; a
-/// bar; lines of text; a JSON object a line; or not at all.
+/// How progress is shown: automatic (a bar where a person watches, and lines about written frames
+/// elsewhere), a bar, lines of text, one JSON object per line, or not at all.
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
-/// The style that an option's text names, or a setting's. Throws Error::usage with its origin.
+/// The style that the text of an option or a setting names. Throws Error::usage with the text's
+/// origin.
 ProgressStyle progress_style(const std::string& text);
 
-/// Tells how one job gets on. Any thread may call it.
+/// Shows the progress of one job. Any thread may call it.
 class RenderProgress {
   public:
-    /// `label` is the job's, such as "2 of 5".
+    /// `label` describes the job, such as "2 of 5".
     RenderProgress(std::string label, size_t frames, ProgressStyle style);
 
-    /// `done` of all frames together, from 0 to 1, and the frame that got on.
+    /// `done` of all frames together is done, from 0 to 1; `frame` has made progress.
     void advance(double done, int frame);
     /// The `kernel`-th of `known` kernels is being compiled.
     void compiling(int kernel, int known);
-    /// A frame's files are written.
+    /// A frame's files have been written.
     void written(const FrameFiles& files);
-    /// Makes room for a line of text.
+    /// Clears the bar to make room for a line of text.
     void clear();
 
   private:
@@ -45,10 +46,10 @@ class RenderProgress {
     size_t frames_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::mutex mutex_;
-    std::unique_ptr<Progress> bar_;  ///< of a bar's styles
+    std::unique_ptr<Progress> bar_;  ///< only in styles with a bar
     TimeLeft left_;
-    uint64_t shown_ = 0;  ///< per cent of frames
-    double told_ = -1e9;  ///< seconds, when the last line was printed
+    uint64_t shown_ = 0;  ///< percentage of the frames
+    double told_ = -1e9;  ///< time when the last line was printed, seconds
 };
 
 }  // namespace voxelume::cli

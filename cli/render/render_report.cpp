@@ -10,21 +10,21 @@
 namespace voxelume::cli {
 namespace {
 
-/// "a" or "a" and 2 more devices
+/// Formats devices as "a", or as "a" and 2 more.
 std::string names_of(const Statistics& statistics) {
     const std::string first = fmt::format("\"{}\"", statistics.devices[0].name);
     const size_t more = statistics.devices.size() - 1;
     return more == 0 ? first : fmt::format("{} and {} more", first, more);
 }
 
-/// "845", "84.5 k", "8.45 M"
+/// Formats a count as "845", "84.5 k" or "8.45 M".
 std::string count_text(uint64_t count) {
     const double n = double(count);
     if (n < 1e4) return fmt::format("{}", count);
     return n < 1e6 ? fmt::format("{:.1f} k", n / 1e3) : fmt::format("{:.2f} M", n / 1e6);
 }
 
-/// "640x480", "64x48x256 voxels", or both.
+/// Formats sizes as "640x480", "64x48x256 voxels", or both.
 std::string size_text(const Statistics& statistics) {
     std::string image = fmt::format("{}", fmt::join(statistics.size, "x"));
     if (!statistics.volume_size) return image;
@@ -32,7 +32,7 @@ std::string size_text(const Statistics& statistics) {
     return statistics.images ? image + " and " + volume : volume;
 }
 
-/// How many frames took over what, where there are several.
+/// Says how many frames reused what, if there are several frames.
 std::string reuse_text(const std::vector<FrameStatistics>& frames) {
     if (frames.size() < 2) return "";
     const auto worlds = [&](WorldReuse reuse) {
@@ -47,7 +47,7 @@ std::string reuse_text(const std::vector<FrameStatistics>& frames) {
         images(ImageReuse::traced), images(ImageReuse::shaded), images(ImageReuse::kept));
 }
 
-/// What memory didn't suffice for.
+/// Says for what memory was too small.
 void print_lacks(const Statistics& statistics) {
     if (statistics.bands > 1)
         tell("  {} bands of rows: memory doesn't suffice for a whole image\n", statistics.bands);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a render came to, for people: the summary line and -v.
+// The summary of a render, for people: the summary line and -v.
 #pragma once
 
 #include "runtime/voxelume.hpp"

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One hash of all frames of a run; that of its only frame is that frame's own.
+/// One hash for all frames of a run; with one frame, it is that frame's own hash.
 std::string joint_hash(const std::vector<std::string>& hashes) {
     if (hashes.size() == 1) return hashes.front();
     const std::string text = fmt::format("{}", fmt::join(hashes, " "));
@@ -24,7 +24,7 @@ std::string joint_hash(const std::vector<std::string>& hashes) {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// The manifest's name is that of the first output as the options have it.
+/// The manifest's path, made from the name of the first output in the options.
 fs::path manifest_path(const RenderCommand& command, const Shard& shard) {
     const std::vector<std::string>& outputs =
         command.outputs.empty() ? command.volumes : command.outputs;
@@ -42,7 +42,8 @@ ShardPart::ShardPart(const RenderCommand& command, Scene& scene, FrameJob& job) 
     manifest_.frames = numbers_of(job.frames);
     manifest_.options = job.image_files;
     manifest_.scene = joint_hash(frame_hashes(scene, manifest_.frames));
-    // Names without folders, as `merge` looks for them: parts may be moved to other folders.
+    // Names have no folders, and `merge` looks for them without: parts may be moved to other
+    // folders.
     for (const auto* files : {&command.outputs, &command.volumes})
         for (const std::string& file : *files) manifest_.outputs.push_back(name_of(file));
     if (job.frames.size() == 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A job of `render` -> what one part of it renders, and the manifest of that.
+// Reduces a job of `render` to what one part of it renders, and writes the part's manifest.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace voxelume::cli {
 
-/// What a command with --shard renders of its job.
+/// The part of a job that a command with --shard renders.
 class ShardPart {
   public:
-    /// Leaves this part's frames in `job`, or its rows of the only image in `scene` and the file
-    /// for them in `job`; no frame where there is nothing for this part. Throws Error::usage for
-    /// jobs that can't be cut.
+    /// Leaves this part's frames in `job`. For a single image, leaves this part's rows in `scene`,
+    /// and the file for them in `job`. Leaves no frame if there is nothing for this part. Throws
+    /// Error::usage for jobs that can't be divided.
     ShardPart(const RenderCommand& command, Scene& scene, FrameJob& job);
 
-    /// Writes the manifest, once the files are there. Throws Error::output.
+    /// Writes the manifest once the files exist. Throws Error::output.
     void write() const;
 
   private:
@@ -26,10 +26,10 @@ class ShardPart {
     std::string name_of(const std::filesystem::path& file) const;
     ShardFile described(const std::filesystem::path& file) const;
 
-    std::filesystem::path file_;  ///< of the manifest
+    std::filesystem::path file_;  ///< the manifest
     ShardManifest manifest_;
-    std::vector<FrameFiles> frames_;  ///< of this part
-    std::filesystem::path rows_;      ///< the file of its rows
+    std::vector<FrameFiles> frames_;  ///< frames of this part
+    std::filesystem::path rows_;      ///< the file of this part's rows
 };
 
 }  // namespace voxelume::cli

@@ -10,7 +10,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// The parts between commas that stand in no brackets, braces or quotes.
+/// Splits the text at commas that aren't inside brackets, braces or quotes.
 std::vector<std::string> split_values(const std::string& text) {
     std::vector<std::string> values(1);
     int depth = 0;

@@ -20,7 +20,7 @@ void TimeLeft::advance(double now, double part) {
 }
 
 std::optional<double> TimeLeft::seconds() const {
-    constexpr double kMinPart = 0.02, kMinSeconds = 0.5;  // what less would tell is chance
+    constexpr double kMinPart = 0.02, kMinSeconds = 0.5;  // less would predict only noise
     if (part_ >= 1) return 0;
     const bool is_single = first_part_ <= 0;
     if (part_ < first_part_) return {};

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long work will still take, as far as that can be known.
+// Estimates how long work will still take.
 #pragma once
 
 #include <optional>
 
 namespace voxelume::cli {
 
-/// Learns from the progress of a run; times are seconds since its start. Compiling kernels, which
-/// happens once, is told apart: it says nothing about the rest of the work.
+/// Learns from the progress of a run; times are seconds since its start. The compilation of
+/// kernels, which happens once, is measured separately, because it says nothing about the rest of
+/// the work.
 class TimeLeft {
   public:
-    /// Nothing is foretold before `first_part` of the work is done: its parts, such as frames,
-    /// begin with work that shows no progress. Work in a single part is measured from where it gets
+    /// Predicts nothing before `first_part` of the work is done: its parts, such as frames, begin
+    /// with work that shows no progress. Work in a single part is measured from its first progress
     /// on.
     explicit TimeLeft(double first_part = 0) : first_part_(first_part) {}
 
-    /// A kernel is compiled from now on, until there is progress.
+    /// A kernel is being compiled from now on, until there is progress.
     void compiling(double now);
-    /// `part` of all is done.
+    /// `part` of the whole work is done.
     void advance(double now, double part);
 
-    /// Empty while it isn't known.
+    /// The seconds left; empty while they are unknown.
     std::optional<double> seconds() const;
-    /// What compiling took so far.
+    /// The seconds spent on compiling so far.
     double compile_seconds() const { return compile_; }
-    /// What compiling took so far, including the kernel being compiled now.
+    /// The seconds spent on compiling so far, including the kernel that is being compiled now.
     double compile_seconds(double now) const {
         return compile_ + (compiling_since_ ? now - *compiling_since_ : 0);
     }

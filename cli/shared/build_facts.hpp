@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `voxelume --version` says of the build.
+// The text that `voxelume --version` prints about the build.
 #pragma once
 
 namespace voxelume::cli {

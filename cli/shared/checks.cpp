@@ -145,7 +145,7 @@ Check in_range(double minimum, double maximum, Number number) {
         const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
         const bool is_number =
             !text.empty() && *end == '\0' && value >= minimum && value <= maximum;
-        // The parser would read a whole number that begins with 0 as octal.
+        // The parser would read an integer with a leading 0 as octal.
         const size_t first = text.find_first_of("0123456789");
         const bool is_octal =
             is_whole && first != std::string::npos && first + 1 < text.size() && text[first] == '0';

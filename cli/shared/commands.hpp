@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of `voxelume`: one file each, plugged into the table in
-// command_table.cpp.
+// The commands of `voxelume`, one file each; command_table.cpp lists them.
 #pragma once
 
 #include <functional>
@@ -20,21 +19,21 @@ using Action = std::function<int()>;
 ///
 /// The options live in the action (a shared pointer that both capture): `app` fills them before it
 /// runs. A failure is thrown as `voxelume::Error`; `main` prints its sentence and exits with its
-/// code. Results go to stdout, everything said to a person goes to stderr.
+/// code. Results go to stdout, messages for people to stderr.
 using AddCommand = Action (*)(CLI::App& app);
 
-/// A line of the table of commands.
+/// A row of the table of commands.
 struct Command {
     const char* name;
     const char* help;  ///< one line, for `voxelume help`
     AddCommand add;
 };
 
-/// All of them. Help, manual page and completion are made from this table and the options that the
+/// All commands. Help, manual page and completion are made from this table and the options that the
 /// commands declare.
 std::span<const Command> commands();
 
-/// The exit codes, in lines for people.
+/// The exit codes, as lines for people.
 const char* exit_codes_text();
 
 Action add_bench(CLI::App& app);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a failure is told.
+// Prints failures.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace voxelume::cli {
 
-/// Prints a failure to stderr, as a line that can't steer the terminal; a compiler's log has more.
-/// Returns the kind's exit code.
+/// Prints a failure to stderr, as one line without control characters for the terminal; a
+/// compiler's log has more lines. Returns the kind's exit code.
 int complain(const std::string& sentence, ErrorKind kind);
 
 }  // namespace voxelume::cli

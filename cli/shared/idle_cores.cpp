@@ -16,8 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// The cores of a group's quota: microseconds of all cores in a period. Version 2 has both numbers
-/// in one file, "max 100000" without a quota; version 1 in two, -1 without one.
+/// The cores that a group's quota allows: microseconds on all cores per period. Version 2 has both
+/// numbers in one file, "max 100000" without a quota; version 1 has two files, with -1 for no
+/// quota.
 double quota(const fs::path& group, bool is_version_2) {
     double time = -1, period = 0;
     if (is_version_2) {
@@ -29,8 +30,8 @@ double quota(const fs::path& group, bool is_version_2) {
     return time > 0 && period > 0 ? time / period : kNoLimit;
 }
 
-/// The minimum quota of a group and of those that it is in. Containers often see their own group as
-/// the root, and its path as it is outside: folders that aren't there limit nothing.
+/// The minimum quota of a group and its parent groups. Containers often see their own group as the
+/// root, but its path as it is outside; folders that don't exist there limit nothing.
 double quota_of_groups(const fs::path& root, const fs::path& group, bool is_version_2) {
     double min = quota(root, is_version_2);
     fs::path folder = root;
@@ -39,11 +40,11 @@ double quota_of_groups(const fs::path& root, const fs::path& group, bool is_vers
     return min;
 }
 
-/// The minimum of the quotas that a process's groups of both versions set.
+/// The minimum of the quotas that the process's groups of both versions set.
 double quota_of_process(const CoreFiles& files) {
     std::ifstream groups(files.groups);
     double min = kNoLimit;
-    // "4:cpu,cpuacct:/job" of version 1, "0::/job" of version 2.
+    // Lines look like "4:cpu,cpuacct:/job" in version 1 and "0::/job" in version 2.
     for (std::string line; std::getline(groups, line);) {
         const size_t first = line.find(':'), second = line.find(':', first + 1);
         if (second == std::string::npos) continue;
@@ -57,8 +58,8 @@ double quota_of_process(const CoreFiles& files) {
     return min;
 }
 
-/// The cores that the process is bound to: all, unless somebody bound it. Where the system has more
-/// than a set holds, 1,024, it counts as bound to none.
+/// The cores that the process is bound to: all, unless its affinity was set. If the system has more
+/// than 1,024 cores, which is more than a set holds, the process counts as not bound.
 int bound_cores() {
     cpu_set_t bound;
     CPU_ZERO(&bound);
@@ -69,7 +70,7 @@ int bound_cores() {
 }  // namespace
 
 int idle_cores(const CoreFiles& files) {
-    int running = 1;  // threads of all processes, this one's among them
+    int running = 1;  // threads of all processes, including this one
     std::string average;
     std::ifstream(files.load) >> average >> average >> average >> running;
     return int(std::min(double(bound_cores()), quota_of_process(files))) - running;

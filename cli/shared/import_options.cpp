@@ -17,7 +17,7 @@ struct NamedView {
     bool parallel;
 };
 
-/// The latitude from which all three axes of a cube look equally long.
+/// The latitude, in degrees, from which all three axes of a cube look equally long.
 constexpr double kIsometric = 35.26438968;
 
 constexpr std::array<NamedView, 7> kViews = {{{"front", 0, 0, false},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options that commands have for model files in place of scenes: from where, on what ground.
+// The options for model files in place of scenes, such as the view, the background and the ground.
 #pragma once
 
 #include <optional>
@@ -19,22 +19,22 @@ struct ImportChoices {
     std::string view, background, up, clip, spacing;  ///< empty: not given
     std::optional<double> angle, fit;
     std::optional<bool> ground;
-    bool transparent = false;  ///< of scenes, too
+    bool transparent = false;  ///< for scenes, too
 };
 
-/// What the names of model files end with, for people.
+/// The endings of model files' names, for people.
 std::string model_endings();
 
-/// The names that --view knows.
+/// The names that --view accepts.
 std::vector<std::string> view_names();
 
 void add_import_options(CLI::App& app, ImportChoices& choices);
 
-/// The choices for a model file, whose picture has the size, or a default where that is 0. Throws
-/// Error::usage; `command` opens the message.
+/// Turns the choices into options for a model file. The picture has the size `size`, or a default
+/// where that is 0. Throws Error::usage; `command` opens the message.
 ImportOptions options_of(const ImportChoices& choices, Size size, const char* command);
 
-/// Throws Error::usage if some choice was made: a scene has its own.
+/// Throws Error::usage if any choice was made, because a scene has its own.
 void refuse_choices(const ImportChoices& choices, const char* command);
 
 }  // namespace voxelume::cli

@@ -22,23 +22,23 @@
 namespace voxelume::cli {
 namespace {
 
-// `timeout` sends its signal to the program and to its group, which are two signals for the
-// program.
+// `timeout` sends its signal to the program and to the program's group, so the program gets two
+// signals.
 constexpr std::chrono::milliseconds kTogether{300};
 
 std::atomic<int> signal_number = 0;
 std::atomic<int> interruptibles = 0;
-std::atomic<std::chrono::milliseconds> grace;  // of the last of them
+std::atomic<std::chrono::milliseconds> grace;  // of the last Interruptible
 std::mutex telling;
-bool is_told = false;  // with `telling` held
+bool is_told = false;  // guarded by `telling`
 
-/// Never destroyed: the thread may use it when the process ends.
+/// The source is never destroyed, because the thread may use it when the process ends.
 std::stop_source& stop_source() {
     static auto* const source = new std::stop_source;
     return *source;
 }
 
-/// What the program says when it ends in the middle of something.
+/// Prints the message of a program that ends in the middle of its work.
 void tell_end() {
     tell_interruption(
         [] { tell("\nvoxelume: {}\n", signal_number == SIGTERM ? "terminated" : "interrupted"); });
@@ -46,15 +46,14 @@ void tell_end() {
 
 std::atomic<pid_t> ending_thread = 0;
 
-/// PoCL aborts where the files that it is about to compile or load were removed. The thread in
-/// which it does waits until the process ends, which another thread is about to do.
+/// PoCL aborts if the files that it is about to compile or load have been removed. The thread in
+/// which it aborts waits here until another thread ends the process.
 void outlast_abort(int) {
     if (gettid() == ending_thread) _exit(interrupted_code());
     for (;;) pause();
 }
 
-/// PoCL, and the linkers that it starts, tell of kernels whose files were removed: nobody is to
-/// read that.
+/// Silences PoCL and the linkers that it starts, which report kernels whose files were removed.
 void hush_drivers() {
     const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nothing >= 0) dup2(nothing, STDERR_FILENO);
@@ -65,7 +64,7 @@ void hush_drivers() {
     }
 }
 
-/// Waits for one of the signals, which are blocked.
+/// Waits for one of the signals, which are blocked, and ends the program.
 void wait_for_signal(const sigset_t& signals) {
     int number = 0;
     if (sigwait(&signals, &number) != 0) return;
@@ -76,7 +75,7 @@ void wait_for_signal(const sigset_t& signals) {
         constexpr timespec kNow{};
         while (sigtimedwait(&signals, nullptr, &kNow) > 0) {
         }
-        // A later signal, of either kind, is the system's to handle.
+        // The system handles a later signal of either kind.
         std::signal(SIGINT, SIG_DFL);
         std::signal(SIGTERM, SIG_DFL);
         pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
@@ -99,10 +98,10 @@ bool is_ignored(int number) {
 
 void handle_interrupts() {
     stop_source();
-    // The signals are blocked in every thread, since LLVM has handlers of its own while PoCL
-    // compiles: they would take the signals that are ignored, too, and while one of them runs, a
+    // The signals are blocked in every thread, because LLVM installs handlers of its own while PoCL
+    // compiles. These would also take signals that are ignored, and while one of them runs, a
     // second signal would end the program at once. PoCL's linker, a process of its own, inherits
-    // the mask, so that it isn't ended before the program is.
+    // the mask, so that it doesn't end before the program.
     sigset_t all, awaited;
     sigemptyset(&all);
     sigemptyset(&awaited);

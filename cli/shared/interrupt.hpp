@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM: the program ends within two seconds, and leaves nothing half written.
+// Ctrl-C and SIGTERM: the program ends within two seconds, and leaves no half-written files.
 #pragma once
 
 #include <chrono>
@@ -8,29 +8,29 @@
 
 namespace voxelume::cli {
 
-/// Has SIGINT and SIGTERM end the program: at once, or, as long as an `Interruptible` lives, by its
-/// stop token and at the latest when its grace is over. What is unfinished on disk is removed,
-/// and one line says why the program ends. A signal 0.3 s after the first or later ends it as if
-/// nothing was prepared. Signals that are ignored when the program starts stay so.
+/// Makes SIGINT and SIGTERM end the program: at once or, while an `Interruptible` lives, through
+/// its stop token and at the latest when its grace is over. Unfinished files on disk are removed,
+/// and one line says why the program ends. A second signal at least 0.3 s after the first ends the
+/// program without any of this. Signals that are ignored when the program starts stay ignored.
 void handle_interrupts();
 
-/// A part of the program that ends soon when it is asked to.
+/// A part of the program that ends soon after it is asked to.
 class Interruptible {
   public:
-    /// `grace` is how long it may take from the signal to its end.
+    /// `grace` is the time that it may take from the signal to its end.
     explicit Interruptible(std::chrono::milliseconds grace = std::chrono::milliseconds(1500));
     ~Interruptible();
     Interruptible(const Interruptible&) = delete;
     Interruptible& operator=(const Interruptible&) = delete;
 
-    /// Requested by a signal.
+    /// A token that a signal stops.
     std::stop_token stop() const;
 };
 
 /// The exit code of a program that was interrupted: 130 after SIGINT, 143 after SIGTERM.
 int interrupted_code();
 
-/// Calls `say`, which says that the program was interrupted, unless this was said before. The
+/// Calls `say`, which prints that the program was interrupted, unless this was printed before. The
 /// process doesn't end meanwhile.
 void tell_interruption(const std::function<void()>& say);
 

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers in a name, each as a run of digits. Longer ones than a frame's are none.
+/// The numbers in a name, each a run of digits. Runs that are too long for a frame's number don't
+/// count.
 std::vector<int> numbers_in(const std::string& name) {
     constexpr size_t kMaxDigits = 9;
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files whose names have a number in place of ####.
+// Files with a number in place of the #### of a pattern.
 #pragma once
 
 #include <set>
@@ -7,10 +7,10 @@
 
 namespace voxelume::cli {
 
-/// True if a name has a place for a number.
+/// True if a name has a slot for a number, such as ####.
 bool is_numbered(const std::string& name);
 
-/// The numbers of the files that there are of a name such as frame.####.png.
+/// The numbers of the existing files that match a name such as frame.####.png.
 std::set<int> numbers_of_files(const std::string& pattern);
 
 }  // namespace voxelume::cli

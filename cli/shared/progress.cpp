@@ -20,7 +20,7 @@ bool is_set(const Variables& environment, const char* name) {
     return value != nullptr && *value != '\0';
 }
 
-/// Time passed at the end, time left before.
+/// The time passed at the end; before that, the time left.
 std::string time_text(const ProgressState& state, double part) {
     if (part >= 1.0) return clock_text(state.seconds);
     return state.left ? clock_text(*state.left) + " left" : "";
@@ -60,7 +60,7 @@ std::string progress_line(const ProgressState& state, const Terminal& terminal) 
         state.total == 0
             ? 1.0
             : std::min(1.0, static_cast<double>(state.done) / static_cast<double>(state.total));
-    // Rounded down: 100 % is only said when nothing is left.
+    // The percentage is rounded down, so that 100 % appears only when nothing is left.
     const std::string text = fmt::format("{:3}% {:<12}", static_cast<int>(std::floor(part * 100.0)),
                                          time_text(state, part));
     const int columns = std::max(0, terminal.columns - 1);

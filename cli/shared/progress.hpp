@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The progress bar: only where a person watches.
+// The progress bar, which is drawn only where a person watches.
 #pragma once
 
 #include <chrono>
@@ -12,20 +12,20 @@
 
 namespace voxelume {
 
-/// What decides whether and how a bar is drawn, apart from the processes that it is taken from.
+/// What decides whether and how a bar is drawn, independent of the process's streams.
 struct Terminal {
     bool draws_bars = false;  ///< a terminal, TERM neither missing nor "dumb", no CI
-    bool has_color = false;   ///< and NO_COLOR is unset or empty
+    bool has_color = false;   ///< it draws bars, and NO_COLOR is unset or empty
     int columns = 80;
 };
 
 /// Looks up an environment variable; null when it isn't set.
 using Variables = std::function<const char*(const char*)>;
 
-/// The rule by itself.
+/// The rule itself.
 Terminal describe_terminal(bool is_terminal, const Variables& environment);
 
-/// The rule applied to a stream of this process, with its true width.
+/// The rule, applied to a stream of this process with its actual width.
 Terminal describe_terminal(std::FILE* stream);
 
 /// What a bar shows.
@@ -34,14 +34,14 @@ struct ProgressState {
     uint64_t done = 0;
     uint64_t total = 0;               ///< 0: nothing to do, shown as complete
     double seconds = 0.0;             ///< since the start
-    std::optional<double> left = {};  ///< seconds, as far as that is known
+    std::optional<double> left = {};  ///< seconds, if known
 };
 
-/// "1:30", or "1:00:00" from an hour on.
+/// Formats a time as "1:30", or as "1:00:00" from an hour on.
 std::string clock_text(double seconds);
 
-/// One line without its end, never wider than the terminal: label, bar, per cent, time passed or
-/// left.
+/// One line without a line end, never wider than the terminal: label, bar, percentage, time passed
+/// or left.
 std::string progress_line(const ProgressState& state, const Terminal& terminal);
 
 /// The cases in which a bar is drawn.
@@ -59,11 +59,11 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
 
     void advance(uint64_t count = 1);
-    /// Sets the time left that is shown from now on; without a call it is what the time passed so
-    /// far foretells.
+    /// Sets the time left that is shown from now on. Without a call, it is extrapolated from the
+    /// time passed.
     void foretell(std::optional<double> seconds);
-    /// Shows a text instead of the bar until there is progress, if a second has passed without
-    /// any.
+    /// Shows a text instead of the bar until there is progress, once a second has passed without
+    /// progress.
     void say(const std::string& text);
     /// Clears the line; it is drawn again when there is progress.
     void clear();

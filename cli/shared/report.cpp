@@ -12,7 +12,7 @@ namespace voxelume::cli {
 
 namespace {
 
-/// A value on one line; text from files can't steer the terminal.
+/// A value on one line, in which text from files can't control the terminal.
 std::string text_of(const Report& value) {
     if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
     if (value.is_array()) {
@@ -56,12 +56,12 @@ void print_table(const Report& rows) {
     for (const std::vector<std::string>& line : lines) print_row(line, widths);
 }
 
-/// True for lists of which each item takes a line.
+/// True for lists whose items take a line each.
 bool is_sentences(std::string_view key) {
     return key == "notes" || key == "not shown";
 }
 
-/// A sentence a line.
+/// Prints one sentence per line.
 void print_notes(std::string_view name, const Report& notes) {
     for (const Report& note : notes) {
         fmt::print("  {:<15} {}\n", name, text_of(note));
@@ -85,7 +85,7 @@ void print_object(const Report& object) {
 }  // namespace
 
 void print_report(const Report& report, bool as_json) {
-    if (as_json)  // text from files may be no UTF-8
+    if (as_json)  // text from files may not be UTF-8
         fmt::print("{}\n", report.dump(2, ' ', false, Report::error_handler_t::replace));
     else
         print_object(report);

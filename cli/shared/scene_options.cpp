@@ -18,7 +18,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// "60s" as "60". Other texts stay as they are.
+/// Turns "60s" into "60". Other texts stay as they are.
 std::string without_unit_of_seconds(std::string text) {
     if (text.size() > 1 && text.back() == 's') text.pop_back();
     return text;
@@ -136,13 +136,13 @@ v1::SceneOptions files_of(const SceneOptions& options, bool is_model, Size size,
         files.changes.push_back(setting_of(text, "--sweep", command));
     if (options.import.transparent && !is_model)
         files.changes.push_back({"render.transparent", "true", "--transparent"});
-    // Views from around are framed for the size that they will have.
+    // Views from around are framed for the size that images will have.
     if (options.has_views && size[0] != 0)
         files.changes.push_back({"render.size", fmt::format("{},{}", size[0], size[1]), "--size"});
     return files;
 }
 
-/// A model file turns in a light that stays.
+/// A model file rotates while its light stays.
 ImportOptions import_of(const SceneOptions& options, Size size, const char* command) {
     ImportOptions import = options_of(options.import, size, command);
     import.turns = options.has_views;
@@ -174,7 +174,7 @@ std::string read_stdin() {
 
 Scene load_scene(const std::string& name, const v1::SceneOptions& options) {
     if (name != "-") return Scene::load(name, options);
-    static const std::string text = read_stdin();  // several views or values read it once
+    static const std::string text = read_stdin();  // read once, even for several views or values
     return Scene::parse(text, "stdin", options);
 }
 

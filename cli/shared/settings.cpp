@@ -25,14 +25,14 @@ std::string trimmed(const std::string& text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// The value of a line's right side, which may be in quotes.
+/// The value on a line's right side, which may be in quotes.
 std::string value_of(const std::string& text) {
     const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
     return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// A value with the home folder in place of each "~" before a slash that begins it, or what follows
-/// a colon.
+/// The value with "~" replaced by the home folder wherever it stands before a slash, at the
+/// beginning or after a colon.
 std::string with_home(const std::string& value) {
     const char* home = std::getenv("HOME");
     if (home == nullptr) return value;
@@ -45,14 +45,14 @@ std::string with_home(const std::string& value) {
     return text;
 }
 
-/// Throws Error::usage for a value that the setting can't have. An empty one is none.
+/// Throws Error::usage for a value that the setting can't have. An empty value is not set.
 void check(const Setting& setting, const std::string& value, const std::string& origin) {
     if (value.empty() || setting.fault == nullptr) return;
     if (const std::string fault = setting.fault(value); !fault.empty())
         fail_usage("{}: {}", origin, fault);
 }
 
-/// Lines "name = value"; # begins a line of remarks.
+/// Reads lines "name = value"; # begins a comment line.
 std::map<std::string, FileValue> read_file(const fs::path& file) {
     std::ifstream stream(file);
     if (!stream) fail_usage("{}: can't be read", file.string());
@@ -84,7 +84,7 @@ std::map<std::string, FileValue> read_file(const fs::path& file) {
     return values;
 }
 
-/// The value of a variable of the environment, perhaps empty; null if it is not set.
+/// The value of an environment variable, perhaps empty; null if it is not set.
 const char* environment(const char* name) {
     return std::getenv(name);
 }
@@ -113,7 +113,7 @@ fs::path settings_file() {
 
 namespace {
 
-/// Notes every setting's value, and puts those of the file into the environment.
+/// Stores every setting's value, and puts the values of the file into the environment.
 void take(const fs::path& file, const std::map<std::string, FileValue>& values) {
     loaded().clear();
     for (const Setting& setting : settings()) {
@@ -136,7 +136,7 @@ void take(const fs::path& file, const std::map<std::string, FileValue>& values) 
 void load_settings() {
     const fs::path file = settings_file();
     std::error_code error;
-    take(file, {});  // what holds if the file is wrong
+    take(file, {});  // these values hold if the file is wrong
     if (!file.empty() && fs::is_regular_file(file, error))
         take(file, read_file(file));
     else if (!file.empty() && environment("VOXELUME_CONFIG") != nullptr)

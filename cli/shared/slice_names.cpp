@@ -12,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file's name around the digits that # stands for.
+/// The parts of a file's name before and after the digits that # stands for.
 struct SliceName {
     std::string before, after;
     size_t digits;
 
-    /// The number in a name of the stack, without the zeros that it begins with.
+    /// The number in a name of the stack, without leading zeros.
     std::optional<std::string> number_in(const std::string& name) const {
         if (name.size() < before.size() + digits + after.size() || !name.starts_with(before) ||
             !name.ends_with(after))

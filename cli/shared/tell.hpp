@@ -10,8 +10,8 @@
 
 namespace voxelume::cli {
 
-/// Prints to stderr. Where that fails, as on a full disk or where stderr is closed, nothing is
-/// told: a run doesn't end because nobody can read its messages.
+/// Prints to stderr. If that fails, for example because a disk is full or stderr is closed, the
+/// message is lost: a run doesn't end because nobody can read its messages.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
     const std::string text = fmt::format(format, std::forward<Args>(args)...);

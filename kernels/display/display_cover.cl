@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lines along a lattice's axes -> how much the surfaces that they cross in each voxel cover.
+// lines along a lattice's axes -> the coverage of the surfaces that they cross in each voxel.
 #include "lib/display/lattice_mask.h"
 #include "lib/display/line_order.h"
 #include "lib/lanes/work_item.h"
@@ -11,9 +11,9 @@ static inline bool is_shown(const DisplayLattice* l, global const uint* mask, in
     return (mask[index >> 5] & (1u << (index & 31u))) != 0u;
 }
 
-/// The voxel that shows a line's surface: the one that it is crossed in, or one next to it on the
-/// line. Cubes within a row of cubes, whose voxels show nothing, count for the voxel before them
-/// that does. Its x is -1 if there is none.
+/// The voxel that shows a line's surface: the one in which the line crosses it, or else a neighbour
+/// on the line. A cube within a row of cubes, whose own voxel shows nothing, counts for the nearest
+/// shown voxel before it. The result's x is -1 if there is none.
 static inline int4 shown_at(const DisplayLattice* l, global const uint* mask, float3 point,
                             uint axis, uint sense) {
     const float3 cell = floor(point);
@@ -44,12 +44,12 @@ static inline int4 shown_at(const DisplayLattice* l, global const uint* mask, fl
         global const uint *restrict voxel_objects, global const float *restrict voxel_opacities, \
         global const uint *restrict voxel_logs
 
-/// Adds lines 0 .. count-1, which lead along `axis`, to the voxels in which they cross surfaces.
-/// The points of line n are those from line_starts[n] on. Each voxel has, for each axis, what the
-/// surfaces in it take of the lines, in units of 1 / VXL_COVER_UNITS; and, for each sense in which
-/// they are crossed, the logarithms of what they let through, in units of -1 / VXL_LOG_UNITS. Those
-/// of the voxel's own object let through what the voxel does: `voxel_logs`; others what their
-/// materials do: `logs`. Logarithms of 0 are VXL_OPAQUE_LOG. No line lies on a side of a voxel.
+/// Adds lines 0 .. count-1, which run along `axis`, to the voxels in which they cross surfaces. The
+/// points of line n begin at line_starts[n]. For each axis, a voxel sums up how much of the lines
+/// its surfaces cover, in units of 1 / VXL_COVER_UNITS; and, for each sense in which they are
+/// crossed, the logarithms of what they let through, in units of -1 / VXL_LOG_UNITS. Surfaces of
+/// the voxel's own object let through what the voxel does (`voxel_logs`), others what their
+/// materials do (`logs`). The logarithm of 0 is VXL_OPAQUE_LOG. No line lies on a side of a voxel.
 kernel void cover_lines(DisplayLattice lattice, uint count, VXL_LINE_PARAMETERS, uint axis,
                         global const float* restrict opacities, global const uint* restrict logs,
                         VXL_COVERED_PARAMETERS, global uint* restrict sums) {

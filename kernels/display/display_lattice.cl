@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // probe points -> P in the layout `lattice`: the voxels that are shown, and the point of each.
 //
-// Probe points are in lattice voxels, three arrays `total` apart: on a probe line two of their
-// coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
-// every voxel of the lattice, by index x + size_x (y + size_y z), tells which are shown; the voxels
-// of 256 bits are numbered from their group's start.
+// Probe points are in lattice voxels, in three arrays `total` apart. On a probe line two of their
+// coordinates are exact, so a point on voxels' edges belongs to all these voxels. A mask with one
+// bit for every voxel of the lattice, by index x + size_x (y + size_y z), tells which voxels are
+// shown. The voxels of each group of 256 bits are numbered from their group's start.
 #include "lib/display/depth.h"
 #include "lib/display/lattice_mask.h"
 #include "lib/display/probe.h"
@@ -21,11 +21,11 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// Aims a ray at each of the probe points first_point .. first_point+count-1: from E where its view
-/// is 0, else along views[view], a vector as long as the world in voxels. Points without a view
-/// (0xFFFFFFFF) get idle rays. With `search` the views are all `search - 1`, and points that have a
-/// view already are idle; rays then end where the point would be hidden. Without, they begin
-/// shortly before the point and end shortly behind it.
+/// Aims a ray at each of the probe points first_point .. first_point+count-1: from E where the
+/// point's view is 0, else along views[view], a vector as long as the world in voxels. Points
+/// without a view (0xFFFFFFFF) get idle rays. With `search`, all views are `search - 1`, points
+/// that already have a view are idle, and rays end where the point would be hidden. Without
+/// `search`, rays begin shortly before the point and end shortly behind it.
 kernel void aim_rays(VXL_VIEW_PARAMETERS, VXL_POINTS_PARAMETERS, uint search, uint first_point,
                      uint count, uint stride, global float* restrict rays) {
     const uint first = work_item() * VXL_LANES;
@@ -43,7 +43,7 @@ kernel void aim_rays(VXL_VIEW_PARAMETERS, VXL_POINTS_PARAMETERS, uint search, ui
     store_ways(shape, &lattice, &way, search, rays, stride, first);
 }
 
-/// Notes of the rays of a layer that meet nothing whether they end in an object.
+/// For the rays of a layer that meet nothing, notes whether they end in an object.
 kernel void note_objects(VXL_BATCH_PARAMETERS, uint is_first, uint count,
                          global uint* restrict in_object) {
     const uint n = work_item();
@@ -53,9 +53,9 @@ kernel void note_objects(VXL_BATCH_PARAMETERS, uint is_first, uint count,
     in_object[is_first ? n : batch.paths[VXL_PATH_TARGET * stride + n]] = inside[n] != 0u;
 }
 
-/// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
-/// hides in it: nothing is met, or, where surfaces let light through, they cover `maximum` at most.
-/// With `outside_objects` points in objects get none.
+/// Gives `view` to those of the points first_point .. first_point+count-1 that have no view and are
+/// not hidden in this one: their rays meet nothing or, where surfaces let light through, surfaces
+/// that cover at most `maximum`. With `outside_objects`, points in objects get no view.
 kernel void note_view(global const uint* restrict hits, global const float* restrict coverage,
                       global const uint* restrict in_object, uint outside_objects, uint first_point,
                       uint count, uint stride, uint view, float maximum,
@@ -106,9 +106,9 @@ kernel void list_indices(global const uint* restrict mask, global const uint* re
     }
 }
 
-/// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the
-/// one with the lowest number. In two turns over all points, the first of which has number
-/// `first_number`: 0 finds the least distance, 1 the lowest number at that.
+/// Chooses for every voxel the point with a view that lies nearest to its middle; among equals, the
+/// one with the lowest number. Takes two turns over all points, whose numbers begin at
+/// `first_number`: turn 0 finds the smallest distance, turn 1 the lowest number at that distance.
 kernel void choose_points(DisplayLattice lattice, VXL_POINTS_PARAMETERS, uint first_number,
                           global const uint* restrict mask, global const uint* restrict starts,
                           uint turn, global uint* restrict distances,
@@ -144,9 +144,9 @@ kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
     voxel_views[voxel] = view_of_point[n];
 }
 
-/// Adds the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
-/// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
-/// passes by its surface, the voxel gets object 0.
+/// Adds the light of rays 0 .. count-1 to their voxels. Ray n was aimed at the point of voxel
+/// targets[first_voxel + n] or, if not `listed`, of voxel first_voxel + n. Where a ray misses its
+/// surface, the voxel gets object 0.
 kernel void keep_light(Camera camera, PyramidShape shape, VXL_SPACE_MEDIUM_PARAMETERS,
                        VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
                        global const uint* restrict targets, uint listed, uint first_voxel,

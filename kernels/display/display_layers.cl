@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// lit sight rays, layer by layer -> records of what P shows of each in the layout `rays`.
+// lit sight rays, layer by layer -> records of what each shows in P, in the layout `rays`.
 //
-// For worlds whose surfaces let light through, or whose medium isn't the same everywhere; the host
-// makes the voxels of the records.
+// This file is for worlds whose surfaces let light through, or whose medium varies. The host makes
+// the voxels from the records.
 #include "lib/display/depth.h"
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/vector.h"
@@ -18,10 +18,11 @@
 /// The light that a layer adds to an entry's node, and its coverage.
 typedef struct {
     float light[3];
-    float clear_before, clear;  // the parts that are uncovered before and behind it
+    float clear_before, clear;  // the uncovered parts before and behind the layer
 } LayerLight;
 
-/// Subtracts the light of the layers `seen` before from the node's, and adds the layer to `seen`.
+/// Subtracts the light of earlier layers, `seen`, from the node's light, and adds the layer to
+/// `seen`.
 static inline LayerLight take_light(const NodeLight* nodes, uint ray, bool goes_on, bool hit,
                                     global float* restrict seen) {
     const uint stride = nodes->stride;
@@ -43,8 +44,8 @@ static inline Vector one_vector(global const float* restrict p, uint stride, uin
     return v;
 }
 
-/// Writes the depths of entry n's way: VXL_LAYER_STEP, and VXL_LAYER_DEPTH to VXL_LAYER_RATIO. One
-/// ray in every lane: depths are those of the other kernels, bit by bit.
+/// Writes the depths of entry n's way: VXL_LAYER_STEP, and VXL_LAYER_DEPTH to VXL_LAYER_RATIO. All
+/// lanes compute the same ray, so depths equal those of the other kernels bit for bit.
 static inline void write_depths(const Camera* camera, PyramidShape shape, const DisplaySteps* steps,
                                 const RayBatch* batch, uint n, uint count, bool goes_on, bool hit,
                                 global uint* restrict records) {
@@ -74,8 +75,9 @@ static inline void write_depths(const Camera* camera, PyramidShape shape, const 
         records[(VXL_LAYER_DEPTH + i) * count + n] = as_uint(one[i * VXL_LANES]);
 }
 
-/// Writes a record of VXL_LAYER_WORDS words, `count` apart, of every entry of a layer of surfaces,
-/// 0 .. count-1. `seen` holds the light and the coverage of the rays' nodes before the layer.
+/// Writes a record of VXL_LAYER_WORDS words, `count` apart, for every entry 0 .. count-1 of a layer
+/// of surfaces. On entry, `seen` holds the light and the coverage of the rays' nodes before the
+/// layer.
 kernel void measure_layer(Camera camera, PyramidShape shape, DisplaySteps steps, uint is_first,
                           VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS, uint first_ray,
                           global float* restrict seen, global uint* restrict records) {
@@ -103,24 +105,25 @@ kernel void measure_layer(Camera camera, PyramidShape shape, DisplaySteps steps,
     }
 }
 
-/// The steps of one entry, the stride apart: density times metres. Where the medium's colour
-/// varies, a plane for each channel follows, of the light that a step adds if nothing covers it.
+/// The steps of one entry, `stride` values apart, each as density times metres. Where the medium's
+/// colour varies, a plane for each channel follows: the light that a step adds if nothing covers
+/// it.
 typedef struct {
     global float* amounts;
     uint stride;
     size_t plane;
     float absorption[3];  // of the medium, per metre at density 1
-    float color[3];       // of the cell that is added
+    float color[3];       // of the cell whose amount is added
 } StepSums;
 
-/// One number in every lane, for functions of lanes, and back.
+/// The number in lane 0, where all lanes hold the same number.
 static inline float lane_0_of(lane_float v) {
     float all[VXL_LANES];
     LANES_STORE(v, all, 0);
     return all[0];
 }
 
-/// Adds an amount behind all others of step k.
+/// Adds an amount of medium behind what step k already holds.
 static inline void add_amount(const StepSums* sums, uint k, float amount) {
     global float* at = sums->amounts + (size_t)k * sums->stride;
     for (uint c = 0; VXL_MEDIUM_COLORS && c < 3; ++c) {
@@ -132,7 +135,7 @@ static inline void add_amount(const StepSums* sums, uint k, float amount) {
     at[0] += amount;
 }
 
-/// Adds what lies between two depths beyond the near surface to the steps there.
+/// Distributes the medium between two depths beyond the near surface over the steps there.
 static inline void add_to_steps(DisplaySteps steps, float from, float to, float amount,
                                 const StepSums* sums) {
     const float maximum = (float)(steps.count - 1);
@@ -151,8 +154,8 @@ static inline void add_to_steps(DisplaySteps steps, float from, float to, float 
 }
 
 /// Sums density times metres in every step k of entries first_entry .. first_entry+count-1 of a
-/// layer: amounts[k * amount_stride + n], which are zero before, and so are the planes of the
-/// light that StepSums describes.
+/// layer, in amounts[k * amount_stride + n]. On entry these are zero, as are the planes of light
+/// that StepSums describes.
 kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps steps,
                             VXL_SPACE_MEDIUM_PARAMETERS, uint is_first, VXL_BATCH_PARAMETERS,
                             uint first_entry, uint count, uint amount_stride,

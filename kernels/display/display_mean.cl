@@ -3,8 +3,8 @@
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/work_item.h"
 
-/// Adds the light of rays 0 .. count-1 to their sums, which path 0 begins. After the last of
-/// `paths` gives the rays the mean.
+/// Adds the light of rays 0 .. count-1 to their sums, which path 0 starts. After the last of
+/// `paths`, stores the mean as the rays' light.
 kernel void add_paths(uint count, uint stride, uint path, uint paths, global float* restrict sums,
                       global float* restrict radiance) {
     const uint n = work_item();

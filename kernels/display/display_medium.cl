@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// lattice of a display -> how much of the medium of S each of its voxels holds: layout `lattice`.
+// lattice of a display -> the amount of the medium of S in each of its voxels, in the layout
+// `lattice`.
 //
-// The mean over a voxel is measured on lines along the lattice's z, each exact from voxel to voxel
-// of the world.
+// The mean over a voxel is measured on lines along the lattice's z, each of which is integrated
+// exactly from voxel to voxel of the world.
 #include "lib/display/lattice_mask.h"
 #include "lib/display/probe.h"
 #include "lib/lanes/fixed_point.h"
@@ -11,14 +12,14 @@
 #include "shared/display.h"
 #include "shared/scene.h"
 
-/// Sums over the lines of each lane's voxel: density times t, and that times colours.
+/// Sums over the lines of each lane's voxel: density times t, and density times t times colour.
 typedef struct {
     lane_float amount;
     lane_float colored[3];
 } MediumSums;
 
-/// The part of a lattice voxel's line from `from` to `from + along`, both in voxels of the world,
-/// that lies in the world. One of its t is `*t_whole`-th of the line.
+/// The part in the world of a lattice voxel's line from `from` to `from + along`, both in voxels of
+/// the world. `*t_whole` becomes the length of the whole line in units of the segment's t.
 static inline Segment line_in_world(PyramidShape shape, Vector from, Vector along,
                                     lane_float* t_whole) {
     const lane_float scale = power_of_two_scale(along.x, along.y, along.z);
@@ -70,11 +71,11 @@ static inline void add_line(PyramidShape shape, const DensityView* density,
     }
 }
 
-/// Writes the mean density of the voxels of rows first_row .. first_row+rows-1 of the lattice,
-/// which lie along x and follow one another along y, then z: voxel x of row i at i * stride + x.
-/// With VXL_MEDIUM_COLORS three planes of `rows * stride` places follow, of mean density times
-/// colour. Voxels that the display doesn't have are 0. The lines of a voxel are `lines.x` times
-/// `lines.y`.
+/// Writes the mean density of the voxels in rows first_row .. first_row+rows-1 of the lattice. Rows
+/// lie along x and follow one another along y, then z; voxel x of row i of these is at i * stride +
+/// x. With VXL_MEDIUM_COLORS, three planes of `rows * stride` values follow: the mean density times
+/// colour. Voxels outside the display are 0. Each voxel is measured on `lines_x` times `lines_y`
+/// lines.
 kernel void measure_medium(DisplayLattice lattice, PyramidShape shape, VXL_DENSITY_PARAMETERS,
                            global const float* restrict density_colors, uint lines_x, uint lines_y,
                            uint first_row, uint rows, uint stride, global float* restrict means) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// lit sight rays -> P in the layout `rays`: the voxel of each surface, and those of the medium
+// lit sight rays -> P in the layout `rays`: the voxel of each surface, and the voxels of the medium
 // before it.
 //
-// Rays lie in the order of sight.cl, one sample a pixel. Space between a ray's way into the world
-// and its end is cut into steps; the voxels of P are written by ascending index, u + width (v +
-// height k).
+// Rays are in the order of sight.cl, with one sample a pixel. The space between a ray's way into
+// the world and its end is cut into steps. The voxels of P are written by ascending index, u +
+// width (v + height k).
 #include "lib/display/depth.h"
 #include "lib/display/voxels.h"
 #include "lib/lanes/exact_exp.h"
@@ -19,7 +19,7 @@
 
 #define VXL_NO_STEP 0xFFFFFFFFu
 
-// A smaller share of the light from behind counts as none.
+// Transmittances below this limit count as this limit, so that nothing is divided by zero.
 #define VXL_MIN_TRANSMITTANCE 9.5367431640625e-7f
 
 /// The parameters that `bind` of RayDepths sets, in its order.
@@ -28,7 +28,8 @@
         global uint *restrict ray_objects, global float *restrict ray_colors, \
         global float *restrict ray_spans, uint total
 
-/// The data of each of `total` rays for its voxels; runtime/stages/display/display_rays.hpp.
+/// The data that each of `total` rays keeps for its voxels; see
+/// runtime/stages/display/display_rays.hpp.
 typedef struct {
     global uint* restrict steps;
     global float* restrict depths;
@@ -43,9 +44,9 @@ typedef struct {
     { ray_steps, ray_depths, ray_objects, ray_colors, ray_spans, total }
 
 // Values of the array `ray_spans`, `total` apart. Depths are metres beyond the near surface.
-#define VXL_SPAN_FIRST 0  // where the ray is in the world
-#define VXL_SPAN_END 1    // where it ends there, at a surface or not
-#define VXL_SPAN_RATIO 2  // metres of the ray in a metre of depth
+#define VXL_SPAN_FIRST 0  // where the ray enters the world
+#define VXL_SPAN_END 1    // where it ends in the world, at a surface or not
+#define VXL_SPAN_RATIO 2  // metres of the ray per metre of depth
 #define VXL_SPAN_COMPONENTS 3
 
 /// 1 - e^-x for x >= 0, with a small relative error near 0 as well.
@@ -57,7 +58,7 @@ static inline lane_float covered_part(lane_float x) {
     return LANES_SELECT(LANE_MASK(x < 0.125f), x * p, 1.0f - exact_exp(-x));
 }
 
-/// Keeps the span in which a ray is in the world, up to the surface that it met.
+/// Stores the span of a ray in the world, up to the surface that it met.
 static inline void measure_span(const Camera* camera, PyramidShape shape, const RayBatch* batch,
                                 uint first, lane_int hit, const RayDepths* kept, uint index) {
     const uint stride = batch->stride;
@@ -79,9 +80,9 @@ static inline void measure_span(const Camera* camera, PyramidShape shape, const 
     LANES_STORE(ratio, kept->spans, VXL_SPAN_RATIO * kept->total + index);
 }
 
-/// Keeps of rays 0 .. count-1, which are the image's from `first_ray` on, what their voxels need:
-/// the step of the surface met (VXL_NO_STEP: none), its depth in metres, and the span in the
-/// medium.
+/// For rays 0 .. count-1, which are the image's rays from `first_ray` on, stores what their voxels
+/// need: the step of the surface met (VXL_NO_STEP for none), its depth in metres, its object and
+/// light, and the span in the medium.
 kernel void measure_steps(Camera camera, PyramidShape shape, DisplaySteps steps,
                           VXL_BATCH_PARAMETERS, uint count, uint first_ray, VXL_DEPTHS_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
@@ -110,7 +111,7 @@ static inline uint ray_of_pixel(uint u, uint v, uint width) {
     return tile * 16u + (v & 3u) * 4u + (u & 3u);
 }
 
-/// Steps first .. end-1 of a ray hold space that shows, the step `hit` a surface.
+/// Steps first .. end-1 of a ray hold space that shows; step `hit` holds a surface.
 typedef struct {
     uint first, end, hit;
 } RaySteps;
@@ -128,7 +129,7 @@ static inline RaySteps steps_of_ray(DisplaySteps steps, const RayDepths* kept, u
     return s;
 }
 
-/// Counts the voxels of row v in every layer k: counts[v + height k]. One work-item a row.
+/// Counts the voxels of row v in every layer k: counts[v + height k]. One work-item takes one row.
 kernel void count_voxels(uint width, uint height, DisplaySteps steps, VXL_DEPTHS_PARAMETERS,
                          global uint* restrict counts) {
     const uint v = work_item();
@@ -141,8 +142,8 @@ kernel void count_voxels(uint width, uint height, DisplaySteps steps, VXL_DEPTHS
     }
 }
 
-/// Writes the indices of row v's voxels from starts[v + height k] on, which move, and to `sources`
-/// the ray of each.
+/// Writes the indices of row v's voxels from starts[v + height k] on, and advances these starts.
+/// Writes the ray of each voxel to `sources`.
 kernel void place_voxels(uint width, uint height, DisplaySteps steps, VXL_DEPTHS_PARAMETERS,
                          global uint* restrict starts, global ulong* restrict indices,
                          global uint* restrict sources) {
@@ -164,10 +165,10 @@ kernel void place_voxels(uint width, uint height, DisplaySteps steps, VXL_DEPTHS
     }
 }
 
-/// A packet's voxels in the medium: metres of it before each and inside of it.
+/// The medium before and inside a packet's voxels, in metres.
 typedef struct {
     lane_float before, inside;
-    lane_float throughput;  // by the opacities of the voxels before
+    lane_float throughput;  // transmittance of the voxels before
 } Immersion;
 
 static inline Immersion immersion_of(const DisplaySteps* steps, const RayDepths* kept,
@@ -185,8 +186,9 @@ static inline Immersion immersion_of(const DisplaySteps* steps, const RayDepths*
     return m;
 }
 
-/// The colour of voxels in the medium: what they add, or what of the surface's radiance `value` is
-/// not the medium's before it; both as if nothing covered the voxels.
+/// The colour of voxels in the medium, as if nothing covered them. For a voxel of space, it is the
+/// light that the medium in it adds; for a surface, it is its radiance `value` less the light of
+/// the medium before it.
 static inline lane_float color_in_medium(const Immersion* m, float absorption, float color,
                                          lane_int is_object, lane_float opacity, lane_float value) {
     const lane_float kept = exact_exp(-absorption * m->before);
@@ -198,12 +200,12 @@ static inline lane_float color_in_medium(const Immersion* m, float absorption, f
 }
 
 /// Gives voxels 0 .. count-1 their colours (three each, one after another), opacities, depths and
-/// objects; their `objects` hold the ray of each before.
+/// objects. On entry, `objects` holds the ray of each.
 ///
 /// A voxel of space adds color (1 - exp(-absorption x)) over its x metres of medium. Its opacity
-/// passes on what the least absorbed channel keeps; the rest that other channels lose is taken from
-/// the colours behind. A surface's radiance came through all of the medium: what the voxels before
-/// it add is subtracted again, and what they cover given back.
+/// lets through what the least absorbed channel keeps; what the other channels lose in addition is
+/// taken from the colours behind. A surface's radiance came through all of the medium, so what the
+/// voxels before it add is subtracted, and what they cover is restored.
 kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_depth,
                         Environment environment, VXL_DEPTHS_PARAMETERS, uint count,
                         VXL_VOXEL_PARAMETERS) {

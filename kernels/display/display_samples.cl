@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // voxels shown in the layout `lattice` -> the mean light of the surface in each.
 //
-// A probe point and the normal there stand for a surface in a voxel: samples are spread evenly over
-// the part of that plane that lies in the voxel. Rays look at them as at the probe point, and count
-// where they meet a surface in the voxel. For each axis, a voxel has one probe point on lines along
-// it; it counts if its plane faces that axis most. So two surfaces that meet in a voxel, as at the
-// rim of a plate, have a plane each.
+// A probe point and the normal there define a plane that stands for a surface in a voxel: samples
+// are spread evenly over the part of the plane that lies in the voxel. Rays are aimed at them as at
+// the probe point, and count where they meet a surface in the voxel. For each axis, a voxel has one
+// probe point on lines along that axis; it counts if its plane faces that axis most. So two
+// surfaces that meet in a voxel, as at the rim of a plate, have a plane each.
 #include "lib/display/lattice_mask.h"
 #include "lib/display/probe.h"
 #include "lib/display/voxel_light.h"
@@ -15,14 +15,15 @@
 #include "shared/scene.h"
 #include "shared/trace.h"
 
-// How far outside of its voxel a sample may be met, in lattice voxels: surfaces lie on sides, too.
+// How far outside its voxel a sample may be met, in lattice voxels. Surfaces may lie on voxels'
+// sides.
 #define VXL_SAMPLE_SLACK 0.00390625f
 
-// Surfaces whose normal's y is below minus this have no samples: few see them, and the rims of
-// plates would have dark spots.
+// Surfaces whose normal's y is below minus this value have no samples: few observers see them, and
+// they would put dark spots on the rims of plates.
 #define VXL_LOOKS_DOWN 0.7f
 
-/// Keeps the normals of rays 0 .. count-1, which were aimed at voxels from `first_voxel` on.
+/// Stores the normals of rays 0 .. count-1, which were aimed at voxels from `first_voxel` on.
 kernel void keep_normals(global const uint* restrict hits, global const float* restrict normals,
                          uint stride, uint first_voxel, uint count,
                          global float* restrict voxel_normals) {
@@ -58,14 +59,15 @@ static inline Vector kept_normals(global const float* restrict voxel_normals, ui
     return normals;
 }
 
-/// The planes that stand for the surfaces in a packet's voxels, in lattice voxels from their
-/// corners.
+/// The planes that stand for the surfaces in a packet's voxels. Points are in lattice voxels from
+/// the voxels' corners.
 typedef struct {
     Vector point, normal;
     lane_int by_x, by_y, by_z;  // masks: the axis that the plane faces most
 } SamplePlane;
 
-/// The lattice coordinates' derivative along a normal, which is metric: a normal of the lattice.
+/// The component of a metric normal along a lattice axis, as the derivative by that lattice
+/// coordinate. Three of them are a normal in the lattice.
 static inline lane_float along_axis(float4 axis, float4 edge, Vector normal) {
     return fma(normal.x, axis.x * edge.x,
                fma(normal.y, axis.y * edge.y, normal.z * (axis.z * edge.z)));
@@ -86,8 +88,9 @@ static inline SamplePlane sample_plane(const DisplayLattice* l, float4 edge, Vec
     return s;
 }
 
-/// The plane's point over place `number` of a square of 4^log2 places in Morton order, on the side
-/// that the plane faces most. The mask of planes that are in their voxels there.
+/// Sets `p` to the plane's point above slot `number` of a square of 4^log2 slots in Morton order.
+/// The square is the side of the voxel that the plane faces most. Returns the mask of planes that
+/// are in their voxels there.
 static inline lane_int place_on_plane(const SamplePlane* s, lane_uint number, int log2, Vector* p) {
     lane_uint column = (lane_uint)0u, row = (lane_uint)0u;
     for (int bit = 0; bit < log2; ++bit) {
@@ -115,8 +118,9 @@ static inline lane_int place_on_plane(const SamplePlane* s, lane_uint number, in
     return some & LANE_MASK(height >= -slack) & LANE_MASK(height <= 1.0f + slack);
 }
 
-/// Sample `sample` of `samples` on each plane: one of the places in its voxel, of that part of
-/// their order. `shift`, in 0 .. 1, says which. The mask of planes that have one.
+/// Sets `p` to sample `sample` of `samples` on each plane: one of the slots whose points lie in the
+/// voxel, from the sample's part of their order. `shift`, in 0 .. 1, chooses within that part.
+/// Returns the mask of planes that have such a slot.
 static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint samples,
                                        lane_float shift, int log2, Vector* p, lane_float* area) {
     const uint places = 1u << 2 * log2;
@@ -140,8 +144,8 @@ static inline lane_int sample_on_plane(const SamplePlane* s, uint sample, uint s
     return place_on_plane(s, chosen, log2, p) & LANE_MASK(count != 0u);
 }
 
-/// A number in 0 .. 1 for each of a packet's voxels, as good as random, so that their samples lie
-/// elsewhere than their neighbours'; `turn` is added to it.
+/// A hash in 0 .. 1 for each of a packet's voxels, plus `turn`, modulo 1. It places neighbouring
+/// voxels' samples differently.
 static inline lane_float voxel_shift(global const ulong* restrict indices, uint first, uint end,
                                      float turn) {
     float shift[VXL_LANES];
@@ -236,8 +240,8 @@ kernel void add_samples(PyramidShape shape, DisplayLattice lattice, VXL_SPACE_ME
     }
 }
 
-/// Gives voxels the mean light of their samples; those without any keep the probe point's, but with
-/// `clears_others` not their object.
+/// Gives voxels the mean light of their samples. Voxels without samples keep the light of their
+/// probe point, but with `clears_others` they lose their object.
 kernel void mix_samples(uint count, global const float* restrict sums, uint clears_others,
                         global float* restrict colors, global uint* restrict objects) {
     const uint voxel = work_item();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // probe lines -> probe points: every crossing of the lines of a display's lattice with a surface.
 //
-// One work-item carries VXL_LANES lines through the world, and then through the voxels of each
+// One work-item traces VXL_LANES lines through the world, and then through the voxels of each
 // instance that they come to.
 #include "lib/display/crossings.h"
 #include "lib/lanes/work_item.h"
@@ -15,8 +15,8 @@
     global uint *restrict counts, global float *restrict crossings, global uint *restrict surfaces
 
 /// Scans the `walking` lanes' voxels up to t_end. Lanes that reach an occupied voxel wait until no
-/// lane is walking; then the surfaces in those voxels are crossed together. `beginning` lanes set
-/// out from inside of the voxels: if among cubes, they have not crossed their surface.
+/// lane is walking; then the surfaces in those voxels are crossed together. `beginning` lanes start
+/// inside the voxels: if they start among cubes, they have not crossed a surface of them.
 static inline void scan_way(const WorldView* world, const PyramidView* p, Walk* w, lane_float t_end,
                             lane_int walking, lane_int beginning, ScanResult* r) {
     lane_int in_cube = (lane_int)0;
@@ -59,8 +59,7 @@ static inline void scan_way(const WorldView* world, const PyramidView* p, Walk* 
     }
 }
 
-/// Scans the voxels of instance `number` as far as the `active` lines pass through them before
-/// t_end.
+/// Scans the voxels of instance `number` where the `active` lines pass through them before t_end.
 static INLINED void scan_instance(const WorldView* world, uint number, lane_float inverse_squared,
                                   lane_float t_end, lane_int active, ScanResult* r) {
     global const InstanceRecord* record = world->instances.records + number;
@@ -106,13 +105,13 @@ static INLINED void scan_instances(const WorldView* world, const Walk* line, lan
     }
 }
 
-/// Finds the crossings of lines 0 .. count-1 with surfaces: `counts` says how many there are,
-/// `crossings` has the lattice coordinate along the line of the first `slots`, `line_stride` apart.
-/// Those with the world's voxels come first, then those with each instance's, each in their order
-/// along the line. Arrays hold a multiple of 16 lines. With `covers` they are where a line enters
-/// each cube, otherwise where it enters or leaves a row of them, and their lowest bits are a
-/// VXL_CROSSES_*. Where light goes through surfaces these bits are always that, and `surfaces`
-/// tells what is crossed: packed attributes with VXL_LINE_CUBE.
+/// Finds the crossings of lines 0 .. count-1 with surfaces. `counts` gets the number of crossings,
+/// and `crossings` the lattice coordinates along the line of the first `slots` of them,
+/// `line_stride` apart: first those with the world's voxels, then those with each instance's, each
+/// in their order along the line. Arrays hold a multiple of 16 lines. With `covers`, a line crosses
+/// cubes where it enters each one; otherwise, where it enters or leaves a row of them, and the
+/// coordinates' lowest bits are a VXL_CROSSES_*. Where light goes through surfaces, the bits are
+/// always set, and `surfaces` tells what is crossed, as packed attributes with VXL_LINE_CUBE.
 kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
                        uint count, uint stride, uint slots, uint line_stride, uint covers,
                        VXL_CROSSINGS_PARAMETERS) {
@@ -128,7 +127,7 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
                     surfaces, covers,          (lane_uint)0u, origin, way,
                     same,     VXL_NO_INSTANCE, (lane_uint)0u};
     lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    // A line that comes into the world has crossed the surface of cubes at its side.
+    // A line that enters the world has crossed the surface of cubes at its side.
     const lane_int comes_in =
         (LANE_MASK(w.ox == 0.0f) & w.px & w.mx) | (LANE_MASK(w.oy == 0.0f) & w.py & w.my) |
         (LANE_MASK(w.oz == 0.0f) & w.pz & w.mz) | (LANE_MASK(w.ox == (float)shape.size_x) & ~w.px) |
@@ -145,8 +144,8 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
     LANES_STORE(r.count, counts, first);
 }
 
-/// Puts the crossings of lines 0 .. count-1 in their order, and leaves out those that other objects
-/// hide; see line_order.h. Every line has slots for all of its crossings.
+/// Puts the crossings of lines 0 .. count-1 in order, and removes those that other objects hide;
+/// see line_order.h. Every line has slots for all of its crossings.
 kernel void order_lines(uint count, uint line_stride, global const uint* restrict ranks,
                         global const float* restrict opacities, VXL_CROSSINGS_PARAMETERS) {
     const uint n = work_item();
@@ -156,8 +155,8 @@ kernel void order_lines(uint count, uint line_stride, global const uint* restric
     counts[n] = order_crossings(&line);
 }
 
-/// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
-/// starts[n] on. In scenes with transmission `packed`, unless it is null, gets their surfaces.
+/// Packs the crossings of lines first_line .. first_line+count-1: those of line n begin at
+/// starts[n]. In scenes with transmission `packed`, unless it is null, gets their surfaces.
 kernel void pack_points(LineGrid lines, VXL_CROSSINGS_PARAMETERS,
                         global const uint* restrict starts, uint first_line, uint count,
                         uint stride, uint total, global float* restrict points,

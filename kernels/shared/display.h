@@ -10,28 +10,29 @@ namespace voxelume {
 #include "shared/scene.h"
 #endif
 
-// A display of layout `rays`: how depth becomes steps.
+// A display of layout `rays`: the map from depth to steps.
 typedef struct DisplaySteps {
     float step;          // metres
     float inverse_step;  // 1 / step
     int count;           // steps of a ray
-    float absorption;    // per metre: what the medium takes of every channel, its voxels' opacity
+    float absorption;    // per metre, that of the least absorbed channel; makes opacity
 } DisplaySteps;
 VXL_SIZE_IS(DisplaySteps, 16);
 
-// A ray's way through one layer of surfaces, as words: to the surface that it meets, or to its end.
+// The record of a ray's way through one layer of surfaces, up to the surface that it meets or to
+// its end. Words:
 #define VXL_LAYER_RAY 0        // uint: number of the sight ray
 #define VXL_LAYER_OBJECT 1     // uint: number of the object met plus 1, 0 for none
 #define VXL_LAYER_STEP 2       // uint: of the surface
-#define VXL_LAYER_IN_MEDIUM 3  // uint: 1 where the way leads through the medium of S, not an object
+#define VXL_LAYER_IN_MEDIUM 3  // uint: 1 where the way lies in the medium of S, not in an object
 #define VXL_LAYER_OPACITY 4    // float: of the surface
 #define VXL_LAYER_DEPTH 5      // float: of the surface, metres
-#define VXL_LAYER_BEGIN 6      // float: of the way, depth in metres beyond the near surface
+#define VXL_LAYER_BEGIN 6      // float: of the way's start, depth in metres beyond the near surface
 #define VXL_LAYER_END 7
-#define VXL_LAYER_RATIO 8  // float: metres of the way in a metre of depth
+#define VXL_LAYER_RATIO 8  // float: metres of the way per metre of depth
 #define VXL_LAYER_LIGHT 9  // 3 floats: what the layer adds to the light at E
 #define VXL_LAYER_THROUGHPUT \
-    12  // 3 floats: the part of the light that comes from the way's begin to E
+    12  // 3 floats: the part of the light at the way's start that comes to E
 #define VXL_LAYER_WORDS 15
 
 // How a line along a lattice's axis crosses a surface: the lowest two bits of its coordinate.
@@ -40,7 +41,7 @@ VXL_SIZE_IS(DisplaySteps, 16);
 #define VXL_CROSSES_CUBE 2u
 #define VXL_CROSSES_SENSES 3u
 
-// What lines along one axis sum up in a voxel, see cover_lines.
+// What lines along one axis sum up in a voxel; see cover_lines.
 #define VXL_COVER_SUMS (1 + VXL_CROSSES_SENSES)
 #define VXL_COVER_UNITS 262144.0f
 #define VXL_LOG_UNITS 4096.0f

@@ -4,23 +4,24 @@
 #define VXL_SHARED_EMITTERS_H
 
 // Values of the build constant VXL_EMITTERS: how paths find emissive surfaces.
-#define VXL_EMITTERS_NONE 0  // they run into them
-#define VXL_EMITTERS_BOTH 1  // also by rays to emitters; each way counts by its probability
-#define VXL_EMITTERS_RAYS 2  // those that rays to emitters can find are found by these alone
+#define VXL_EMITTERS_NONE 0  // paths run into them
+#define VXL_EMITTERS_BOTH 1  // also by rays to them; each way is weighted by its probability
+#define VXL_EMITTERS_RAYS 2  // those that rays to emitters can find are found by these rays alone
 
-// The surfaces of an emitter lie in the box of its voxel. Rays to it go through the sides of the
-// box that face them.
+// The surfaces of an emitter lie in the box of its voxel. Rays to it pass the sides of the box that
+// face their start.
 typedef struct EmitterRecord {
     float corner[3];  // the box's minimum corner, in voxels of the world or an instance's model
     unsigned int instance;  // VXL_NO_INSTANCE: the world
-    unsigned int voxel;     // its number in the pyramid
+    unsigned int voxel;     // the voxel's number in the pyramid
     unsigned int sides;  // bits 0..5: surfaces may be met through the sides -x, +x, -y, +y, -z, +z
-    float probability;   // that a ray is sent to this emitter
-    float own_share;     // alias table (Walker 1974): of its slot; the rest is emitter `alias`'
+    float probability;   // probability that a ray is sent to this emitter
+    float own_share;     // alias table (Walker 1974): share of its slot; the rest is emitter
+                         // `alias`'
     unsigned int alias;
     unsigned int unused;  // 0
 } EmitterRecord;
-#define VXL_EMITTER_INSTANCE 3  // words that lanes gather
+#define VXL_EMITTER_INSTANCE 3  // the first of the words that lanes gather
 #define VXL_EMITTER_VOXEL 4
 #define VXL_EMITTER_SIDES 5
 #define VXL_EMITTER_PROBABILITY 6
@@ -29,7 +30,7 @@ typedef struct EmitterRecord {
 #define VXL_EMITTER_WORDS 10
 
 // The map from world voxels w to those of an instance, image + object_from_world * (w - center),
-// and back. Frame 0 is the world's, frame 1 + i that of instance i.
+// and its inverse. Frame 0 belongs to the world, frame 1 + i to instance i.
 typedef struct EmitterFrame {
     float object_from_world[9];  // by rows
     float world_from_object[9];
@@ -48,10 +49,10 @@ typedef struct EmitterFrame {
 typedef char EmitterRecordHas10Words[sizeof(EmitterRecord) == VXL_EMITTER_WORDS * 4 ? 1 : -1];
 typedef char EmitterFrameHas32Words[sizeof(EmitterFrame) == VXL_FRAME_WORDS * 4 ? 1 : -1];
 
-// Emitters are found by their voxel in a table of `slots` numbers, a power of two. Each is in the
-// first free place from that of its hash on.
+// Emitters are found by their voxel in a hash table of `slots` numbers, a power of two. Each is in
+// the first free slot at or after that of its hash.
 #define VXL_NO_EMITTER 0xFFFFFFFFu
-#define VXL_EMITTER_IS_SKY 0xFFFFFFFEu  // of rays to a sky that is a map
+#define VXL_EMITTER_IS_SKY 0xFFFFFFFEu  // as the emitter of rays to a sky that is a map
 
 static inline unsigned int emitter_hash(unsigned int voxel, unsigned int instance) {
     unsigned int v = voxel * 0x9E3779B1u + instance * 0x85EBCA77u;

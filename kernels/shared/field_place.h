@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a part's field stands in the formula of its solid, for kernels and host alike.
+// The position of a part's field in the formula of its solid, for kernels and host alike.
 #ifndef VXL_SHARED_FIELD_PLACE_H
 #define VXL_SHARED_FIELD_PLACE_H
 
-// How a field is joined to what stands before it: not at all, by the lesser of the two, by the
-// larger (the numbers of voxelume::FieldLink).
+// How a field is joined to what stands before it: 0 for not at all, else by the smaller or the
+// larger of the two (the numbers of voxelume::FieldLink).
 #define VXL_LINK_UNION 1u
 #define VXL_LINK_INTERSECTION 2u
 #define VXL_LINK_BITS 2
 
-// The brackets that a field stands in, the outermost first, by their numbers; 0 where there is
-// none:
+// The numbers of the brackets that a field stands in, the outermost first; 0 for none:
 //   31 30 | 29 .... 20 | 19 .... 10 | 9 ..... 0
 //   0     | third      | second     | first
 #define VXL_MAX_BRACKETS 3

@@ -7,8 +7,8 @@
 //   form 0..5: the open face of a cube towards -x, +x, -y, +y, -z, +z; number: the voxel's
 //   VXL_PIECE_FIELD: the surface in a smooth voxel; number: the voxel's
 //   VXL_PIECE_SOLID: an exact solid's surface there; number: the solid's
-// Voxels with emissive surfaces are listed in the same words: in the place of the form a bit for
-// each side, 0..5, through which surfaces are met, and VXL_EMITTER_OF_CUBES for those of cubes.
+// Voxels with emissive surfaces are listed in the same words. Instead of the form they have a bit
+// for each side, 0..5, through which surfaces are met, and VXL_EMITTER_OF_CUBES for those of cubes.
 #define VXL_EMITTER_OF_CUBES 0x40u
 #define VXL_EMITTER_SIDES_ALL 0x3Fu
 #define VXL_PIECE_FIELD 6u

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many of the objects in a pixel a matte names. Read by kernels and host code.
+// The number of objects in a pixel that a matte names. Read by kernels and host code.
 #ifndef VXL_SHARED_MATTE_H
 #define VXL_SHARED_MATTE_H
 
@@ -7,7 +7,7 @@
 // Cryptomatte's layers of channels.
 #define VXL_MATTE_RANKS 6
 
-// The number of objects whose shares of a pixel are kept while samples are added.
+// The number of objects in a pixel whose weights are kept while samples are added.
 #define VXL_MATTE_HELD 24
 
 #endif

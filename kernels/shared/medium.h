@@ -22,7 +22,7 @@ typedef struct DensityShape {
     int unused[3];
 } DensityShape;
 
-// Fails to compile, in both languages, when the struct has another size than the text above says.
+// Compilation fails, in both languages, if the struct's size differs from what the text above says.
 typedef char DensityShapeHas8Words[sizeof(DensityShape) == 32 ? 1 : -1];
 
 #endif

@@ -11,8 +11,8 @@
 // ((1 - |v|) sign u, (1 - |u|) sign v, z) where z < 0. The angle to what was packed is at most
 // 0.004 degrees.
 //
-// Normals are those of planes in the voxels of their grid: gradients, which a map carries by its
-// inverse transpose, scaled to unit length.
+// Normals belong to planes in the voxels of their grid: they are gradients, scaled to unit length,
+// which a map transforms by its inverse transpose.
 #define VXL_NORMAL_UNITS 32767
 #define VXL_NO_NORMAL \
     0x80008000u                 // no code of a normal: the triangle's corners, or the cube, have

@@ -10,15 +10,15 @@ namespace voxelume {
 #include "shared/scene.h"
 #endif
 
-// The pixels and samples of a batch of sight rays, which come in tiles of 4 x 4 pixels as sight.cl
-// has them, and the length of their paths.
+// The pixels and samples of a batch of sight rays, which come in tiles of 4 x 4 pixels as in
+// sight.cl, and the maximum length of their paths.
 typedef struct PathSampling {
-    unsigned int first_tile;               // of the batch
-    unsigned int tiles_x;                  // tiles side by side in the image
+    unsigned int first_tile;               // the first tile of the batch
+    unsigned int tiles_x;                  // tiles per row of the image
     unsigned int samples;                  // per pixel
     unsigned int bounces;                  // the maximum number of times that a path is scattered
-    unsigned int first_column, first_row;  // of the image in its frame, as Camera has them
-    unsigned int first_sample;             // of the samples' sequence
+    unsigned int first_column, first_row;  // of the image in its frame, as in Camera
+    unsigned int first_sample;             // number of the first sample in the samples' sequence
 } PathSampling;
 VXL_SIZE_IS(PathSampling, 28);
 
@@ -26,7 +26,7 @@ VXL_SIZE_IS(PathSampling, 28);
 // position + a * axis_x + b * axis_y.
 typedef struct LightAreaRecord {
     float4 axis_x;  // w: 1 for a disk, where a^2 + b^2 <= 1; 0 for a rectangle, |a|, |b| <= 1
-    float4 axis_y;  // w: the area in square metres, 0 for the sun, which rays don't run into
+    float4 axis_y;  // w: the area in square metres, 0 for the sun, which rays cannot run into
 } LightAreaRecord;
 VXL_SIZE_IS(LightAreaRecord, 32);
 
@@ -34,7 +34,7 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 }  // namespace voxelume
 #endif
 
-// In global light VXL_PATH_WEIGHT is this state of the path:
+// In global light, VXL_PATH_WEIGHT holds this state of the path:
 //   bits 0..15   surfaces that the path has met, also those that it went straight through
 //   bits 16..23  times that it was scattered
 //   bit 24       the last time was a diffuse one
@@ -60,15 +60,15 @@ VXL_SIZE_IS(LightAreaRecord, 32);
 // The decisions at a surface that a path meets, or where the medium scatters it, each with a point
 // of the unit square.
 #define VXL_DECISION_LOBE 0u                // how the path goes on, and whether roulette ends it
-#define VXL_DECISION_DIRECTION 1u           // of diffuse light
-#define VXL_DECISION_NEAR 0xFFF9u           // where a light shines on its way
-#define VXL_DECISION_FLIGHT 0xFFFAu         // how far light comes in a scattering medium
+#define VXL_DECISION_DIRECTION 1u           // of scattered light
+#define VXL_DECISION_NEAR 0xFFF9u           // where on a ray's way a light shines from near by
+#define VXL_DECISION_FLIGHT 0xFFFAu         // how far light travels in a scattering medium
 #define VXL_DECISION_SKY 0xFFFBu            // whether a ray is sent to the sky or to an emitter
 #define VXL_DECISION_LAYER 0xFFFCu          // whether the facets of a surface or its rest scatter
 #define VXL_DECISION_LENS 0xFFFDu           // where on the lens a sight ray starts
 #define VXL_DECISION_EMITTER 0xFFFEu        // which emitter a ray is sent to
-#define VXL_DECISION_EMITTER_POINT 0xFFFFu  // and where
-#define VXL_DECISION_LIGHT 2u               // and after it one for each light: where on it
+#define VXL_DECISION_EMITTER_POINT 0xFFFFu  // where on that emitter
+#define VXL_DECISION_LIGHT 2u               // from here on, one for each light: where on it
 
 // The number of scatterings after which roulette may end a path.
 #define VXL_ROULETTE_BOUNCES 3u

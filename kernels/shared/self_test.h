@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The questions of a driver's self-test and its answers: rows of VXL_KNOWN_COLUMNS words each.
+// The questions of a driver's self-test and its answers, in rows of VXL_KNOWN_COLUMNS words each.
 #ifndef VXL_SHARED_SELF_TEST_H
 #define VXL_SHARED_SELF_TEST_H
 
 #define VXL_KNOWN_COLUMNS 16
 
-// Questions: floats x > 0, y in [-6, 6], z; ints i, j; then origins and directions of
-// rays, shared/trace.h.
+// Questions: floats x > 0, y in [-6, 6], z; ints i, j; then the origins and directions of rays as
+// in shared/trace.h.
 #define VXL_KNOWN_X 0
 #define VXL_KNOWN_Y 1
 #define VXL_KNOWN_Z 2
@@ -34,16 +34,16 @@
 #define VXL_KNOWN_HIT_T 15            // 0 for a miss
 // Answers of `answer_numbers`.
 #define VXL_KNOWN_LONG_QUOTIENT 16   // low word of (i << 32 | j) / (2 j + 1), as long
-#define VXL_KNOWN_LONG_REMAINDER 17  // and of its remainder
+#define VXL_KNOWN_LONG_REMAINDER 17  // low word of its remainder
 #define VXL_KNOWN_LONG_SHIFT 18      // low word of (i << 32 | j) >> (j & 63), as long
 #define VXL_KNOWN_UPPER_HALF 19      // mul_hi(i, j)
 #define VXL_KNOWN_LEADING_ZEROS 20   // clz(i >> (j & 31)), of the unsigned
 #define VXL_KNOWN_PRIVATE_ARRAY 21   // the sum of squares of how often each digit is in i, base 4
 #define VXL_KNOWN_VECTOR 22          // the sum of k = 0 .. 15 with k >= (i & 15), times (short)j
-#define VXL_KNOWN_ATOMICS 23         // of all columns: count, sum of j, bits 1 << (i & 31), least i
+#define VXL_KNOWN_ATOMICS 23         // count, sum of j, bits 1 << (i & 31), minimum of i
 #define VXL_KNOWN_ANSWERS 24
 
-// The voxels along each side of the world of the rays, and its fixed point.
+// The number of voxels along each side of the rays' world, and its fixed point.
 #define VXL_KNOWN_WORLD 20
 #define VXL_KNOWN_FIXED_POINT 524288.0f
 

@@ -16,32 +16,34 @@ namespace voxelume {
 #define VXL_SKY_SUN 2
 #define VXL_SKY_MAP 3
 
-// Values of the build constant VXL_SKY_RAYS, how paths find the light of a map, are those of
+// The build constant VXL_SKY_RAYS says how paths find the light of a map; its values are those of
 // VXL_EMITTERS.
 
 typedef struct SkyRecord {
     float4 zenith, horizon;  // gradient: radiance at both; w unused
     float4 ground;           // radiance from below the horizon; w unused
     float4 sun_direction;    // sun: unit vector towards it; w: cosine of half the disc's angle
-    float4 sun_radiance;     // of the disc, over the cube of the cosine with its middle; w unused
+    float4 sun_radiance;     // of the disc, divided by the cube of the cosine with its middle; w
+                             // unused
     // Preetham's sky: coefficients A, B, C and D of luminance Y and of chromaticities x and y.
     float4 luminance, chromaticity_x, chromaticity_y;
-    float4 last;  // E of the three; w unused
-    float4 base;  // the three at the zenith, over what the formula gives there; w unused
+    float4 last;  // E of all three; w unused
+    float4 base;  // the three at the zenith, divided by what the formula gives there; w unused
 } SkyRecord;
 VXL_SIZE_IS(SkyRecord, 160);
 
-// The picture of a map, and the cells by whose light directions are chosen, each as large as the
-// others on the picture. Their table holds, one behind the other, as 32-bit fractions where the
-// part of [0, 1) begins that chooses each row; for each row, likewise, those of its cells; and for
-// each cell, as a float, the density of its directions per solid angle, times the sine of their
-// angle from the zenith.
+// The picture of a map, and the cells that directions are chosen from by their light. All cells are
+// equally large on the picture. Their table holds, one after another: for each row, as a 32-bit
+// fraction, where the part of [0, 1) begins that chooses it; for each row, likewise, where the
+// parts of its cells begin; and for each cell, as a float, the density of its directions per solid
+// angle, times the sine of their angle from the zenith.
 typedef struct SkyMapRecord {
     int width, height;    // texels
     int columns, rows;    // cells
-    float turn;           // of the whole circle, counterclockwise as seen from above; in [0, 1)
+    float turn;           // rotation as a part of the full circle, counterclockwise seen from
+                          // above; in [0, 1)
     float strength;       // multiplies the radiance
-    float chance;         // that a ray that paths send to light goes to the sky
+    float chance;         // probability that a ray that paths send to light goes to the sky
     unsigned int unused;  // 0
 } SkyMapRecord;
 VXL_SIZE_IS(SkyMapRecord, 32);

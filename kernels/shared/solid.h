@@ -19,9 +19,10 @@
 //
 // Shape space. A point x of the grid (in voxels) is transformed to the shape's own space by
 //   p = shape_from_grid * ((x - cell) - fraction)
-// where x - cell is exact for x on the lattice. The origin is the shape's centre, Y its axis, and a
-// distance there is, in units of the grid's shortest voxel edge, the distance to the shape; where
-// the map has stretched the shape out of its kind, it is scaled so that it never exceeds that.
+// where x - cell is exact for x on the lattice. The origin is the shape's centre, and Y is its
+// axis. Distances there are distances to the shape, in units of the grid's shortest voxel edge;
+// where the map has stretched the shape out of its kind, they are scaled so that they never exceed
+// the true distance.
 #ifndef VXL_SHARED_SOLID_H
 #define VXL_SHARED_SOLID_H
 
@@ -40,7 +41,7 @@
 #define VXL_SOLID_INTERSECTION 2u
 #define VXL_SOLID_OPERATION_BITS 2
 #define VXL_SOLID_OPERATION_MASK 3u
-#define VXL_SOLID_STACK 16  // values that evaluation holds at most
+#define VXL_SOLID_STACK 16  // the maximum number of values that evaluation holds
 #define VXL_SOLID_WORDS 32  // 32-bit words of a record
 
 // One shape. `size` holds, in shape space:
@@ -54,9 +55,11 @@
 //   slab       half thickness
 typedef struct SolidShape {
     unsigned int kind;         // VXL_SOLID_*, and VXL_SOLID_COMPLEMENT
-    unsigned int operations;   // done after pushing this shape
-    unsigned int shape_count;  // of the solid, in its first record; 0 in the others
-    unsigned int attribute;    // shared/voxel.h's word of the solid, in its first record
+    unsigned int operations;   // applied after this shape is pushed
+    unsigned int shape_count;  // number of records of the solid, in its first record; 0 in the
+                               // others
+    unsigned int attribute;    // the packed attributes of the solid (shared/voxel.h), in its first
+                               // record
     int cell[3];               // the centre's voxel, at most 2^24 from the grid's origin
     float fraction[3];         // the centre in that voxel, 0..1
     float shape_from_grid[9];  // by rows
@@ -70,7 +73,7 @@ typedef struct SolidShape {
     float unused[2];    // 0
 } SolidShape;
 
-// Fails to compile, in both languages, when the record has another size than the text above says.
+// Compilation fails, in both languages, if the record's size differs from what the text above says.
 typedef char SolidShapeHas32Words[sizeof(SolidShape) == VXL_SOLID_WORDS * 4 ? 1 : -1];
 
 #endif

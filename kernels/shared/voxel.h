@@ -12,12 +12,10 @@
 // The packed attributes of a voxel:
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
-// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel lists
-// primitives, which have attributes of their own, and fields, below. 3: an exact voxel that is a
-// cube as well, whose object, material and colour the voxel's own are: rays that meet nothing that
-// it lists meet the cube.
-// `material` and `object` index the scene's lists; in an object's own grid, before placement,
-// `material` is the mesh's face group.
+// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface), 3 exact in a cube. An exact
+// voxel lists primitives, which have attributes of their own, and fields, below. A voxel of kind 3
+// is exact and also a cube, whose object, material and colour are the voxel's own: rays that meet
+// nothing that it lists meet the cube.
 #define VXL_KIND_SHIFT 30
 #define VXL_MATERIAL_SHIFT 16
 #define VXL_MATERIAL_MASK 0x3FFFu
@@ -27,8 +25,8 @@
 #define VXL_KIND_EXACT 2u
 #define VXL_KIND_EXACT_IN_CUBE 3u
 
-// Colour word of a voxel: 0xTTBBGGRR, sRGB and the voxel's transparency, 0 opaque .. 255 clear.
-// Both multiply the material's.
+// The colour word of a voxel is 0xTTBBGGRR: sRGB and the voxel's transparency, 0 opaque .. 255
+// clear. Both multiply the material's values.
 #define VXL_TRANSPARENCY_SHIFT 24
 
 // Field record of a smooth voxel, 8 words (32 bytes, aligned). The distance inside the voxel at
@@ -46,17 +44,17 @@
 //   bits 30-31 of word 4: 0, or how the field is joined to those of the records before, below;
 //   of words 5 and 6: how many brackets open and close in front of it
 //
-// Where surfaces of several smooth objects pass one voxel, or one passes an exact voxel, each keeps
-// a record of its own, numbered after all voxels': a number for attributes, colours and fields
-// alike. The voxel's kind is exact, and its own record's first two words are the number of the
-// first of them and how many there are.
+// Where surfaces of several smooth objects pass through one voxel, or one passes through an exact
+// voxel, each keeps a record of its own. These records are numbered after all voxels, with one
+// number for attributes, colours and fields alike. The voxel's kind is exact, and its own record's
+// first two words are the number of the first of these records and their count.
 //
-// Where surfaces of several parts of one solid pass a voxel, each keeps a record, too. Those of one
-// object follow each other and are a chain: its field is that of the first record, joined to the
-// next by the lesser (VXL_LINK_UNION) or the larger (VXL_LINK_INTERSECTION) of the two, joined to
-// the one after that, and so on. Between brackets is a chain of its own, which the link of its
-// first record joins to what stands before; if several brackets open at once, this is the
-// outermost.
+// Where surfaces of several parts of one solid pass through a voxel, each keeps a record, too. The
+// records of one object follow each other and form a chain: its field is that of the first record,
+// joined to the next by the smaller (VXL_LINK_UNION) or the larger (VXL_LINK_INTERSECTION) of the
+// two, joined to the one after that, and so on. A pair of brackets encloses a chain of its own,
+// which the link of its first record joins to what stands before; if several brackets open at once,
+// this is the outermost.
 #define VXL_FIELD_WORDS 8
 #define VXL_LINK_WORD 4
 #define VXL_OPENS_WORD 5
@@ -64,7 +62,7 @@
 #define VXL_LINK_SHIFT 30
 #define VXL_DISTANCE_UNITS 8192
 
-// Values of a brick table for bricks that are not stored.
+// Values in a brick table for bricks that are not stored.
 #define VXL_BRICK_OUTSIDE 0xFFFFFFFFu
 #define VXL_BRICK_INSIDE 0xFFFFFFFEu
 

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// triangles -> the bricks that each of them reaches: counted, then listed.
+// triangles -> the bricks that each of them reaches; these are counted, then listed.
 //
 // Bins are the frame's bricks and one more column at x = -1, which stands for all space left of the
 // frame: crossings there count for the winding numbers to their right.
 #include "lib/voxelize/lattice.h"
 
 // A bound on the rounding of floats, with u = 2^-24. Values come from integers, so each has a
-// relative error of at most u. A term of a sum has two such factors and passes their product and at
-// most two sums: 5 u of the terms' magnitudes, whose own sum is right within 6 u. 8 u are taken.
+// relative error of at most u. A term of a sum has two such factors and is rounded by its product
+// and at most two sums: 5 u of the terms' magnitudes, whose own sum is right within 6 u. The bound
+// is 8 u.
 #define SUM_ROUNDING 0x1p-21f
-// A term of a radius has one such factor and passes its product and three sums, and the half box in
-// it was rounded three times: 8 u. 16 u are taken.
+// A term of a radius has one such factor and is rounded by its product and three sums, and its half
+// box was rounded three times: 8 u. The bound is 16 u.
 #define RADIUS_ROUNDING 0x1p-20f
 
-/// The bricks of one triangle by its bounding box.
+/// The bricks that one triangle's bounding box reaches.
 typedef struct {
     int3 first, last;
 } BrickRange;
 
-/// `reach` is the distance in lattice units from which a triangle concerns a brick; `extent` is the
-/// edge of a brick's closed box: 16 voxels, or 15 when only nodes count.
+/// `reach` is the distance in lattice units within which a triangle concerns a brick; `extent` is
+/// the edge of a brick's closed box: 16 voxels, or 15 when only nodes count.
 static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, int extent,
                                         int4 bins) {
     const int3 low = lowest_corner(t) - reach, high = highest_corner(t) + reach;
@@ -30,7 +31,7 @@ static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, in
     return r;
 }
 
-/// True if the triangle's plane may pass through the brick's box widened by the reach: a
+/// True if the triangle's plane may pass through the brick's box, widened by the reach. This is a
 /// conservative test in floats.
 static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
     const float3 size = fabs(n);
@@ -40,8 +41,8 @@ static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
     return distance <= size.x * half_box.x + size.y * half_box.y + size.z * half_box.z + slack;
 }
 
-/// True if one edge, seen along an axis, may leave the triangle and the box unseparated: a
-/// conservative test in floats.
+/// False if one edge of the triangle, seen along an axis, separates the triangle from the box. This
+/// is a conservative test in floats: it may return true for separate ones.
 static inline bool edge_reaches(float2 edge, float2 to_corner, float2 to_opposite,
                                 float2 half_box) {
     const float at = edge.x * to_corner.y - edge.y * to_corner.x;
@@ -62,7 +63,8 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
                          convert_float3(t->corner[2] - center)};
     if (!plane_reaches(n, p[0], half_box)) return false;
     for (int i = 0; i < 3; ++i) {
-        // The difference is taken of the integers: that of two floats would have their errors.
+        // The difference is taken of the integers, because a difference of floats would include
+        // their errors.
         const float3 edge = convert_float3(t->corner[(i + 1) % 3] - t->corner[i]);
         const float3 a = p[i], opposite = p[(i + 2) % 3];
         if (!edge_reaches(edge.xy, a.xy, opposite.xy, half_box.xy)) return false;
@@ -72,8 +74,8 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
     return true;
 }
 
-/// Calls for each bin that triangle `number` reaches: counts it, or writes the triangle to its
-/// list.
+/// For each bin that triangle `number` reaches, counts it or, with `fill`, writes the triangle to
+/// the bin's list.
 static inline void visit_bins(const LatticeMesh* mesh, uint number, int4 bins, int4 reach,
                               int extent, bool fill, global uint* cursors, global uint* lists) {
     const LatticeTriangle t = load_triangle(mesh, number, (int3)(0, 0, 0));
@@ -91,7 +93,8 @@ static inline void visit_bins(const LatticeMesh* mesh, uint number, int4 bins, i
             }
 }
 
-/// One work-item: one of the mesh's triangles. Adds 1 to the count of each bin that it reaches.
+/// One work-item takes one of the mesh's triangles. It adds 1 to the count of each bin that the
+/// triangle reaches.
 kernel void count_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
                         global uint* restrict counts) {
     if (work_item() >= triangle_count) return;
@@ -99,10 +102,11 @@ kernel void count_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
     visit_bins(&mesh, mesh.first + work_item(), bins, reach, extent, false, counts, counts);
 }
 
-/// One work-item: one of the mesh's triangles. Writes its number at the cursor of each bin that it
-/// reaches.
+/// One work-item takes one of the mesh's triangles. It writes the triangle's number at the cursor
+/// of each bin that it reaches.
 ///
-/// The order within a list depends on the device: every reader gives the same result for any order.
+/// The order within a list depends on the device, but every reader gives the same result for any
+/// order.
 kernel void list_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
                        global uint* restrict cursors, global uint* restrict lists) {
     if (work_item() >= triangle_count) return;
@@ -110,7 +114,8 @@ kernel void list_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
     visit_bins(&mesh, mesh.first + work_item(), bins, reach, extent, true, cursors, lists);
 }
 
-/// One work-item: one row of bricks along x. Gives each brick its slot, or marks it as outside.
+/// One work-item takes one row of bricks along x. It gives each brick its slot, or marks it as
+/// outside.
 kernel void mark_outside(uint count, int4 bins, global const uint* restrict number_of_bin,
                          global uint* restrict slots) {
     const uint row = work_item();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // winding numbers of a mesh closed by caps -> which points are inside the open mesh.
 //
-// The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer of the
-// closed one less the caps' solid angle. Away from the mesh it changes slowly and smoothly, even
-// through the caps, so most bricks are decided by one point and a bound on the slope.
+// The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer winding
+// number of the closed mesh minus the caps' solid angle. Away from the mesh it changes slowly and
+// smoothly, even through the caps, so one point and a bound on the slope decide most bricks.
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/solid_angle.h"
@@ -21,26 +21,27 @@
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define TURNS 0.15915494f  // 1 / 2 pi: from half a solid angle to a winding number
 
-// Above 1 / 4 pi, which is 0.0795775.
+// This is a bound above 1 / 4 pi = 0.0795775.
 #define INVERSE_SPHERE 0.0796f
-// A length is right within some ten units of 2^-24. An edge's middle is rounded by half a unit
-// of the lattice on each axis, 2.2e-4 voxel, and a gap above 0 is that of a middle at least a
-// brick's half, 8 voxels, away: 2.8e-5 of its distance. A part in 1000 is taken for both.
+// A length is right within about ten units of 2^-24. An edge's middle is rounded by half a unit of
+// the lattice on each axis, 2.2e-4 voxel; where a gap is above 0, the middle is at least half a
+// brick, 8 voxels, away, so this is 2.8e-5 of its distance. One part in 1000 covers both.
 #define LENGTH_ROUNDING 1e-3f
-// The smallest gap, in voxels, that is divided by. With it an edge of one lattice unit already has
-// a slope of 10^7 a voxel, so the brick is open whatever else there is.
+// The smallest gap, in voxels, that is divided by. With it, an edge of one lattice unit already has
+// a slope of 10^7 per voxel, so the brick is open whatever else is in it.
 #define MIN_GAP 1e-6f
-// Four times 2^-24 of each sum: one for it, the others for the product with TURNS and this bound.
+// Four times 2^-24 of each sum: one for the sum, the others for the product with TURNS and for this
+// bound.
 #define SUM_ROUNDING 2.4e-7f
 
 // States of bricks.
 #define STATE_OUTSIDE 0u
 #define STATE_INSIDE 1u
-#define STATE_CLOSED 2u  // stored: caps change nothing, the closed mesh's winding numbers decide
+#define STATE_CLOSED 2u  // stored: caps change nothing; the closed mesh's winding numbers decide
 #define STATE_OPEN 3u    // stored: every point needs the caps' solid angle
 
 /// An upper bound on the slope of the caps' winding number within `radius` of the points. By the
-/// law of Biot and Savart the slope comes from the outline, which consists of each cap's first
+/// law of Biot and Savart the slope depends on the outline only, which consists of each cap's first
 /// edge.
 static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float radius,
                                      float3 to_metric) {
@@ -54,14 +55,14 @@ static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float 
     return (INVERSE_SPHERE * length) / (gap * gap);
 }
 
-/// What decides a brick's state besides the caps.
+/// What decides a brick's state, apart from the caps' solid angle.
 typedef struct {
     bool has_surface, has_caps;
     float closed;  // winding number of the closed mesh at the middle point
 } BrickFacts;
 
-/// `caps` is their winding number at the middle point; that of no point of the brick differs from
-/// it by more than `margin`, which may be NaN.
+/// The state of a brick. `caps` is the winding number of the caps at the middle point. At all other
+/// points of the brick it differs by at most `margin`, which may be NaN.
 static inline uint brick_state(BrickFacts f, float caps, float margin) {
     if (f.has_surface) return !f.has_caps && fabs(caps) + margin < 0.5f ? STATE_CLOSED : STATE_OPEN;
     const float winding = f.closed - caps;
@@ -69,10 +70,11 @@ static inline uint brick_state(BrickFacts f, float caps, float margin) {
     return winding > 0.5f ? STATE_INSIDE : STATE_OUTSIDE;
 }
 
-/// One work-item: VXL_LANES bricks. Writes their states.
+/// One work-item takes VXL_LANES bricks. It writes their states.
 ///
 /// Triangles cap_first .. cap_first + cap_count - 1 are the caps. The three tables give each bin's
-/// number among those with surface, with caps, and with either; the latter have winding numbers.
+/// number among the bins with a surface, with caps, and with either; those with either have winding
+/// numbers.
 kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float radius,
                                  VXL_MESH_PARAMETERS, global const uint* restrict surface_bins,
                                  global const uint* restrict cap_bins,
@@ -95,7 +97,7 @@ kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float ra
     for (uint i = mesh.first; i < mesh.first + mesh.count; ++i) {
         const Cap cap = make_cap(load_triangle(&mesh, i, (int3)(0, 0, 0)), scale.xyz);
         slope += slope_bound(&cap, &p, radius, to_metric);
-        if (all(cap.area == 0L)) continue;  // no angle, but a part of the outline
+        if (all(cap.area == 0L)) continue;  // no solid angle, but a part of the outline
         const HalfAngle seen = half_solid_angle(&cap, &p, to_metric);
         caps += seen.angle;
         error += seen.error + SUM_ROUNDING * fabs(caps);
@@ -112,8 +114,8 @@ kernel void classify_open_bricks(uint count, int4 bricks, float4 scale, float ra
     }
 }
 
-/// One work-item: VXL_SLICES slices of one stored brick. Bit x of inside[16 z + y] says whether the
-/// open mesh's winding number is above 1/2.
+/// One work-item takes VXL_SLICES slices of one stored brick. Bit x of inside[16 z + y] says
+/// whether the open mesh's winding number is above 1/2.
 ///
 /// `numbers` gives each slot's number among bins with winding numbers, or VXL_BRICK_OUTSIDE.
 kernel void find_inside_open(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> its occupancy masks: SUPERCOVER or THIN (6-separating).
 //
-// After Schwarz and Seidel 2010 (projections of the triangle and its plane against the voxel) and
-// Laine 2013 (crosshairs), in exact integers.
+// The tests follow Schwarz and Seidel 2010 (projections of the triangle and its plane against the
+// voxel) and Laine 2013 (crosshairs), in exact integers.
 #include "lib/voxelize/cover.h"
 
 #ifndef VXL_SLICES
@@ -19,9 +19,9 @@ static inline void add_row(ulong* masks, uint row, int y, int z) {
     for (int i = 0; i < 4; ++i) masks[leaf + i] |= (ulong)((row >> (4 * i)) & 15u) << shift;
 }
 
-/// One work-item: VXL_SLICES slices of one brick, gathered over the brick's triangles.
+/// One work-item takes VXL_SLICES slices of one brick, and gathers them over the brick's triangles.
 ///
-/// `size` is the frame's, in voxels; voxels beyond it stay empty. The list of bin i is
+/// `size` is the frame's, in voxels; voxels beyond it stay empty. The list of bin i spans
 /// lists[first[i]] .. lists[first[i+1] - 1].
 kernel void cover_bricks(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
                          VXL_BINS_PARAMETERS, global ulong* restrict occupancy) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangles of each brick, and what is inside -> signed distances at its nodes, 16 bits each.
 //
-// Distances are gathered: one work-item owns its nodes and goes over the brick's triangles; the
+// Distances are gathered: one work-item owns its nodes and visits the brick's triangles; the
 // smallest squared distance does not depend on their order. A triangle concerns only nodes within
-// the band. Tiles surely beyond the band are left out, and nodes beyond it are stored as saturated.
+// the band. Tiles that are surely beyond the band are skipped, and nodes beyond it are stored as
+// saturated.
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/point_triangle.h"
@@ -15,7 +16,8 @@
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define BRICK_CENTER (LATTICE_BRICK / 2 - LATTICE_VOXEL / 2)
 
-/// One work-item: one triangle. Writes the part of its frame that does not depend on the brick.
+/// One work-item takes one triangle. It writes the part of the triangle's frame that does not
+/// depend on the brick.
 kernel void shape_triangles(float4 scale, VXL_MESH_PARAMETERS, global float* restrict shapes) {
     if (work_item() >= triangle_count) return;
     const LatticeMesh mesh = VXL_MESH;
@@ -28,8 +30,8 @@ typedef struct {
     float first, last;
 } SliceRange;
 
-/// Narrows the range to where at + slope z <= limit. A slope below 1e-6, which moves `at` by
-/// less than 8e-6 within the brick, is taken as 0: `limit` has a margin of 0.01.
+/// Narrows the range to where at + slope z <= limit. A slope below 1e-6, which moves `at` by less
+/// than 8e-6 within the brick, counts as 0: `limit` has a margin of 0.01.
 static inline void narrow(SliceRange* range, float at, float slope, float limit) {
     if (fabs(slope) < 1e-6f) {
         if (at > limit) range->last = -100.0f;
@@ -43,8 +45,8 @@ static inline void narrow(SliceRange* range, float at, float slope, float limit)
 }
 
 /// The slices whose tile at (x, y) can have a node within `band` of the triangle. Only slices that
-/// are surely farther are left out (the margin is far above rounding), so no stored value depends
-/// on the result.
+/// are surely farther away are left out (the margin is far above rounding), so no stored value
+/// depends on the result.
 static inline SliceRange concerned_slices(const TriangleFrame* f, float x, float y, float band,
                                           SliceRange range) {
     const float half_x = 0.5f * (TILE_X - 1), half_y = 0.5f * (TILE_Y - 1), margin = 0.01f;
@@ -94,10 +96,11 @@ static inline lane_int distance_units(lane_float squared, lane_int inside, float
     return LANES_SELECT(inside, -units, units);
 }
 
-/// One work-item: VXL_SLICES slices of one brick.
+/// One work-item takes VXL_SLICES slices of one brick.
 ///
-/// `scale` is each voxel edge in the shortest; `band` is in shortest edges, at most 4, and `reach`
-/// the same in lattice units along each axis, rounded up. Bit x of inside[16 z + y] is set inside.
+/// `scale` is each voxel edge in units of the shortest edge; `band` is in shortest edges, at most
+/// 4, and `reach` is the band in lattice units along each axis, rounded up. Bit x of inside[16 z +
+/// y] is set inside.
 kernel void measure_distances(uint count, int4 bricks, int4 reach, float4 scale, float band,
                               VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
                               global const float* restrict shapes,

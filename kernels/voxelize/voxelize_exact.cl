@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> for each voxel the triangles that it lists, in ascending order.
 //
-// A voxel lists the triangles that its closed cube meets, the SUPERCOVER, widened by VXL_MARGIN.
-// Lists are counted, their starts summed, and then they are written.
+// A voxel lists the triangles that its closed cube meets (SUPERCOVER), widened by VXL_MARGIN. Lists
+// are counted, their starts are summed up, and then the lists are written.
 #include "lib/voxelize/cover.h"
 
 static inline uint voxel_index(int x, int y, int z) {
     return (uint)(x | y << 4 | z << 8);
 }
 
-/// Writes `number` to a voxel's list of `count` ascending numbers.
+/// Inserts `number` into a voxel's list of `count` ascending numbers.
 static inline void insert_ascending(global uint* list, uint count, uint number) {
     uint at = count;
     for (; at > 0 && list[at - 1] > number; --at) list[at] = list[at - 1];
     list[at] = number;
 }
 
-/// Adds one triangle to the counts of a brick's voxels, and with `fill` to their lists.
+/// Adds one triangle to the counts of a brick's voxels and, with `fill`, to their lists.
 static inline void list_triangle(uint number, const LatticeTriangle* t, int3 last, uint* counts,
                                  bool fill, global const uint* starts, global uint* primitives) {
     const CoverBox box = cover_box(t, last);
@@ -34,7 +34,7 @@ static inline void list_triangle(uint number, const LatticeTriangle* t, int3 las
         }
 }
 
-/// One work-item: one brick. Writes the number of triangles of each voxel, and of all together.
+/// One work-item takes one brick. It writes the number of triangles of each voxel, and the total.
 kernel void count_brick_primitives(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
                                    VXL_BINS_PARAMETERS, global uint* restrict counts,
                                    global uint* restrict totals) {
@@ -58,8 +58,8 @@ kernel void count_brick_primitives(uint count, int4 size, int4 bricks, VXL_MESH_
     totals[slot] = total;
 }
 
-/// One work-item: one brick. Turns the counts into starts, from the brick's start in `bases`, and
-/// writes the lists.
+/// One work-item takes one brick. It turns the counts into starts, beginning at the brick's start
+/// in `bases`, and writes the lists.
 kernel void list_primitives(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
                             VXL_BINS_PARAMETERS, global const uint* restrict bases,
                             global uint* restrict starts, global uint* restrict primitives) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> the packed attributes, colour and normal of its voxels.
 //
-// All come from the triangle closest to the voxel's centre, and from the one with the lowest
-// number among equally close ones, so they don't depend on the order of work. These kernels run
-// only for meshes that have several groups or colours, or whose normals cubes are to have.
+// All three come from the triangle closest to the voxel's centre; among equally close ones, from
+// the one with the lowest number. So they don't depend on the order of work. These kernels run only
+// for meshes with several groups or colours, or whose cubes need normals.
 #include "lib/surface/packed_normal.h"
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
@@ -15,14 +15,14 @@
 #ifndef VXL_SLICES
 #define VXL_SLICES 16
 #endif
-/// True if the mesh has colours of its vertices, and textures.
+/// VXL_VERTEX_COLORS: the mesh's vertices have colours. VXL_MESH_TEXTURES: the mesh has textures.
 #ifndef VXL_VERTEX_COLORS
 #define VXL_VERTEX_COLORS 1
 #endif
 #ifndef VXL_MESH_TEXTURES
 #define VXL_MESH_TEXTURES 0
 #endif
-/// True if it has normals at its triangles' corners.
+/// VXL_VERTEX_NORMALS: the mesh has normals at its triangles' corners.
 #ifndef VXL_VERTEX_NORMALS
 #define VXL_VERTEX_NORMALS 0
 #endif
@@ -55,11 +55,11 @@ static inline void compare_nearest(Nearest* best, lane_float squared, uint numbe
     best->number = LANES_SELECT(closer, (lane_uint)(number), best->number);
 }
 
-/// One work-item: VXL_SLICES slices of one brick. Writes the triangle closest to each voxel's
-/// centre; voxels farther than `band` from all get NO_TRIANGLE. `band` is in shortest edges,
-/// `reach` the same in lattice units, rounded up.
+/// One work-item takes VXL_SLICES slices of one brick. It writes the triangle closest to each
+/// voxel's centre; voxels farther than `band` from all triangles get NO_TRIANGLE. `band` is in
+/// shortest edges, and `reach` is the band in lattice units, rounded up.
 ///
-/// There may be more bins with lists than stored bricks, whose coordinates are in
+/// There may be more bins with lists than stored bricks. The latter's coordinates are in
 /// `coordinates_of_slots`.
 kernel void find_nearest(uint count, int4 bricks, int4 reach, float4 scale, float band,
                          VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
@@ -108,8 +108,8 @@ kernel void find_nearest(uint count, int4 bricks, int4 reach, float4 scale, floa
                                      16u * (uint)(j * TILE_Y) + (uint)(k * TILE_X));
 }
 
-/// One work-item: one voxel. Its packed attributes are those of its closest triangle, or `packed`
-/// if there is none.
+/// One work-item takes one voxel. It writes the packed attributes of the closest triangle, or
+/// `packed` if there is none.
 kernel void label_voxels(uint count, uint packed, global const uint* restrict nearest,
                          global const uint* restrict triangle_attributes,
                          global uint* restrict attributes) {
@@ -118,14 +118,14 @@ kernel void label_voxels(uint count, uint packed, global const uint* restrict ne
     attributes[work_item()] = number == NO_TRIANGLE ? packed : triangle_attributes[number];
 }
 
-/// Weights of a triangle's corners at the point closest to the origin.
+/// The weights of a triangle's corners at its point closest to the origin.
 static inline float3 closest_weights(float3 a, float3 b, float3 c) {
     const float3 ab = b - a, ac = c - a, n = cross_product(ab, ac);
     const float area = dot_product(n, n);
-    // Where the sides are parallel, a component of n is what rounding left of a product: below
-    // 2^-24 of it, and so is n below 2^-23 of the sides'. Its square is 1.4e-14; the rest is for
-    // edges of voxels that aren't cubes, which round the corners. What they leave beyond has
-    // weights, or none.
+    // Where the sides are parallel, a component of n is only the rounding error of a product: below
+    // 2^-24 of the product, so n is below 2^-23 of the sides' product. The square of that is
+    // 1.4e-14; the rest of the bound is for edges of voxels that aren't cubes, which round the
+    // corners. A triangle above the bound uses its normal if that gives valid weights.
     const float noise = 1e-13f * dot_product(ab, ab) * dot_product(ac, ac);
     float3 w = (float3)(dot_product(n, cross_product(b, c)), dot_product(n, cross_product(c, a)),
                         dot_product(n, cross_product(a, b)));
@@ -158,7 +158,8 @@ static inline float3 closest_weights(float3 a, float3 b, float3 c) {
     return w;
 }
 
-/// The sRGB code 0..255 of a linear value: how many of the 255 ascending thresholds are at most it.
+/// The sRGB code 0..255 of a linear value: the number of the 255 ascending thresholds that are at
+/// most `value`.
 static inline uint encode(float value, global const float* thresholds) {
     uint code = 0;
     for (uint step = 128; step > 0; step >>= 1)
@@ -166,7 +167,7 @@ static inline uint encode(float value, global const float* thresholds) {
     return code;
 }
 
-/// The mean of the values of a triangle's corners.
+/// The weighted mean of the values of a triangle's corners.
 static inline float3 mean_color(uint3 numbers, global const float* colors, float3 weights) {
     return vload3(numbers.x, colors) * weights.x + vload3(numbers.y, colors) * weights.y +
            vload3(numbers.z, colors) * weights.z;
@@ -177,7 +178,7 @@ static inline float2 mean_uv(uint3 numbers, global const float* uvs, float3 weig
            vload2(numbers.z, uvs) * weights.z;
 }
 
-/// A triangle seen from the centre of a brick's voxel `number`.
+/// A triangle relative to the centre of a brick's voxel `number`.
 static inline LatticeTriangle triangle_from(const LatticeMesh* mesh, uint triangle, int3 brick,
                                             uint number) {
     const int3 within =
@@ -194,9 +195,9 @@ static inline float3 weights_of(const LatticeTriangle* t, float4 scale) {
                            convert_float3(t->corner[2]) * to_metric);
 }
 
-/// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the
-/// centre: that between the corners' colours, times that of the texture there, in linear light.
-/// `thresholds` and `linear_levels` are the sRGB curve from and to linear values.
+/// One work-item takes one voxel. Its colour is that of its closest triangle at the point closest
+/// to the centre: the interpolated colour of the corners, times the texture's colour there, in
+/// linear light. `thresholds` and `linear_levels` are the sRGB curve from and to linear values.
 kernel void color_voxels(uint count, VXL_NEAREST_PARAMETERS,
                          global const uint* restrict color_indices,
                          global const float* restrict vertex_colors,
@@ -227,7 +228,7 @@ kernel void color_voxels(uint count, VXL_NEAREST_PARAMETERS,
                      encode(color.z, thresholds) << 16;
 }
 
-/// The normal of a triangle, as a gradient in voxels. A line has none.
+/// The normal of a triangle, as a gradient in voxels. A degenerate triangle, a line, has none.
 static inline uint face_normal(const LatticeTriangle* t) {
     if (all(t->corner[1] == t->corner[2])) return VXL_NO_NORMAL;
     const float unit_length = 1.0f / LATTICE_VOXEL;
@@ -240,8 +241,9 @@ static inline uint face_normal(const LatticeTriangle* t) {
     return pack_normal(n * scalar_reciprocal(longest));
 }
 
-/// The mean of a triangle's corners' normals, which are of unit length in metres, as a gradient in
-/// voxels; that of the triangle where corners have none, or their mean has no direction.
+/// The weighted mean of the normals at a triangle's corners, which are of unit length in metres, as
+/// a gradient in voxels. The result is the triangle's own normal where corners have none, or where
+/// their mean has no direction.
 static inline uint mean_normal(global const uint* codes, float3 weights, float3 scale,
                                const LatticeTriangle* t) {
     if (codes[0] == VXL_NO_NORMAL) return face_normal(t);
@@ -257,8 +259,8 @@ static inline uint mean_normal(global const uint* codes, float3 weights, float3 
     return code == VXL_NO_NORMAL ? face_normal(t) : code;
 }
 
-/// One work-item: one voxel. Its normal is that of its closest triangle at the point closest to the
-/// centre; VXL_NO_NORMAL if no triangle is near.
+/// One work-item takes one voxel. It writes the normal of the closest triangle at the point closest
+/// to the centre, or VXL_NO_NORMAL if no triangle is near.
 kernel void give_normals(uint count, VXL_NEAREST_PARAMETERS,
                          global const uint* restrict corner_normals,
                          global uint* restrict normals) {

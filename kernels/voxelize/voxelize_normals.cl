@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// analytic solid -> the normals that its cubes have.
+// analytic solid -> the normals of its cubes.
 #include "lib/lanes/work_item.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/packed_normal.h"
 
 /// Writes the normals of VXL_LANES neighbouring voxels of a stored brick: the gradients of the
-/// solid's formula in their centres, in voxels.
+/// solid's formula at their centres, in voxels.
 kernel void normals_of_solid(global const SolidShape* restrict solids,
                              global const uint* restrict coordinates, int4 bricks, uint first_brick,
                              uint voxel_count, global uint* restrict normals) {
@@ -17,7 +17,7 @@ kernel void normals_of_solid(global const SolidShape* restrict solids,
     const float x = (float)((brick - row * bricks.x) * 16 + (int)(voxel & 15u)) + 0.5f;
     const float y = (float)(row % bricks.y * 16 + (int)(voxel >> 4 & 15u)) + 0.5f;
     const float z = (float)(row / bricks.y * 16 + (int)(voxel >> 8)) + 0.5f;
-    // With t = 0, solid_normal takes the origin of the ray, so the direction doesn't matter.
+    // With t = 0, solid_normal evaluates the origin of the ray, so the direction doesn't matter.
     const lane_float one = (lane_float)1.0f;
     const SolidRay ray = {
         LANES_FLOAT(LANES_NUMBERS) + x, (lane_float)y, (lane_float)z, one, one, one};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// analytic solid -> bricks with distances at nodes, or masks of voxels
+// analytic solid -> bricks with distances at nodes, or masks of voxels.
 #include "lib/lanes/work_item.h"
 #include "lib/solid/solid.h"
 #include "lib/solid/solid_cover.h"
@@ -12,13 +12,13 @@ static inline LatticePoint lattice_point(lane_int x, lane_int y, lane_int z, flo
     return at;
 }
 
-/// Decides which bricks the surface may concern: those with a block of 4³ nodes (`of_nodes`) or
-/// voxels in whose middle the distance does not exceed `block_reach`. Their state is 0; that of the
-/// others is VXL_BRICK_INSIDE or VXL_BRICK_OUTSIDE.
+/// Decides which bricks may concern the surface: those with a block of 4³ nodes (`of_nodes`) or
+/// voxels at whose middle the distance does not exceed `block_reach`. Their state is 0; the state
+/// of the others is VXL_BRICK_INSIDE or VXL_BRICK_OUTSIDE.
 ///
 /// A work-item takes VXL_LANES bricks of the grid in order; `states` has room for whole groups. The
 /// reaches are half the diagonals of a brick and of a block, plus the distance that matters, in
-/// shortest edges: between two points the distance changes by no more than they are apart.
+/// shortest edges: the distance changes between two points by at most the distance between them.
 kernel void classify_solid_bricks(global const SolidShape* restrict solids, int4 bricks,
                                   uint brick_count, int of_nodes, float brick_reach,
                                   float block_reach, global uint* restrict states) {
@@ -68,7 +68,7 @@ kernel void sample_solid(global const SolidShape* restrict solids,
 }
 
 /// Writes the mask of one leaf of a stored brick, and the mask of those of its voxels that floats
-/// can't decide.
+/// cannot decide.
 ///
 /// `set` is VXL_SET_*; `reach` is half the diagonal of a leaf (x) and of a voxel (y), in shortest
 /// edges. `undecided_count` counts the leaves with such voxels.
@@ -121,8 +121,8 @@ kernel void count_solid_voxels(global const uint2* restrict occupancy, uint bric
     counts[slot] = count;
 }
 
-/// Writes each voxel's first entry in the list of primitives, which has one entry per occupied
-/// voxel, for one stored brick; `firsts` holds the first entry of each brick.
+/// For one stored brick, writes each voxel's first entry in the list of primitives, which has one
+/// entry per occupied voxel. `firsts` holds the first entry of each brick.
 kernel void number_voxels(global const uint2* restrict occupancy,
                           global const uint* restrict firsts, uint brick_count,
                           global uint* restrict primitive_first) {

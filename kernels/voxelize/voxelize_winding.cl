@@ -3,12 +3,12 @@
 // meshes.
 //
 // The winding number of a point is the signed number of crossings left of it on its row along x.
-// Points on edges, and crossings on points, are decided as if each point were moved by
-// (e, e², e³) for an infinitesimal e.
+// Ties, points on edges and crossings at points, are decided as if each point were moved by (e, e²,
+// e³) for an infinitesimal e.
 #include "lib/voxelize/cover.h"
 #include "shared/voxel.h"
 
-/// VXL_CENTERS 1: points are voxels' centres, else their minimum corners.
+/// With VXL_CENTERS 1, points are voxels' centres; otherwise, their minimum corners.
 #ifndef VXL_CENTERS
 #define VXL_CENTERS 0
 #endif
@@ -16,7 +16,7 @@
 
 #define COLUMN_NUMBERS ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
-/// Adds one triangle's crossings to the rows of a brick: `winding` at 16 points a row, and
+/// Adds one triangle's crossings to the rows of a brick: to `winding`, 16 points a row, and to
 /// `totals`.
 ///
 /// Each crossing is counted in the brick that holds it. `left` is true for the column that stands
@@ -27,7 +27,8 @@ static inline void add_crossings(const LatticeTriangle* t, bool left, short16* w
     if (n.x == 0) return;
     const int3 low = lowest_corner(t), high = highest_corner(t);
     if (left ? low.x >= 0 : (high.x < 0 || low.x >= LATTICE_BRICK)) return;
-    // Rows whose points lie in the bounding box: ceil of its start, floor of its end.
+    // The rows whose points lie in the bounding box: from the ceiling of its start to the floor of
+    // its end.
     const int2 first =
         max((low.yz - POINT_OFFSET + (LATTICE_VOXEL - 1)) >> LATTICE_BITS, (int2)(0));
     const int2 last = min((high.yz - POINT_OFFSET) >> LATTICE_BITS, (int2)(15));
@@ -49,8 +50,8 @@ static inline void add_crossings(const LatticeTriangle* t, bool left, short16* w
         }
 }
 
-/// One work-item: one bin with triangles. Bins below `stored` are bricks that get winding numbers
-/// counted from their own left face; all get the totals of their 256 rows.
+/// One work-item takes one bin with triangles. Bins below `stored` are bricks that get winding
+/// numbers counted from their own left face; all bins get the totals of their 256 rows.
 kernel void count_crossings(VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
                             global short* restrict winding, global short* restrict totals) {
     const uint number = work_item();
@@ -76,9 +77,9 @@ kernel void count_crossings(VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
     }
 }
 
-/// One work-item: one row of bricks along x. Turns the totals into each brick's winding numbers at
-/// its left face, marks bricks without triangles as inside or outside, and writes the winding
-/// number of all their points to `passing`.
+/// One work-item takes one row of bricks along x. It turns the totals into each brick's winding
+/// numbers at its left face, marks bricks without triangles as inside or outside, and writes the
+/// winding number of all points of such bricks to `passing`.
 kernel void carry_rows(uint count, int4 bins, global const uint* restrict number_of_bin,
                        global short* restrict totals, global uint* restrict slots,
                        global short* restrict passing) {
@@ -104,8 +105,8 @@ kernel void carry_rows(uint count, int4 bins, global const uint* restrict number
     }
 }
 
-/// One work-item: one brick. Bit x of inside[16 z + y] says whether the winding number of point
-/// (x, y, z) is above 1/2.
+/// One work-item takes one brick. Bit x of inside[16 z + y] says whether the winding number of
+/// point (x, y, z) is above 1/2.
 kernel void find_inside(uint count, global const short* restrict winding,
                         global const short* restrict row_starts, global ushort* restrict inside) {
     const uint slot = work_item();
@@ -122,8 +123,8 @@ kernel void find_inside(uint count, global const short* restrict winding,
     }
 }
 
-/// One work-item: one brick. Writes its SOLID occupancy from the rows of `inside`, within the
-/// frame's size.
+/// One work-item takes one brick. It writes the brick's SOLID occupancy from the rows of `inside`,
+/// within the frame's size.
 kernel void fill_solid(uint count, int4 size, int4 bricks, global const uint* restrict coordinates,
                        global const ushort* restrict inside, global ulong* restrict occupancy) {
     const uint slot = work_item();

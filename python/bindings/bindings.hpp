@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the Python module share.
+// The common parts of the Python module.
 #pragma once
 
 #include <pybind11/functional.h>
@@ -37,8 +37,8 @@ py::array view(const Value* values, const std::vector<py::ssize_t>& shape,
     return array;
 }
 
-/// Does the work in a thread of its own, without Python's lock, and has it stop when the user
-/// presses Ctrl-C; then KeyboardInterrupt leaves the call.
+/// Does the work in a separate thread, without Python's lock, and stops it when the user presses
+/// Ctrl-C; the call then raises KeyboardInterrupt.
 template <class Work>
 auto interruptibly(const Work& work) {
     std::stop_source stop;
@@ -57,12 +57,12 @@ auto interruptibly(const Work& work) {
     try {
         done.get();
     } catch (const std::exception&) {
-        // The user asked for the interruption, so that is what is reported.
+        // The user asked for the interruption, so the interruption is reported.
     }
     throw *std::move(interruption);
 }
 
-/// The channels that callers name; throws Error::usage for a name that there isn't.
+/// The channels that callers name. Throws Error::usage for a name that doesn't exist.
 voxelume::Channels channels_named(const std::vector<std::string>& names);
 
 void bind_errors(py::module_& module);

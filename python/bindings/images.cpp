@@ -61,7 +61,7 @@ std::vector<std::string> channels_of(const Image& image) {
     return names;
 }
 
-/// The groups of channels that an image has planes of.
+/// The groups of channels for which an image has planes.
 voxelume::Channels groups_of(const Image& image) {
     const std::vector<std::string> names = channels_of(image);
     voxelume::Channels channels = voxelume::kNoChannels;

@@ -5,7 +5,7 @@
 namespace voxelume_python {
 namespace {
 
-/// An error of the library as voxelume.Error.
+/// Raises an error of the library as voxelume.Error.
 void raise(const voxelume::Error& error) {
     static const char* const kKinds[] = {"",       "render", "usage", "scene", "input",
                                          "output", "device", "build", "limit"};
@@ -35,9 +35,9 @@ PYBIND11_MODULE(_native, module) {
     using namespace voxelume_python;
     module.doc() = "The compiled part of voxelume.";
     module.attr("__version__") = voxelume::version();
-    // The kernels that PoCL compiled are kept in Voxelume's cache, as the program keeps them; a
-    // damaged OpenVDB file can't harm the interpreter. No processes compile beside it: a module
-    // that others import takes no cores of its own accord, and wheels lack that program.
+    // Kernels that PoCL compiles are kept in Voxelume's cache, as in the program, and a damaged
+    // OpenVDB file can't harm the interpreter. No helper processes compile, because a module that
+    // others import should not take cores unasked, and wheels lack the helper program.
     voxelume::configure({.set_driver_environment = true, .isolate_readers = true});
     bind_errors(module);
     bind_devices(module);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rendering for Python: without its lock, with its callbacks, and ended by Ctrl-C.
+// Rendering for Python: without Python's lock, with callbacks, and stopped by Ctrl-C.
 #include <algorithm>
 
 #include "bindings.hpp"
@@ -11,10 +11,11 @@ using voxelume::Device;
 using voxelume::RenderOptions;
 using voxelume::Scene;
 
-/// The devices of a call, which no other call has meanwhile.
+/// The devices of a call. No other call uses them at the same time.
 class DevicesInUse {
   public:
-    /// Waits for them without Python's lock. Throws Error of the kind `cancelled` when asked to.
+    /// Waits for the devices without Python's lock. Throws Error of the kind `cancelled` when asked
+    /// to stop.
     DevicesInUse(std::vector<OpenDevice> devices, const std::stop_token& stop) {
         for (const OpenDevice& open : devices) devices_.push_back(open.device);
         // Takes each lock once and always in the same order, so that two calls can't deadlock.
@@ -71,8 +72,8 @@ voxelume::Channels channels_named(const std::vector<std::string>& names) {
 
 namespace {
 
-/// What a call takes besides scene and devices. The callbacks belong to the caller's frame, which
-/// outlives the thread that calls them.
+/// The options of a call besides scene and devices. The callbacks belong to the caller's frame,
+/// which outlives the thread that calls them.
 struct Options {
     std::vector<std::string> channels;
     py::object progress, warn;
@@ -92,7 +93,7 @@ struct Options {
                 const py::gil_scoped_acquire acquire;
                 warn(voxelume::name_of(warning.kind), warning.where, warning.text);
             };
-        // A program that is being compiled can't be stopped, but the next one isn't begun.
+        // A program that is being compiled can't be stopped, but no further one is started.
         options.compiling = [stop](int, int) {
             if (stop.stop_requested())
                 throw voxelume::Error(voxelume::ErrorKind::cancelled, "cancelled");
@@ -122,7 +123,7 @@ voxelume::Volume render_volume(const Scene& scene, const std::vector<OpenDevice>
     });
 }
 
-/// Frames by their numbers, with the names of files that have # for each digit.
+/// Frames by their numbers, with the names of files, which have # for each digit.
 voxelume::FrameJob job_of(const std::vector<int>& frames, const std::vector<std::string>& images,
                           const std::vector<std::string>& volumes) {
     voxelume::FrameJob job;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes for Python: of files, texts and arrays.
+// Scenes for Python, from files, texts and arrays.
 #include "bindings.hpp"
 
 namespace voxelume_python {
@@ -9,11 +9,11 @@ using voxelume::Scene;
 using voxelume::SceneOptions;
 using voxelume::VoxelArray;
 
-/// Bytes as they are: nothing is converted.
+/// Bytes without conversion.
 using Bytes = py::array_t<uint8_t, 0>;
 
-/// Arrays (x, y, z, 4) of bytes by the names that models have for them. They are read where they
-/// lie, whatever their strides.
+/// Arrays (x, y, z, 4) of bytes, by the names that models use for them. They are read in place,
+/// with any strides.
 using Arrays = std::map<std::string, Bytes>;
 
 VoxelArray voxels_of(const std::string& name, const Bytes& array) {

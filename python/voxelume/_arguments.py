@@ -14,7 +14,7 @@ from ._errors import Error
 
 _Function = TypeVar("_Function", bound=Callable[..., object])
 
-#: The largest number that the library takes as a frame, a size or a count.
+#: The maximum number that the library accepts as a frame, a size or a count.
 MAX_WHOLE = 2**31 - 1
 
 

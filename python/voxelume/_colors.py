@@ -14,7 +14,7 @@ from ._errors import Error
 #: The colour of voxels without one, sRGB.
 PLAIN = (219, 217, 214)
 
-#: The most voxels along an axis, and in all, of arrays that are turned into bytes.
+#: The maximum number of voxels along an axis, and in total, for arrays that are turned into bytes.
 MAX_ALONG = 2**16
 MAX_VOXELS = 2**36
 

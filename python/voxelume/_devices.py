@@ -51,7 +51,7 @@ def opened(devices: Any) -> list[Device]:
         if not chosen:
             raise Error("devices has none: leave it out for the usual ones")
         return chosen
-    # Kept open: a device has its kernels ready the second time.
+    # These devices are kept open, because a device has its kernels ready the second time.
     with _usual_devices_lock:
         if not _usual_devices:
             _usual_devices.extend(_native.open_devices())

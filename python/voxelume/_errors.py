@@ -10,7 +10,7 @@ class Error(Exception):
 
     #: "render", "usage", "scene", "input", "output", "device", "build", "limit" or "cancelled".
     kind: str
-    #: The scene, mesh, image or volume.
+    #: The file of the scene, mesh, image or volume.
     file: str
     #: The line of the file, from 1 on.
     line: int

@@ -44,6 +44,6 @@ def _volume_png(volume: Volume) -> bytes:
     return png_of(volume.view())
 
 
-# Notebooks show the values of cells by these.
+# Notebooks call these methods to show the values of cells.
 setattr(Image, "_repr_png_", _image_png)
 setattr(Volume, "_repr_png_", _volume_png)

@@ -17,11 +17,11 @@ from ._devices import Devices, opened
 from ._native import Device, Image, Scene, Volume
 from ._scenes import SceneLike, scene as make_scene
 
-#: Hears the share of a call that is done, 0..1, and the frame that got on.
+#: Gets the share of a call that is done, 0..1, and the frame that made progress.
 Progress = Callable[[float, int], object]
-#: Hears of what is probably wrong: its kind, where it is, and what to do.
+#: Gets the kind of a probable mistake, its place, and what to do about it.
 Warn = Callable[[str, str, str], object]
-#: Takes a frame's number, and its image and volume where they were asked for.
+#: Gets a frame's number, and its image and volume if they were asked for.
 Deliver = Callable[[int, Union[Image, None], Union[Volume, None]], object]
 
 Channel = Literal["color", "depth", "position", "normal", "object", "distance", "materialId",
@@ -118,7 +118,7 @@ def scene_of_voxels(array: npt.ArrayLike, *, colors: Any = None, threshold: floa
     rays = whole("samples", samples, 1, 4096)
     codes = voxel_bytes(array, colors, threshold)
     if up == "z":
-        # (x, y, z) -> (x, z, -y): the array stays where it is, its strides change.
+        # (x, y, z) becomes (x, z, -y): the array stays in place, only its strides change.
         codes = codes.transpose(0, 2, 1, 3)[:, :, ::-1]
     return _native.scene_of_voxels(codes, studio).with_samples(rays)
 

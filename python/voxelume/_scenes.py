@@ -19,8 +19,7 @@ from ._colors import voxel_bytes
 from ._errors import Error
 from ._native import Scene
 
-#: What a scene may be given as: a Scene, a dict as a scene file has it, or the path of a scene or
-#: of a model file.
+#: The forms of a scene: a Scene, a dict like a scene file, or the path of a scene or a model file.
 SceneLike = Union[Scene, Mapping[str, Any], str, "os.PathLike[str]"]
 
 Arrays = dict[str, npt.NDArray[np.uint8]]

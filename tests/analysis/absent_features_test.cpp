@@ -110,7 +110,7 @@ const std::set<std::string> kRemoved = {
     "lib/light/path_samples.h",     "lib/light/ggx.h",
     "lib/light/physical.h",         "lib/light/physical_light.h"};
 
-/// The kernels that frames of such a scene launch, by file.
+/// The kernels that frames of a plain scene launch, by file.
 const std::map<std::string, std::set<std::string>> kLaunched = {
     {"sight.cl", {"cast_sight", "start_beams"}},
     {"trace.cl", {"trace_closest", "trace_shadows"}},

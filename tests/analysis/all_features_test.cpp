@@ -159,10 +159,11 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
 
     DeviceCounters& counters = device.counters();
     counters.launches.clear();
-    // The kernels that list the emissive surface are a program of their own: rays don't need them.
+    // The kernels that list the emissive surface form a separate program, because rays don't need
+    // them.
     const Program lists(device, "light_samples.cl",
                         features_of(scene, world.pyramid).defines(device));
-    // So is the one that finds how bright its map is there.
+    // The kernel that finds the brightness of the surface's map is also in a separate program.
     if (!is_global)
         Program(device, "emission_maps.cl", features_of(scene, world.pyramid).defines(device));
     const uint64_t before = counters.programs_built;
@@ -187,7 +188,7 @@ TEST_P(AllFeatures, AreInOneProgramOfAllFiles) {
     EXPECT_GT(maximum, minimum);
 }
 
-/// By default, these kernels are those of each feature that other numbers of lanes run.
+/// By default, only one of the other numbers of lanes runs.
 TEST_P(AllFeatures, HaveTheSameBitsOnAnyNumberOfLanes) {
     const bool is_global = GetParam() == std::string("global");
     const Scene scene = scene_here();
@@ -202,8 +203,8 @@ TEST_P(AllFeatures, HaveTheSameBitsOnAnyNumberOfLanes) {
         EXPECT_EQ(hash_on(test_device(lanes)), expected) << lanes;
 }
 
-/// Where no medium scatters paths and shadows let nothing through, physically based surfaces share
-/// lights with rays.
+/// This case has no medium that scatters paths and no shadows that let light through: then
+/// physically based surfaces share lights with rays.
 TEST_F(FilesOfAllFeatures, AreThereWithLightsThatPathsMeet) {
     Scene scene = scene_in("global");
     scene.world.medium.scattering = {0, 0, 0};

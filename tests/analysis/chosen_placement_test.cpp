@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scenes leave to the sizes and numbers of their objects: `"placement": "auto"`, and the
-// voxels of instances.
+// The choices that scenes leave to the sizes and numbers of their objects: `"placement": "auto"`,
+// and the voxels of instances.
 #include "runtime/scene/predicates.hpp"
 #include "tests/analysis/chosen_scene.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is foreseen of an image's programs and kernels is what it is then made by.
+// The programs and kernels predicted for an image are those that it is made with.
 #include "runtime/analysis/image_programs.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 namespace voxelume {
 namespace {
 
-/// The folders of PoCL's that hold a kernel compiled for groups of so many work-items.
+/// The folders of PoCL that hold a kernel compiled for groups of this many work-items.
 size_t folders_of(const std::string& kernel, size_t group) {
     namespace fs = std::filesystem;
     const std::string end = "/" + kernel + "/" + std::to_string(group) + "-1-1";
@@ -52,7 +52,7 @@ void expect_made(const Device& device, const ForeseenProgram& program) {
 class ForeseenImages : public testing::TestWithParam<const char*> {};
 
 TEST_P(ForeseenImages, AreMadeByWhatIsForeseen) {
-    // One of a context of its own, whose programs were all built for this image.
+    // This device has its own context, all of whose programs were built for this image.
     const Device device = Device::open("cpu");
     if (!keeps_pocl_folder(device.info())) GTEST_SKIP() << "this driver isn't PoCL";
     const Scene scene = small_scene(GetParam(), {96, 72}, 256);
@@ -67,7 +67,7 @@ TEST_P(ForeseenImages, AreMadeByWhatIsForeseen) {
                     {image.files, resolve_defines(device, image.features, scene.render.channels),
                      image.kernels});
     KernelCompilers::instance().allow(0);
-    // Whether surfaces of these two share voxels, only building their worlds tells.
+    // Only building the worlds tells whether surfaces of these two share voxels.
     const std::string_view name = GetParam();
     EXPECT_EQ(image.files.empty(), name == "still_life" || name == "voxels");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of meshes: their unit, holes, faces, materials; and that it is read once.
+// Warnings about meshes: their unit, holes, faces and materials. Each mesh is read only once.
 #include "runtime/analysis/warnings/mesh_warnings.hpp"
 
 #include <fmt/format.h>
@@ -116,7 +116,7 @@ constexpr const char* kTetrahedron =
     "v 0 0 0\nv .5 0 0\nv 0 .5 0\nv 0 0 .5\nvt 0 0\nvt 1 0\nvt 0 1\n"
     "usemtl a\nf 1/1 3/2 2/3\nf 1/1 2/2 4/3\n";
 
-/// What is said of a file without a scene.
+/// The warnings about a file without a scene.
 std::vector<std::string> sentences_on(const std::filesystem::path& file) {
     AssetStore assets;
     const Scene scene = parse_scene(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of an object's voxels, and of solids of which nothing is left.
+// Warnings about an object's voxels, and about solids of which nothing is left.
 #include "runtime/analysis/warnings/object_warnings.hpp"
 
 #include <gmock/gmock.h>

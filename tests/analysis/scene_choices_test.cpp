@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scenes leave to the files of their models: `"surface": "auto"`.
+// The choices that scenes leave to their models' files: `"surface": "auto"`.
 #include "runtime/analysis/scene_choices.hpp"
 
 #include <gmock/gmock.h>
@@ -92,7 +92,7 @@ TEST_F(SceneChoices, MakeOnlyThinPartsExact) {
     EXPECT_EQ(chosen(R"("mesh": "fin.obj", "fit": 0.8)").surface, Surface::exact) << "a large part";
 }
 
-// Where the two surfaces overlap, they would be seen one behind the other.
+// Where the two surfaces overlap, one would be seen behind the other.
 TEST_F(SceneChoices, MakeNoPartsExactWhereSurfacesCantOverlap) {
     const std::string blade = R"("mesh": "blade.obj", "fit": 0.8)";
     Material glass, veil, emissive;

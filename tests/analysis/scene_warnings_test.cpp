@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of scenes as people write them by mistake, and that nothing is said of right ones.
+// Warnings about common mistakes in scenes; right scenes get none.
 #include "runtime/analysis/warnings/scene_warnings.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of parts of meshes that are thinner than their voxels.
+// Warnings about parts of meshes that are thinner than their voxels.
 #include "runtime/analysis/warnings/thin_warnings.hpp"
 
 #include "tests/analysis/warned_scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A right scene for tests to make wrong, and what is said of it then.
+// A valid scene that tests damage, and the warnings that follow.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ class WarnedScene : public FileTest {
         for (const Warning& warning : warnings(std::move(frames))) found.push_back(warning.kind);
         return found;
     }
-    /// Makes the ball a mesh of the file `name`, in the place of the solid.
+    /// Makes the ball a mesh of the file `name`, in place of the solid.
     void show_mesh(const std::string& name, const Mesh& mesh) {
         write_obj(folder / name, mesh);
         json["models"]["ball"] = {{"mesh", name}, {"surface", "smooth"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of an array of values is shown where nobody says it.
+// The values of an array that are shown when no value is chosen.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST_F(ApiArrayChoice, LabelsHaveAColourEachAndOneAloneHasNone) {
               R"("voxels": "a.npy", "surface": "cubes", "label": "each")");
     EXPECT_EQ(model_of<uint8_t>("|u1", {0, 1, 1, 0}), R"("voxels": "a.npy", "surface": "cubes")");
     EXPECT_EQ(model_of<float>("<f4", {0, 9, 0}), R"("voxels": "a.npy", "surface": "cubes")");
-    // What isn't above 0 isn't taken for a voxel unless its value is asked for.
+    // Only values above 0 become voxels, unless another value is asked for.
     EXPECT_EQ(model_of<int16_t>("<i2", {0, -5, -5}),
               R"("voxels": "a.npy", "surface": "cubes", "label": -5)");
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts that tests of the library's functions share: the options of their process.
 //
-// Tests live in the namespace of the header's names, because their programs know the inner names,
-// too.
+// Tests live in the namespace of the header's names, because their programs also know the inner
+// names.
 #pragma once
 
 #ifndef VOXELUME_BUILDING

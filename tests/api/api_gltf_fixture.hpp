@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests of glTF files in place of scenes share: the text of the scene that is made of a file.
+// Common parts of tests of glTF files in place of scenes: the text of the scene made from a file.
 #pragma once
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What descriptions of mesh files tell of what isn't shown, and of what was assumed.
+// Descriptions of mesh files tell what isn't shown, and what was assumed.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voxels in a caller's memory: a box of 7 x 5 x 3, of which a picture along Z with parallel rays
-// and a pixel a voxel shows the foremost voxel of each column.
+// Voxels in a caller's memory: a box of 7 x 5 x 3, seen along Z by parallel rays, one pixel per
+// voxel. The picture shows the foremost voxel of each column.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ class ApiVoxels : public ApiTest {
 
 constexpr int kX = 7, kY = 5, kZ = 3;
 
-/// An array whose voxels differ, about half of which are there.
+/// An array with different voxels, about half of which are set.
 struct Cells {
     std::vector<uint8_t> rgba = std::vector<uint8_t>(size_t(4) * kX * kY * kZ);
 

@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// The scene without its places in files and texts and without its tracks, so that scenes of
+/// The scene without its positions in files and texts and without its tracks, so that scenes from
 /// different sources compare equal.
 inline Scene without_places(Scene scene) {
     const auto strip = [](auto& parts) {

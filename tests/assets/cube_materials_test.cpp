@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials of scenes become those of MagicaVoxel, as the import of a .vox has them.
+// A scene's materials become MagicaVoxel's, in the inverse of the import of a .vox.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a helper program can't ask of the system any more, and what it still can.
+// The system calls that a helper program can no longer make, and those that it still can.
 #include "runtime/base/helper/helper_calls.hpp"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@
 namespace voxelume {
 namespace {
 
-/// Each runs in a process of its own, which keeps its filter, and ends with 0.
+/// Each case runs in its own process, which keeps its filter, and ends with 0.
 class HelperCallsDeathTest : public testing::Test {
   protected:
     void SetUp() override {

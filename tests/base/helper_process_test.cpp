@@ -31,7 +31,7 @@ class HelperProcessTest : public FileTest {
         put_bytes(folder / "in", "seven\n");
     }
 
-    /// What a shell that runs `script` answers within `seconds`: `size` bytes.
+    /// The answer, of `size` bytes, of a shell that runs `script`, within `seconds`.
     std::string answer_of(const std::string& script, size_t size, double seconds = 20) const {
         const InputFile input(folder / "in");
         HelperProcess helper("/bin/sh", {"-c", script}, input.descriptor(), seconds);
@@ -127,7 +127,7 @@ TEST_F(HelperProcessTest, CountsBeyondTheirLimitTakeNoMemory) {
 }
 
 TEST(HelperLimitsDeathTest, MemoryComputingAndFilesEnd) {
-    // Each runs in a process of its own, which keeps its limits.
+    // Each case runs in its own process, which keeps its limits.
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto limited = [] { return limit_helper({1u << 30, 2u << 30, 1}); };
     EXPECT_EXIT(

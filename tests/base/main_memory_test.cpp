@@ -19,7 +19,7 @@ class MainMemory : public FileTest {
         limit_main_memory(0);
         FileTest::TearDown();
     }
-    /// What the groups of `lines` allow, where `folder` holds all groups.
+    /// The memory that the groups of `lines` allow; `folder` holds all groups.
     uint64_t allowed(const std::string& lines) {
         put_bytes(folder / "groups", lines);
         return control_group_memory(folder / "groups", folder);

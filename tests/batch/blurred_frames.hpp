@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene that moves while a shutter is open, and each of its samples as an image of its own.
+// A scene that moves while a shutter is open, and each of its samples as a separate image.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline Json track(const char* target, const Json& from, const Json& to, int firs
 }
 
 /// A ball flies, a box of cubes in the world's own voxels turns, a light fades, and the observer
-/// walks, until frame 9. Behind them is a wall, and nothing around it.
+/// walks, until frame 9. Behind them is a wall, and nothing is around the wall.
 inline Json blurred_json() {
     Json json = Json::parse(R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
@@ -77,7 +77,7 @@ inline uint64_t hash_of(const Scene& scene, int frame = kFrame, int lanes = 0) {
     return oracle::image_hash(*rendered(scene, frame, lanes).image);
 }
 
-/// A frame's samples, each as an image of its own moment, which the paper's frame is.
+/// A frame's samples, each as an image of its own moment; the paper calls that image a frame.
 inline std::vector<Image> samples_alone(const Scene& scene, int count = kSamples) {
     std::vector<Image> images;
     for (int sample = 0; sample < count; ++sample) {
@@ -92,8 +92,8 @@ inline std::vector<Image> samples_alone(const Scene& scene, int count = kSamples
     return images;
 }
 
-/// Expects the means of a plane's samples. A sum of 8 floats is right within 7 half units of the
-/// last bit of the largest, 4.2e-7 of it.
+/// Expects a plane to be the mean of its samples' planes. A sum of 8 floats is right within 7 half
+/// units in the last place of the largest, 4.2e-7 of it.
 inline void expect_means(const Image& image, const std::vector<Image>& samples,
                          const std::string& plane) {
     const Plane<float>& values = image.planes.at(plane);

@@ -70,8 +70,8 @@ TEST(DeviceGroup, TheTilesOfAnImageMakeTheImageOfOneDevice) {
     }
 }
 
-/// The scene has mirrors, but nothing that light passes. A second batch's rays once found no arrays
-/// in such a scene.
+/// The scene has mirrors, but nothing that light passes. Once, a second batch's rays found no
+/// arrays in such a scene.
 TEST(DeviceGroup, OneDeviceMakesTheImageInParts) {
     const Scene scene = scene_with(0.1);
     RenderReport report;
@@ -198,7 +198,7 @@ TEST_F(DeviceGroupProgram, WritesTheFilesOfOneDevice) {
                         scene, name, device));
         EXPECT_EQ(frames.exit_code, 0) << frames.err;
     }
-    // Without overlap, too, each device takes its frames in turn.
+    // Each device takes its frames in turn, even without overlap.
     const ProgramResult in_turn = run(
         fmt::format("render {} --frames 3-7 --size 40x30 -q --float -o three.#.exr --device all/2 "
                     "--no-overlap",

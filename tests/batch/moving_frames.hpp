@@ -13,8 +13,8 @@
 
 namespace voxelume {
 
-/// A scene of nine frames with a ball that moves until the fifth. The device has memory for much
-/// more.
+/// A scene of nine frames with a ball that moves until the fifth. The device has memory for many
+/// more frames.
 inline Scene moving_scene() {
     constexpr const char* kText = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},

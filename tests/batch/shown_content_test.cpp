@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of a picture: that it shows objects, that they are lit, or that nobody knows.
+// The report on a picture's contents: whether it shows objects, whether they are lit, or that
+// neither is known.
 #include "runtime/render/shown_content.hpp"
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// Points that nothing else tells of are those of an image that has more.
+/// Where the only channel is the position, its points equal those of an image with more channels.
 TEST(ShutterChannels, PointsAloneAreThoseOfAnImageWithDepths) {
     Scene scene = scene_of(blurred_json());
     const Image all = *rendered(scene).image;
@@ -99,8 +99,8 @@ TEST(ShutterChannels, PartsOfTheLightAddUpToItsColor) {
     Scene plain = scene;
     plain.render.channels = {};
     EXPECT_TRUE(image.planes.at("R") == rendered(plain).image->planes.at("R"));
-    // Paths differ by none of their choices, but up to 3 terms of each of 8 samples are rounded
-    // apart, each by 2^-23 of a value up to 3: 9e-6.
+    // Paths make equal choices, but up to 3 terms of each of 8 samples are rounded differently,
+    // each by 2^-23 of a value up to 3: 9e-6.
     for (size_t pixel = 0; pixel < image.planes.at("R").size(); ++pixel) {
         const float all = image.planes.at("R")[pixel];
         const float sum =

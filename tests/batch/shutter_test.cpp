@@ -106,7 +106,7 @@ TEST(Shutter, VolumetricImagesShowTheFrameItself) {
 TEST(Shutter, ShowsWhatIsInViewAtOtherMomentsAlone) {
     Json json = blurred_json();
     json["observer"]["shutter"] = 1;
-    // The ball comes from outside of the view, and is there again with the next frame.
+    // The ball comes from outside the view, and is back there with the next frame.
     json["animation"]["tracks"] = {{{"target", "objects.ball.position"},
                                     {"keys",
                                      {{{"frame", kFrame}, {"value", {-0.6, 0.6, -0.9}}},
@@ -175,7 +175,7 @@ std::optional<Rendered> shared_image(const Scene& scene, uint64_t megabytes) {
     return shared;
 }
 
-/// Where memory doesn't suffice for what is retained of the moments before, that is forgotten.
+/// If memory doesn't suffice for what is retained of earlier moments, it is released.
 TEST(Shutter, MomentsNeedNoMoreMemoryThanOne) {
     Json json = blurred_json();
     json["world"]["voxel_size"] = json["models"]["ball"]["voxel_size"] = 0.01;

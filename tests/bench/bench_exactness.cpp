@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures what exact arithmetic costs: the kernels are timed in turns with variants that use
-// floats alone.
+// Measures the cost of exact arithmetic: the kernels are timed in turns with variants that use only
+// floats.
 //
 //   bench_exactness MESH [voxels along the longest side, 64,512] [turns, 15] [part of a row's name]
 //

@@ -6,9 +6,9 @@
 //
 // Without a mesh it takes Debian's bunny. Each row is one resolution: medians over the frames, each
 // from nothing, of the process's CPU time in milliseconds (all threads); with kernels' bytes a
-// voxel, and the ratios to the row before. Programs are made by a first frame that isn't counted.
-// "ns a ray" is that of sight and shadow rays' kernels alone, of wall time with one of PoCL's
-// threads: set POCL_MAX_PTHREAD_COUNT=1.
+// voxel, and the ratios to the row before. A first frame, which isn't counted, builds the programs.
+// "ns a ray" counts only the kernels of sight and shadow rays, in wall time with one PoCL thread:
+// set POCL_MAX_PTHREAD_COUNT=1.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 //   bench_trace [MESH] [voxels along the longest side, 512] [lanes ... | surfaces ... | peers |
 //   halved | gpu]
 //
-// Without a mesh it takes Debian's bunny (glmark2-data). `halved`, as often as it is there, cuts
-// each triangle into four at the middles of its edges. `peers` has Embree, OpenVDB and NanoVDB
-// trace the same rays, as far as they are installed, and prints what our rates are of theirs.
+// Without a mesh it takes Debian's bunny (glmark2-data). Each `halved` cuts each triangle into four
+// at the middles of its edges. `peers` lets Embree, OpenVDB and NanoVDB trace the same rays, if
+// they are installed, and prints the ratios of our rates to theirs.
 //
 // The set-up of RESULTS.md: longest side 1, eye at normalize(0.5, 0.35, 1) * 1.8, vertical angle 40
 // degrees, 1024 x 1024, point light at (1.5, 2.5, 2). Ray lists are made beforehand. Every list

@@ -6,8 +6,8 @@
 //
 // The display is a box around the world's middle as the scene's observer sees it, as wide as the
 // world is long. The flat image comes from the same box; its size is such that as many pixels hit
-// something as the volume has voxels. Both are made five times in turn in this process after one
-// run that compiles the kernels; the least times are told, of all from forming the world on, and of
+// something as the volume has voxels. Both are made five times in turn in this process, after one
+// run that compiles the kernels. The minimum times are printed: from building the world on, and for
 // the image alone.
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CPU time of this process over all its threads, which a shared machine's clock doesn't tell, the
-// wall's time for accelerators, and medians.
+// CPU time of this process over all its threads, which doesn't depend on other users of a shared
+// machine; wall time for accelerators; and medians.
 #pragma once
 
 #include <sys/resource.h>
@@ -20,7 +20,7 @@ inline double cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// True if an accelerator is measured, whose work takes none of this process's CPU time.
+/// True if an accelerator is measured. Its work takes no CPU time of this process.
 inline bool measures_accelerator = false;
 
 /// CPU time, or wall time where an accelerator is measured.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/voxelize/voxelize_cover.cl in 32-bit floats, to measure what exactness costs: it makes
-// the kernel's tests, in its order, on coordinates in voxels.
+// A copy of kernels/voxelize/voxelize_cover.cl in 32-bit floats, to measure the cost of exactness.
+// It makes the kernel's tests, in the kernel's order, on coordinates in voxels.
 #pragma once
 
 namespace voxelume {

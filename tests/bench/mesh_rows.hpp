@@ -16,7 +16,7 @@
 
 namespace voxelume {
 
-/// Debian's bunny (glmark2-data), the mesh of benchmarks that are given none.
+/// Debian's bunny (glmark2-data), the default mesh of benchmarks.
 inline constexpr const char* kDebianBunny = "/usr/share/glmark2/models/bunny.obj";
 
 struct Milliseconds {

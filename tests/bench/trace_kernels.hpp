@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// Median CPU seconds of seven passes, after one to warm up, which builds the kernel.
+/// Median CPU seconds of seven passes, after a warm-up pass that builds the kernel.
 template <class Pass>
 double median_seconds(const Pass& pass) {
     constexpr int kRuns = 7;
@@ -33,8 +33,8 @@ RayBatch batch_of(const Device& device, const Features& features, const Pyramid&
 /// The hits of the batch's rays.
 std::vector<Hit> hits_of(const RayBatch& batch, size_t count);
 
-/// Sends each list through the kernel that a frame uses for such rays. Rates are million rays a
-/// second and core. The pyramid must outlive this.
+/// Sends each list through the kernel that a frame uses for such rays. Rates are in million rays
+/// per second and core. The pyramid must outlive this.
 class TraceKernels {
   public:
     TraceKernels(const Device& device, const Pyramid& pyramid);

@@ -41,8 +41,8 @@ class CliCache : public ProgramTest {
         ProgramTest::TearDown();
     }
 
-    /// Kernels come from the folder that all tests share: their files have a second name in the
-    /// test's own folder beside it, for the program follows no link to a folder.
+    /// Kernels come from the folder that all tests share. Its files get hard links in the test's
+    /// own folder next to it, because the program follows no link to a folder.
     static void link_files(const fs::path& from, const fs::path& to) {
         std::error_code exists;
         fs::create_directories(from);

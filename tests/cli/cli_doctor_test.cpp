@@ -45,7 +45,8 @@ TEST_F(CliDoctorTest, LaunchesEveryKernelComparesItsPicturesAndLeavesNoFiles) {
         files[name] = row["file"];
         EXPECT_EQ(row["state"], "right") << name;
         EXPECT_THAT(row["tests"], testing::Not(IsEmpty())) << name;
-        // Those that only walk, or answer, are held against exact answers.
+        // Kernels that only walk rays, or answer questions, have no hash: they are compared with
+        // exact answers.
         const bool has_hash = row["file"] != "stress.cl" && row["file"] != "self_test.cl";
         EXPECT_EQ(row["hash"].is_string(), has_hash) << name;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver that computes something wrong isn't used, and what it got wrong is told.
+// A driver that computes something wrong isn't used, and the wrong result is reported.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -27,7 +27,7 @@ class CliDriverTest : public SceneProgramTest {
             command);
     }
 
-    /// How often a function is called by a command.
+    /// The number of calls of a function by a command.
     long count(const std::string& function, const std::string& command) const {
         const ProgramResult result =
             with(fmt::format("LD_PRELOAD='{}' VXL_FAULT_COUNTS=counts", VXL_FAULTS), command);
@@ -39,7 +39,7 @@ class CliDriverTest : public SceneProgramTest {
         return 0;
     }
 
-    /// What `devices --json` says of the first device.
+    /// The entry of `devices --json` for the first device.
     Json first_device() const { return Json::parse(with("", "devices --json").out).at(0); }
 };
 

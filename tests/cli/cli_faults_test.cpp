@@ -91,7 +91,8 @@ class CliFaultsTest : public SceneProgramTest {
         const std::vector statuses = {-5, -6, -4, -36, -14, -9999};
         long tried = 0;
         for (const auto& [function, numbers] : calls()) {
-            // By default each render has every other function fail, which differ by its turn.
+            // By default, each render makes every other function fail; different renders take
+            // different ones.
             if (!is_exhaustive() && turn % 2 != 0) {
                 ++turn;
                 continue;
@@ -177,7 +178,7 @@ TEST_F(CliFaultsTest, AFallbackTakesOverWithTheSameBits) {
     EXPECT_TRUE(files() == expected);
     remove_files();
     EXPECT_EQ(run(command + " --device no-such-device --fallback no-such-either").exit_code, 6);
-    // What is wrong with a scene is wrong on every device.
+    // A mistake in a scene is a mistake on every device.
     const ProgramResult wrong = run("render none.json -o out/b.exr --fallback cpu");
     EXPECT_EQ(wrong.exit_code, 4);
     EXPECT_THAT(wrong.err, testing::Not(testing::HasSubstr("takes over")));

@@ -13,7 +13,8 @@ using testing::HasSubstr;
 
 class CliInterruptTest : public SceneProgramTest {
   protected:
-    /// A shell that starts tests in the background has them ignore SIGINT, as their programs would.
+    /// A shell that starts tests in the background makes them ignore SIGINT, and so would their
+    /// programs.
     CliInterruptTest() { std::signal(SIGINT, SIG_DFL); }
 
     /// Runs the program and sends the signal after some seconds; after 3 more it would be killed,

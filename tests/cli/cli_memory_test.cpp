@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene takes of memory is said, and refused where it is too much.
+// The memory that a scene takes is reported, and refused where it is too much.
 #include <gmock/gmock.h>
 
 #include "tests/cli/scene_program.hpp"

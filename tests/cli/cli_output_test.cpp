@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can't be written, in every format: exit code 5, one sentence with the path and the cause,
-// and no file, not even a hidden one.
+// Outputs that can't be written, in every format: exit code 5, one sentence with the path and the
+// cause, and no file left, not even a hidden one.
 #include <gmock/gmock.h>
 
 #include "tests/cli/scene_program.hpp"
@@ -75,7 +75,7 @@ TEST_F(CliOutputTest, AFileThatMeetsItsLimitLeavesNothing) {
     }
 }
 
-/// A disk of 64 kB, in a name space of mounts of its own, where that is allowed.
+/// A disk of 64 kB, in a separate mount namespace, where this is allowed.
 TEST_F(CliOutputTest, AFullDiskLeavesNothing) {
     std::filesystem::create_directory(folder / "full");
     const std::string mount = "unshare -m sh -c 'mount -t tmpfs -o size=64k none full && ";

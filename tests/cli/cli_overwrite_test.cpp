@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `--overwrite never` keeps what is there, whatever it is.
+// `--overwrite never` keeps existing files, whatever they are.
 #include <gmock/gmock.h>
 
 #include "runtime/io/image/png.hpp"

@@ -40,7 +40,7 @@ class CliShellsTest : public ProgramTest {
         return run_line(shell + " --version").exit_code == 0;
     }
 
-    /// What zsh makes of a line, with the script among its functions or evaluated.
+    /// The completion of a line by zsh, with the script among its functions or evaluated.
     std::string asked_zsh(const std::string& line, bool is_evaluated = false) const {
         const std::string start = is_evaluated
                                       ? "compinit -u -D; eval \"$(voxelume completion zsh)\""

@@ -69,8 +69,8 @@ class SceneProgramTest : public ProgramTest {
         return found;
     }
 
-    /// Expects that the command fails with this exit code and one line, behind those of warnings,
-    /// and leaves no file behind.
+    /// Expects that the command fails with this exit code, prints one line after any warnings, and
+    /// leaves no file behind.
     std::string expect_failure(int code, const std::string& arguments) const {
         const std::vector<std::string> before = names();
         const ProgramResult result = run(arguments);

@@ -163,7 +163,7 @@ void check_frames(const Scene& scene, const std::vector<Device>& devices) {
     check(file.width() == 64 && file.has("Z"), "the file has the image");
 }
 
-/// Without the variable that PoCL itself sets for its library of hardware locality.
+/// This is done without the variable that PoCL itself sets for its library of hardware locality.
 std::vector<std::string> environment() {
     std::vector<std::string> variables;
     for (char** variable = environ; *variable; ++variable)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deep OpenEXR files as OpenEXR's own reader gives them.
+// Reads deep OpenEXR files with OpenEXR's own reader.
 #pragma once
 
 #include <ImfDeepFrameBuffer.h>
@@ -13,7 +13,7 @@
 
 namespace voxelume {
 
-/// R, G, B and A of a deep image's pixels, flattened from what OpenEXR's own reader gives.
+/// R, G, B and A of a deep image's pixels, flattened from what OpenEXR's own reader returns.
 inline std::vector<glm::dvec4> flattened_file(const std::filesystem::path& path, size_t width,
                                               size_t height) {
     Imf::DeepScanLineInputFile file(path.c_str());

@@ -19,7 +19,7 @@ constexpr std::array kCoverCases = {
     CoverCase{"plate", R"("m": {"shape": "box", "size": [1.1, 0.24, 0.9], "surface": "SURFACE"})",
               R"({"model": "m", "material": "veil", "turn": [35, 25, 15]})"}};
 
-/// What a lattice covers along a ray from the observer, by all voxels that it passes.
+/// The coverage of a lattice along a ray from the observer, over all voxels that the ray passes.
 double cover_of_ray(const VolumeFrame& frame, const std::vector<float>& dense,
                     const glm::dvec3& way) {
     const glm::dvec3 start = -frame.origin / frame.edge, along = way / frame.edge;
@@ -66,7 +66,7 @@ CoverDifference compare_from_corner(const CoverCase& c, const char* surface) {
     return result;
 }
 
-/// What a test says of a difference.
+/// A test's message about a difference.
 std::string text_of(const char* surface, const CoverCase& c, const CoverDifference& d) {
     return fmt::format("{} {}: mean {:.4f}, inside {:.4f} at most", surface, c.name, d.mean(),
                        d.largest_inside);
@@ -90,8 +90,8 @@ TEST(Covering, AlongEachAxisIsThatOfTheFlatPicture) {
     }
 }
 
-// Rays pass few voxels from corner to corner and many beside corners, so what they cover is right
-// on average.
+// Rays pass few voxels from corner to corner and many next to corners, so their coverage is right
+// only on average.
 TEST(Covering, AlongTheObserversDiagonalSightLinesIsThatOfTheFlatPictureOnAverage) {
     size_t turn = 0;
     for (const auto& [surface, limit] :

@@ -35,7 +35,8 @@ constexpr std::array kDepthCases = {
     DepthCase{"wide", R"("shape": "sector", "angle": 230, "far": 9)", 's', 115, true},
     DepthCase{"ball", R"("shape": "ball", "radius": 9)", 'l', 0, true}};
 
-/// A sight ray in (right, up, ahead) as the manual has it, from x and y right and up in -1..1.
+/// A sight ray in (right, up, ahead) as the manual defines it, for x to the right and y up in
+/// -1..1.
 struct ManualRay {
     glm::dvec3 start{0}, way;
     bool exists = true;

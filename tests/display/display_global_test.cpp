@@ -94,7 +94,7 @@ TEST(GlobalDisplay, ShowsAConvexSurfaceUnderAnEvenSkyAsItsAlbedo) {
         }
 }
 
-/// A red wall beside a white floor that it colours, seen from above.
+/// A red wall next to a white floor that it colours, seen from above.
 Scene corner(const std::string& layout, int samples) {
     return parsed(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}},
@@ -112,7 +112,8 @@ Scene corner(const std::string& layout, int samples) {
                               layout, samples));
 }
 
-/// How far the floor's voxels are from the flat picture, RMS of all channels. `mean` is its red.
+/// The difference of the floor's voxels from the flat picture, RMS over all channels. `mean` is its
+/// red.
 double off_the_picture(const char* layout, int samples, double& mean) {
     RenderReport report;
     const Image picture = render(test_device(), corner(layout, 512), report);
@@ -199,7 +200,7 @@ TEST(GlobalDisplay, OfRaysThroughClearObjectsIsInLocalLight) {
     }
 }
 
-// Noise is measured in pixels, of which a volume has none.
+// Noise is measured in pixels, and a volume has none.
 TEST(GlobalDisplay, HasFewSamplesWhereNoiseMayAskForMany) {
     Scene scene = shown("rays", kEvenSky, "", R"("light": "global", "samples": 64)", kSun);
     const Volume expected = volume_of(scene);

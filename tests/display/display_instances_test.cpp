@@ -87,7 +87,7 @@ TEST(DisplayOfInstances, OfWholeVoxelsIsThatOfTheWorld) {
     }
 }
 
-/// The part of one volume's voxels that has none of the other's around it.
+/// The fraction of one volume's voxels without a voxel of the other volume next to them.
 double lonely_part(const Volume& volume, const Volume& other) {
     const glm::ivec3& size = volume.frame.size;
     const std::set<uint64_t> shown(other.indices.begin(), other.indices.end());
@@ -125,8 +125,7 @@ TEST(DisplayOfInstances, BehindAPaneIsThatOfTheWorld) {
     EXPECT_EQ(world.opacities, instances.opacities);
 }
 
-/// A ball of glass whose index is that of its surroundings, which shine. It has no light of its
-/// own.
+/// A ball of glass in bright surroundings of the same index. It emits no light itself.
 Scene clear_ball(const std::string& surface, const std::string& placement,
                  const std::string& absorption, const std::string& render) {
     return parse_scene(fmt::format(R"({{"voxelume": 1,
@@ -144,7 +143,7 @@ Scene clear_ball(const std::string& surface, const std::string& placement,
                        "ball.json", {});
 }
 
-/// The least and the greatest way that lines from E through a voxel's points have in the ball.
+/// The minimum and maximum length, inside the ball, of lines from E through a voxel's points.
 std::array<double, 2> ways_in_ball(const VolumeFrame& frame, const glm::ivec3& voxel) {
     constexpr int kSteps = 8;
     const glm::dvec3 middle =

@@ -75,7 +75,7 @@ void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit)
 
 class Lattice : public testing::TestWithParam<DisplayCase> {};
 
-/// How surely a point can be seen, from E or along the directions from outside that the manual
+/// How clearly a point can be seen, from E or along the directions from outside that the manual
 /// names.
 struct Sightings {
     bool surely = false, maybe = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The medium in lattices: each voxel of space has the medium's colour and the opacity of a way
-// through it, held against sums in double precision.
+// through it, compared with sums in double precision.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// A density at the world's points, of which each voxel has that at its middle.
+/// A density at the world's points; each voxel has the density at its middle.
 using Density = std::function<double(const glm::dvec3& p)>;
 
 constexpr double kEdge = 0.1;
@@ -68,7 +68,7 @@ constexpr const char* kFogKeys = R"({"absorption": [2, 3, 5], "color": [0.7, 0.5
   "density": {"kind": "height", "base": -0.2, "scale_height": 0.3}})";
 const glm::dvec3 kFogAbsorption{2, 3, 5}, kFogColor{0.7, 0.5, 0.9};
 
-/// Holds a voxel against a medium of one colour, of which it shows `amount`.
+/// Compares a voxel with a medium of one colour, of which it shows `amount`.
 void expect_fog(const Volume& volume, size_t i, double amount, double tolerance) {
     const double opacity = -std::expm1(-kFogAbsorption.x * amount);
     EXPECT_NEAR(volume.opacities[i], opacity, tolerance) << i;

@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// What the display of a turntable shows, whose objects have such surfaces.
+/// The volume of a turntable's display, whose objects have these surfaces.
 Volume shown(Surface surface) {
     Scene scene = small_scene("turntable", {96, 72}, 80);
     scene.observer.display.voxels =

@@ -19,9 +19,9 @@ namespace {
 constexpr int kColumns = 36, kRows = 32, kLayers = 34;
 constexpr float kFront = 0.913f;  // depth of the wall
 
-/// A checkered wall across the observer's way, half of it in the shadow of a ball beside the
-/// display. A pixel of the flat picture is as large as a display voxel, and what both show of the
-/// wall lies in one layer of voxels.
+/// A checkered wall across the observer's way, half of it in the shadow of a ball next to the
+/// display. A pixel of the flat picture is as large as a display voxel, and both show the wall in
+/// one layer of voxels.
 std::string wall_scene(const char* surface, const char* placement, const char* opacity) {
     return fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.04, "bounds": {{"min": [-1, -1, -1.9], "max": [1, 1, 1]}},
@@ -40,7 +40,8 @@ std::string wall_scene(const char* surface, const char* placement, const char* o
                        opacity, surface, placement, kColumns, kRows, kLayers, kColumns, kRows);
 }
 
-/// How far the wall's voxels are from the flat picture, RMS of all channels, but for its sides.
+/// The difference of the wall's voxels from the flat picture, RMS over all channels, without the
+/// wall's sides.
 double difference(Scene scene, int samples) {
     RenderReport report;
     const Image picture = render(test_device(), scene, report);

@@ -75,7 +75,7 @@ TEST(DisplaySkipping, BeamsEndTilesThatSeeNothingAndChangeNoVoxel) {
     EXPECT_LE(many.clear_beams, empty);
     EXPECT_GT(many.clear_beams, empty * 3 / 5);
 
-    // If an instance beside the display might be met, no beams are sent.
+    // No beams are sent if they might meet an instance next to the display.
     Scene scene = scene_of("256, 256, 24", "rays");
     scene.objects.push_back(scene.objects[0]);
     scene.objects[1].placement = Placement::instance;

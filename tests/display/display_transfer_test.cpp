@@ -27,8 +27,8 @@ class DisplayedScan : public FileTest {
     }
 };
 
-/// What a volume's voxels show, pixel by pixel, laid over one another, and what they leave of the
-/// light behind.
+/// The light of a volume's voxels, laid over one another pixel by pixel, and the light from behind
+/// that they let through.
 struct Laid {
     std::vector<glm::dvec3> light;
     std::vector<double> left;

@@ -50,7 +50,8 @@ Scene clear_ball(const std::string& keys) {
                          "layout": "lattice", "visibility": "outside"}}})");
 }
 
-// Where no ray along a view met the outline, the ball was looked at through its other side next.
+// Where no ray along one view met the outline, the next view looked at the ball through its other
+// side.
 TEST(Outlines, OfClearBodiesOnTheLatticesPlanesAreLitFromTheirOwnSide) {
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(-1, 2, -1));
     for (const char* keys : {"", R"(, "surface": "smooth")"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the voxels of a lattice, laid over one another, cover along its axes, compared with what the
-// flat picture of the same objects does.
+// Compares the coverage of a lattice's voxels, laid over one another along the lattice's axes, with
+// the coverage in the flat picture of the same objects.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,14 +20,14 @@ namespace voxelume {
 
 inline constexpr double kOpacity = 0.4, kOtherOpacity = 0.7;
 
-/// Objects around the origin; SURFACE and PLACEMENT stand for those that are tested.
+/// Objects around the origin. SURFACE and PLACEMENT in the texts are replaced by the tested ones.
 struct CoverCase {
     const char* name;
     const char* models;
     const char* objects;  ///< of the materials `veil` and `lace`
 };
 
-/// The text with all places that say `name` filled.
+/// The text with every occurrence of `name` replaced.
 inline std::string filled(std::string text, const std::string& name, const std::string& by) {
     for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
         text.replace(at, name.size(), by);
@@ -40,7 +40,7 @@ struct CoverKind {
     const char* placement = "world";
 };
 
-/// The objects as an observer sees them. `display` has its keys.
+/// The objects before an observer. `display` has the display's keys.
 inline Scene cover_scene(const CoverCase& c, const CoverKind& kind, const std::string& observer,
                          const std::string& display, glm::ivec2 size) {
     const std::string text = fmt::format(R"({{"voxelume": 1,
@@ -63,7 +63,7 @@ inline Volume cover_volume(Scene scene) {
     return volume_of(scene);
 }
 
-/// How far what voxels cover together is from what the flat picture's pixels cover.
+/// The difference between the coverage of the voxels and that of the flat picture's pixels.
 struct CoverDifference {
     double sum = 0, largest_inside = 0;  ///< inside: where no outline is
     int pixels = 0, far = 0;             ///< far: by more than 0.02
@@ -78,7 +78,7 @@ struct CoverDifference {
     double far_share() const { return double(far) / pixels; }
 };
 
-/// True if all pixels next to one have its opacity, so that no outline runs through it.
+/// True if the pixel and all its neighbours have equal opacity, so that no outline runs through it.
 inline bool is_even(const Image& picture, int u, int v) {
     const auto& alpha = picture.planes.at("A");
     for (int y = std::max(v - 1, 0); y <= std::min(v + 1, picture.height - 1); ++y)
@@ -97,7 +97,7 @@ inline std::vector<float> dense_opacities(const Volume& volume) {
     return dense;
 }
 
-/// What a lattice covers along the lines of the middle of its columns along `axis`.
+/// The coverage of a lattice along lines through the middles of its columns along `axis`.
 inline double cover_of_column(const VolumeFrame& frame, const std::vector<float>& dense,
                               glm::ivec3 cell, int axis) {
     double clear = 1;
@@ -108,7 +108,7 @@ inline double cover_of_column(const VolumeFrame& frame, const std::vector<float>
 }
 
 inline constexpr glm::ivec3 kSize{76, 72, 74};
-inline constexpr glm::dvec3 kEdges{1.9, 1.8, 1.85};  // of the box around the origin
+inline constexpr glm::dvec3 kEdges{1.9, 1.8, 1.85};  // edges of the box around the origin
 
 /// Observers that look along x, y and z of the world, with boxes around the same space.
 inline constexpr std::array kLookingAlong = {R"("position": [-1.25, 0, 0], "turn": [90, 0, 0])",
@@ -123,7 +123,7 @@ inline std::string box_keys(int axis, const std::string& more) {
                        size.z, more);
 }
 
-/// What a lattice covers along an axis, in each pixel of a picture along it.
+/// The coverage of a lattice along an axis, for each pixel of a picture along that axis.
 inline std::vector<double> covers_along(const CoverCase& c, const CoverKind& kind, int axis) {
     const std::array names = {"x", "y", "z"};
     const std::string lattice = fmt::format(
@@ -157,7 +157,7 @@ inline Image picture_along(const CoverCase& c, const CoverKind& kind, int axis, 
     return render(shared_device(), scene, report);
 }
 
-/// How far opacities are from those of a picture.
+/// The difference of opacities from those of a picture.
 inline CoverDifference difference_of(const std::vector<double>& covers, const Image& picture) {
     CoverDifference result;
     for (int v = 0; v < picture.height; ++v)

@@ -11,7 +11,7 @@ namespace {
 
 using namespace voxelume;
 
-/// A triangle's three vertices with positions and colours, as the seeds have them.
+/// A triangle's three vertices with positions and colours, as in the seeds.
 CodecTask draco_task(uint8_t choice) {
     CodecTask task;
     task.count = 3 + choice / 16;

@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// The file of a target's name, in a folder that no other process has.
+/// The file for a target, in a folder that no other process uses.
 inline std::filesystem::path fuzz_file(const char* name) {
     const std::filesystem::path shared = "/dev/shm";
     const std::filesystem::path folder =
@@ -26,8 +26,8 @@ inline void write_bytes(const std::filesystem::path& file, std::span<const uint8
         .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
 }
 
-/// Writes an input into two files. Its first two bytes say how many bytes after them are of the
-/// first.
+/// Writes an input into two files. Its first two bytes are the number of the following bytes that
+/// go into the first file.
 inline void write_pair(const std::filesystem::path& first, const std::filesystem::path& second,
                        std::span<const uint8_t> bytes) {
     const size_t wanted = bytes.size() < 2 ? 0 : bytes[0] + 256u * bytes[1];

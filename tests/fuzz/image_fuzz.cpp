@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any file of an image or a volumetric image gives a whole one or an error's
-// sentence. Raw arrays are a header, .json, and the array, as write_pair has them.
+// sentence. Raw arrays are a header, .json, and the array, divided by write_pair.
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"

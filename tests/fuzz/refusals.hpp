@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fuzz target holds a reader's refusal against.
+// Checks the errors with which readers refuse a fuzz target's inputs.
 #pragma once
 
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace voxelume {
     std::abort();
 }
 
-/// Does it, and stops the fuzzer where an error doesn't begin with the file's name.
+/// Runs the action, and stops the fuzzer if an error's text doesn't begin with the file's name.
 template <class Action>
 void check_refusal(const std::string& file, const Action& action) {
     try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A libFuzzer target: any bytes in a file of voxels give a valid model or an error's sentence. It
-// is built once per format. A NIfTI pair is the header, .hdr, and the data, .img, as write_pair has
-// them; an NRRD header, .nhdr, may name what follows it, "data".
+// A libFuzzer target: any bytes in a file of voxels give a valid model or an error's sentence. The
+// target is built once per format. A NIfTI pair is the header, .hdr, and the data, .img, divided by
+// write_pair; an NRRD header, .nhdr, may name what follows it, "data".
 #include <algorithm>
 
 #include "runtime/assets/voxel_model_file.hpp"
@@ -29,7 +29,7 @@ void write_input(const std::filesystem::path& file, std::span<const uint8_t> byt
         write_bytes(file, bytes);
 }
 
-/// What a refusal begins with: the name of either file of a pair.
+/// The beginning of a refusal: the name of either file of a pair.
 std::string name_in_front(const std::filesystem::path& file) {
     if (file.extension() == ".nhdr") return file.parent_path();
     return file.extension() == ".img" ? file.parent_path() / file.stem() : file;
@@ -42,7 +42,7 @@ void check_model(const std::filesystem::path& file, Surface surface, const Voxel
     });
 }
 
-/// What a .vox says of cameras and light gives a scene that can be read, too.
+/// The cameras and light in a .vox also give a scene that can be read.
 void check_scene(const std::filesystem::path& file) {
     check_refusal(file.string(), [&] {
         AssetStore assets;

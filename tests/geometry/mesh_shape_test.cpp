@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What meshes are like, and the surface that `auto` gives them.
+// The properties of meshes, and the surface that `auto` chooses for them.
 #include "runtime/geometry/shape/mesh_shape.hpp"
 
 #include <gmock/gmock.h>
@@ -222,7 +222,7 @@ TEST(RoundedEdges, AreSharpWhereVoxelsAreLargerThanTheyAre) {
             const MeshCreases creases = shape_of(mesh).creases;
             EXPECT_EQ(creases.length, 0) << steps;
             EXPECT_NEAR(creases.round_length, kEdges, 0.2 * kEdges) << steps;
-            // An arc of 40 degrees, of which edges see the steps between them alone.
+            // An arc of 40 degrees, of which the mesh's edges show only the steps.
             EXPECT_GT(creases.round_width, 0.01 * 0.5) << steps;
             EXPECT_LT(creases.round_width, 0.01 * 0.8) << steps;
             expect_choice(mesh, 0.01, Surface::exact, "turn by 40 degrees or more within");

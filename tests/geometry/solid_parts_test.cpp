@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which parts of solids keep distances of their own.
+// The parts of solids that keep their own distances.
 #include "runtime/geometry/solid/solid_parts.hpp"
 
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ TEST(SolidParts, OfUnionsOfUnionsAreTheirShapesInPlace) {
     EXPECT_EQ(parts[2].solid.parent_from_solid[3].x, 112);
 }
 
-/// What fills a hole must not move before the part that cuts it.
+/// A part that fills a hole must not move before the part that cuts the hole.
 TEST(SolidParts, WithFacesInOnePlaneStayBehindACut) {
     const Solid wall = joined(SolidKind::union_of, {ball_at(9), box_at({0, 0, 0}, {2, 2, 1})});
     const Solid cut = joined(SolidKind::difference_of, {wall, box_at({1, 0, 0}, {1, 1, 3})});

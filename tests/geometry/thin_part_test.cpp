@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles of a mesh lie around parts that are too thin for distances.
+// The triangles of a mesh around parts that are too thin for distances.
 #include "runtime/geometry/thin_part.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kVoxel = 0.02;
 
-/// How far a triangle's corner lies from the ball's axis at most.
+/// The maximum distance of a triangle's corners from the ball's axis.
 double reach_of(const Mesh& mesh, const glm::uvec3& t) {
     double reach = 0;
     for (int i = 0; i < 3; ++i)

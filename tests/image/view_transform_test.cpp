@@ -28,7 +28,7 @@ TEST(ViewTransform, NoneStoresTheLightItself) {
 }
 
 TEST(ViewTransform, FilmicHasTheValuesOfItsFit) {
-    // By hand: x = 1 gives 2.54 / 3.16 = 0.803797, whose code is 0.9083 * 255.
+    // Computed by hand: x = 1 gives 2.54 / 3.16 = 0.803797, whose code is 0.9083 * 255.
     const ColorCodes codes(ViewTransform::filmic, 8);
     EXPECT_EQ(codes({1, 1, 1}), (Codes{232, 232, 232}));
     EXPECT_EQ(codes({0, 0.18f, 100}), (Codes{0, 141, 255}));

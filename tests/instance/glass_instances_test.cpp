@@ -30,8 +30,8 @@ constexpr const char* kSheer = R"("outer": {"color": [0.3, 0.6, 0.9], "opacity":
 constexpr const char* kFromOutside = R"("position": [0.4, 0.9, 3.2], "look_at": [0, 0, 0])";
 constexpr const char* kFromInside = R"("position": [-0.35, 0.1, 0.1], "look_at": [0.3, -0.1, -1])";
 
-/// What a scene of an outer body and an inner one of a higher priority, which pass through each
-/// other over a floor, is made of.
+/// The parts of a scene with an outer body and an inner one of higher priority, which pass through
+/// each other above a floor.
 struct GlassScene {
     const char* materials = kRefracting;
     const char *outer = "instance", *inner = "instance";  ///< placements
@@ -96,7 +96,7 @@ TEST_F(GlassInstances, OfSolidsLookAsInTheWorld) {
             for (const char* inner : {"instance", "world"}) {
                 const bool is_mixed = std::string(inner) == "world";
                 const bool is_inside = observer == kFromInside;
-                // By default, each pair of two values but those of mixed sheer ones.
+                // By default, each pair of two values occurs, except mixed pairs with sheer ones.
                 if (!is_exhaustive() && (is_mixed != is_inside) != (materials == kSheer)) continue;
                 if (is_mixed && materials == kSheer && !is_exhaustive()) continue;
                 const GlassScene s{.materials = materials, .inner = inner, .observer = observer};

@@ -75,7 +75,7 @@ class InstanceBounds : public FileTest {
     }
 
     /// Compares the pictures of plates, or sheets, in the world's voxels and as instances: no pixel
-    /// may show another object, or the same one elsewhere, but for `outlines` of them and those
+    /// may show another object, or the same one elsewhere, except for `outlines` pixels, and pixels
     /// within `rim` of edges.
     template <size_t N>
     void look_alike(const std::string& model, const std::array<const char*, N>& places,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shipped scene with all objects in the world and with all as instances, and why its two pictures
-// differ, pixel by pixel.
+// A shipped scene, once with all objects in the world and once with all as instances, and the
+// reasons why its two pictures differ, pixel by pixel.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,18 +21,19 @@
 
 namespace voxelume {
 
-/// Why a pixel of one picture isn't that of the other. Each cause is checked at the pixel.
+/// Why a pixel differs between the two pictures. Each cause is checked at the pixel.
 enum class Cause {
-    none,      ///< it is the same
+    none,      ///< the pixels are equal
     touch,     ///< two objects' surfaces pass through the point that it shows, so either is seen
     cut,       ///< the world's bounds cut the object: closed in the world, open in an instance
-    lattice,   ///< the object's voxels lie otherwise in its own space, by no more than is promised
-    sampled,   ///< samples of emissive objects, of the sky and of paths, checkers at a border of
-               ///< their fields: it is the same without them
-    others,    ///< light of objects with other voxels: it is the same if they stay in the world
-    edge,      ///< the world's picture changes as much if its rays move by a ten-thousandth voxel
-    far_edge,  ///< the same, for a hundredth: where light grazes a surface, or rays go on from
-               ///< curved ones, rounding grows
+    lattice,   ///< the object's voxels lie elsewhere in its own space, within the promised distance
+    sampled,   ///< samples of emissive objects, the sky or paths, or checkers at a border of their
+               ///< fields: without these, the pixels are equal
+    others,    ///< light of objects with other voxels: if these stay in the world, the pixels are
+               ///< equal
+    edge,      ///< the world's picture changes as much if rays move by a ten-thousandth voxel
+    far_edge,  ///< like edge, for a hundredth: where light grazes a surface, or rays continue from
+               ///< curved surfaces, rounding grows
     unexplained
 };
 inline constexpr std::array<const char*, size_t(Cause::unexplained) + 1> kCauseNames = {
@@ -40,7 +41,8 @@ inline constexpr std::array<const char*, size_t(Cause::unexplained) + 1> kCauseN
     "sampled light", "others' voxels", "at an edge", "farther from an edge",
     "unexplained"};
 
-/// How far a surface may be from itself in the other placement, in voxels of the larger lattice.
+/// The maximum distance of a surface from itself in the other placement, in voxels of the larger
+/// lattice.
 inline double promised(Surface surface) {
     switch (surface) {
         case Surface::cubes:
@@ -62,7 +64,7 @@ class PlacedScene {
         world_ = WorldBuilder(shared_device(), false, meshes).build(scene_, report);
     }
 
-    /// What the observer sees from `right` and `up` metres to the right and above.
+    /// The view from a point `right` and `up` metres to the right of and above the observer.
     Image picture(double right = 0, double up = 0) const {
         Scene scene = scene_;
         scene.observer.position += right * scene.observer.world_from_observer[0] +
@@ -78,7 +80,7 @@ class PlacedScene {
     BuiltWorld world_;
 };
 
-/// What a pixel shows.
+/// The contents of a pixel.
 struct Pixel {
     uint32_t object = 0;  ///< 0: none
     glm::dvec3 p{0}, n{0}, light{0};
@@ -92,7 +94,7 @@ inline Pixel pixel_of(const Image& image, size_t i) {
             vector("N.X", "N.Y", "N.Z"), vector("R", "G", "B")};
 }
 
-/// True if light is the same but for rounding, and for what a hundredth of a degree makes of it.
+/// True if light is equal, except for rounding and for the effect of a hundredth of a degree.
 inline bool is_same_light(const glm::dvec3& a, const glm::dvec3& b) {
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(a[i] - b[i]) <= 1e-3 * (1 + std::max(a[i], b[i])))) return false;
@@ -104,8 +106,8 @@ struct Pictures {
     Image world, instances;
 };
 
-/// The scene with its objects placed so, as far as they can be; `kept` leaves all but exact ones,
-/// whose voxels depend on the placement, in the world.
+/// The scene with its objects in a placement, as far as they can be. `kept` leaves all objects in
+/// the world except exact ones, whose voxels depend on the placement.
 inline Scene with_placement(Scene scene, Placement placement, bool kept) {
     for (Object& object : scene.objects) {
         const bool stays = kept && scene.models[size_t(object.model)].surface != Surface::exact;
@@ -117,8 +119,9 @@ inline Scene with_placement(Scene scene, Placement placement, bool kept) {
     return scene;
 }
 
-/// The scene in local light of its own lights, or of one, without emissive objects' samples and
-/// checkers, and without the sky's directions, which the last bits of a place choose.
+/// The scene in local light of its own lights, or of one default light, without samples of emissive
+/// objects, without checkers, and without directions of the sky, which the last bits of a position
+/// choose.
 inline Scene without_samples(Scene scene) {
     scene.render.light = LightMode::local;
     scene.world.ambient = glm::max(scene.world.ambient, glm::vec3(0.1f));
@@ -137,7 +140,7 @@ inline Scene without_samples(Scene scene) {
 /// Compares a scene's pictures in both placements.
 class PlacementPair {
   public:
-    /// `scene` has its surfaces chosen.
+    /// All surfaces in `scene` must be chosen.
     explicit PlacementPair(const Scene& scene)
         : scene_(scene),
           world_(with_placement(scene, Placement::world, false)),
@@ -204,8 +207,8 @@ class PlacementPair {
         return at.object ? glm::length(at.p - scene_.observer.position) : INFINITY;
     }
 
-    /// By how much an object may lie elsewhere, in metres, if a pixel shows it: by the promise of
-    /// its surface, and a pixel's width.
+    /// How far an object that a pixel shows may lie elsewhere, in metres: the promise of its
+    /// surface, plus a pixel's width.
     double slack_of(const Pixel& at) const {
         const double pitch = 3 * distance_of(at) * std::tan(scene_.observer.display.half_angles.x) /
                              pictures_.world.width;
@@ -223,8 +226,8 @@ class PlacementPair {
         return false;
     }
 
-    /// True if another picture shows the object of a pixel, at most three pixels from it, as close
-    /// to the plane that touches it there as its surface promises. An exact one has no slack.
+    /// True if the other picture shows the pixel's object at most three pixels away, as close to
+    /// the tangent plane there as its surface promises. Exact surfaces have no slack.
     bool is_promised(const Pixel& at, const Image& image, size_t i) const {
         if (!at.object || surface_of(at.object) == Surface::exact) return false;
         return any_around(image, i, [&](const Pixel& other) {
@@ -233,15 +236,16 @@ class PlacementPair {
         });
     }
 
-    /// True if an outline of what a pixel shows, or a step in its depth, is close in its picture.
+    /// True if an outline of the object that a pixel shows, or a step in its depth, is close to the
+    /// pixel in its picture.
     bool is_outline(const Pixel& at, const Image& image, size_t i) const {
         return any_around(image, i, [&](const Pixel& other) {
             return other.object != at.object || distance_of(other) > distance_of(at) + slack_of(at);
         });
     }
 
-    /// True if the pictures of a scene with such placements, which are made at first, have the same
-    /// light at a pixel.
+    /// True if the pictures of a scene with these placements have the same light at a pixel. The
+    /// first call makes the pictures.
     static bool is_alike(const Scene& scene, bool kept, std::vector<Image>& pictures, size_t i) {
         if (pictures.empty())
             for (const Placement placement : {Placement::world, Placement::instance})
@@ -249,9 +253,9 @@ class PlacementPair {
         return is_same_light(pixel_of(pictures[0], i).light, pixel_of(pictures[1], i).light);
     }
 
-    /// Why a pixel differs of whose surface nothing is known to differ: the world's picture from
-    /// places beside the observer shows as much; or it shows another object's surface at the very
-    /// point, in which a ray from there may begin.
+    /// Why a pixel differs when nothing is known to differ about its surface: the world's picture
+    /// from points next to the observer changes as much; or it shows another object's surface at
+    /// the same point, in which a ray from there may begin.
     Cause cause_beside(size_t i, const Pixel& a, const Pixel& b) {
         const Beside near = beside(i, a, b, rounding(), moved_);
         if (near.is_seen && near.is_as_bright) return Cause::edge;
@@ -260,11 +264,11 @@ class PlacementPair {
         return far.is_seen && far.is_as_bright ? Cause::far_edge : Cause::unexplained;
     }
 
-    /// What the world's picture shows from places up to a distance from the observer.
+    /// What the world's picture shows from points near the observer, within a distance.
     struct Beside {
-        bool is_seen = false;       ///< the object of the other picture
-        bool is_as_bright = false;  ///< the other picture's light lies within its
-        bool touch = false;         ///< another object at the very point
+        bool is_seen = false;       ///< they show the object of the other picture
+        bool is_as_bright = false;  ///< the other picture's light lies within the range of theirs
+        bool touch = false;         ///< they show another object at the same point
     };
     Beside beside(size_t i, const Pixel& a, const Pixel& b, double distance,
                   std::vector<Image>& moved) const {

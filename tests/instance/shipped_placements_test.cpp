@@ -26,7 +26,7 @@ struct ShippedScene {
     size_t far_edges = 0;     ///< maximum of pixels that differ by 0.01 voxels of a ray's place
 };
 
-/// What GoogleTest calls it.
+/// The name of a case for GoogleTest.
 void PrintTo(const ShippedScene& scene, std::ostream* out) {
     *out << scene.name;
 }

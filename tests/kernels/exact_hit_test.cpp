@@ -182,7 +182,7 @@ constexpr double kMaxOffPlane = 2e-5;
 // 50.
 constexpr double kAside = 1e-3, kOtherPlace = 0.05;
 
-/// What rays meet first on the exact surface of a mesh.
+/// The first hits of rays on the exact surface of a mesh.
 std::vector<std::optional<EnteredCell>> hits_on(const Mesh& mesh, const FixedGrid& grid,
                                                 const std::vector<FixedRay>& rays) {
     GridFrame frame;
@@ -196,7 +196,7 @@ std::vector<std::optional<EnteredCell>> hits_on(const Mesh& mesh, const FixedGri
     return device.hits();
 }
 
-/// How far a hit lies from the plane of the triangle that a ray truly meets, in voxels.
+/// The distance of a hit from the plane of the triangle that a ray truly meets, in voxels.
 double off_plane(const RationalHit& truth, double t, const oracle::RationalPoint& d) {
     const dvec3 way(d[0].get_d(), d[1].get_d(), d[2].get_d());
     return std::abs(mpq_class(truth.t - mpq_class(t)).get_d() * glm::dot(way, truth.normal));
@@ -232,9 +232,9 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
 }
 
 // These triangles are 12 voxels long and 1/100 wide: their areas are small compared with the
-// products that they are the differences of. The largest error of the first 94 such rays was 2.1e-6
-// voxel; where these products were rounded it was 1.1e-4. The bound is what the shear alone may
-// round on an axis.
+// products whose differences they are. The largest error of the first 94 such rays was 2.1e-6
+// voxel; with rounded products it was 1.1e-4. The bound is the rounding of the shear alone on an
+// axis.
 TEST(ExactHit, OfSliversIsTheRationalOne) {
     const Mesh mesh = ball({21.3, 18.1, 14.2}, 12, 8000, 3);
     const FixedGrid grid = fixed_grid(kHitGrid);

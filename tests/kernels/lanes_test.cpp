@@ -96,8 +96,8 @@ std::vector<Case> cases_of(uint32_t lanes) {
         {"LANES_AS_FLOAT(LANES_AS_INT(f) ^ (int)0x80000000)",
          [](uint32_t i) { return -floats()[i]; }},
     };
-    // These cases test what a packet answers in all of its lanes: whether it holds an index. An
-    // empty mask follows.
+    // These cases test a function that answers in all lanes of a packet: whether the packet holds
+    // an index. An empty mask follows.
     for (const uint32_t place : {0u, 1u, 6u, 7u, 8u, 15u, 37u, 63u})
         cases.push_back({"(lane_int)(lanes_any(LANE_MASK(LANES_NUMBERS + (int)first == " +
                              std::to_string(place) + ")) != 0)",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that begin on triangles below the field of their own mesh, against fields that they come to
-// later, as a device function sees them.
+// Rays that begin on triangles below the field of their own mesh, and the fields that they meet
+// later, in a device function.
 #include <gtest/gtest.h>
 
 #include <array>

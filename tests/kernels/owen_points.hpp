@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sobol's sequence and Owen's scrambling by their definitions, bit by bit.
+// Sobol's sequence and Owen's scrambling, bit by bit according to their definitions.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline uint32_t value_of(const Bits& bits) {
     return value;
 }
 
-/// Murmur's and Burley's hashes, the only part that any implementation must repeat.
+/// The hashes of Murmur and Burley, the only part that every implementation must repeat.
 inline uint32_t mixed(uint32_t v) {
     uint64_t w = v ^ v / 65536;
     w = w * 0x85EBCA6B % 0x100000000;
@@ -41,7 +41,7 @@ inline uint32_t hashed(uint32_t v, uint32_t seed) {
     return uint32_t(w);
 }
 
-/// Owen's scrambling as a tree: a bit is flipped by what the path of the bits above it decides.
+/// Owen's scrambling as a tree: the path of the bits above a bit decides whether it is flipped.
 inline Bits scrambled(const Bits& bits, uint32_t seed) {
     Bits result = bits;
     for (size_t i = 0; i < 32; ++i) {
@@ -53,7 +53,7 @@ inline Bits scrambled(const Bits& bits, uint32_t seed) {
     return result;
 }
 
-/// Sobol's sequence from its direction numbers: of the second coordinate each is its predecessor,
+/// Sobol's sequence from its direction numbers. For the second coordinate, each is its predecessor,
 /// exclusive-or the predecessor halved.
 inline std::array<uint32_t, 2> sobol(uint32_t index) {
     uint32_t x = 0, y = 0, along_x = 1u << 31, along_y = 1u << 31;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that ask physically based surfaces for their values, and scatter paths on them.
+// Kernels that evaluate physically based surfaces, and scatter paths on them.
 #pragma once
 
 namespace voxelume {

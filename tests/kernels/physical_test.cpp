@@ -60,7 +60,7 @@ std::vector<PhysicalValues> surfaces() {
         list.push_back({0.4, roughness, 2, {0.2, 0.6, 1}, 0.6, 0.7, 0.3});
         list.push_back({1, roughness, 1.5, {1, 0.7, 0.3}, 1, 1, 0.6});
     }
-    // By default each kind is there with one roughness.
+    // By default, each kind occurs with one roughness.
     if (is_exhaustive()) return list;
     std::vector<PhysicalValues> some;
     for (size_t kind = 0; kind < 6; ++kind) some.push_back(list[kind % 3 * 6 + kind]);
@@ -187,7 +187,8 @@ std::vector<PhysicalValues> white_surfaces() {
             for (const double coat_roughness : {0.0, 0.2, 1.0})
                 list.push_back({metallic, roughness, 1.5, {1, 1, 1}, 0.5, 1, coat_roughness});
         }
-    // By default each roughness is there with two of the eight other choices, each with some.
+    // By default, each roughness occurs with two of the eight other choices, and each choice with
+    // some roughness.
     if (is_exhaustive()) return list;
     std::vector<PhysicalValues> some;
     for (size_t roughness = 0; roughness < 6; ++roughness)

@@ -130,7 +130,7 @@ SquarePoint defined_pixel_point(const Asked& asked) {
                       seed);
 }
 
-/// All of the first `samples` samples of a square of `side` pixels, sample after sample.
+/// The first `samples` samples of all pixels of a square of `side` pixels, sample after sample.
 std::vector<Asked> square_of(uint32_t column, uint32_t row, uint32_t side, uint32_t samples,
                              uint32_t decision) {
     std::vector<Asked> asked;
@@ -141,7 +141,7 @@ std::vector<Asked> square_of(uint32_t column, uint32_t row, uint32_t side, uint3
     return asked;
 }
 
-/// Whether 2^k points fall one each into the 2^k boxes of all shapes.
+/// True if 2^k points fall one each into the 2^k boxes of all shapes.
 void expect_one_in_each_box(std::span<const SquarePoint> points, int k, const std::string& of) {
     for (int along_x = 0; along_x <= k; ++along_x) {
         std::set<std::pair<int, int>> boxes;
@@ -231,9 +231,9 @@ TEST(PixelPoints, ErrorsOfNeighboursCancel) {
 }
 
 TEST(PixelPoints, ErrorsOfTwoDecisionsHardlyAddUp) {
-    // What depends on how two decisions are paired can't cancel. Quarters that are rearranged
-    // independently agree in a ninth of what could agree: 3 neighbours add a third. From 4 samples
-    // on they are exchanged.
+    // Errors that depend on how two decisions are paired can't cancel. Quarters that are rearranged
+    // independently agree in a ninth of the possible cases: 3 neighbours add a third. From 4
+    // samples on, they are exchanged.
     const auto paired = [](const SquarePoint& p, const SquarePoint& q) {
         return (p.x < 0.5) == (q.x < 0.5) ? 1.0 : -1.0;
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of rough glass, what kernels compute of them, and the ways on which they scatter paths.
+// Surfaces of rough glass, the values that kernels compute for them, and the directions into which
+// they scatter paths.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -140,7 +141,7 @@ class RoughGlass : public testing::TestWithParam<GlassSurface> {
         return result;
     }
 
-    /// Four arrays: the ways that paths take, and pi times the weights of their light.
+    /// Four arrays: the directions that paths take, and pi times the weights of their light.
     static std::vector<float> scattered(const GlassSurface& s, double out, uint32_t count,
                                         uint32_t seed, int lanes = 0) {
         const Device device = test_device(lanes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays at analytic solids on the device, for the tests of their surfaces.
+// Rays at analytic solids on the device, for tests of the solids' surfaces.
 #pragma once
 
 #include <cmath>
@@ -104,7 +104,8 @@ inline glm::dmat4 grid_from_solid() {
     return moved(rational_rotation(1, 2, 3, 4), -ray_frame().origin);
 }
 
-/// Rays as the tracer has them: origins in the grid are multiples of 2^-18, directions of 2^-22.
+/// Rays as the tracer receives them: origins in the grid are multiples of 2^-18, directions of
+/// 2^-22.
 inline std::vector<Ray> random_rays(unsigned seed, size_t count) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);

@@ -190,7 +190,7 @@ TEST(SolidDistance, ShearedShapesAreScaledByTheSmallestStretch) {
     glm::dmat4 shear(1);
     shear[1] = {0.7, 1.2, -0.3, 0};
     for (const SolidCase& c : shape_cases()) {
-        // The images of these solids have the same kind and an exact distance of their own.
+        // The images of these solids have the same kind and their own exact distance.
         if (c.solid.kind == SolidKind::sphere || c.solid.kind == SolidKind::ellipsoid ||
             c.solid.kind == SolidKind::slab)
             continue;

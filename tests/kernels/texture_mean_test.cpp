@@ -68,7 +68,7 @@ std::vector<oracle::Picture> pictures() {
             noise(64, 64, clamp, repeat, 3), noise(33, 128, mirror, clamp, 4)};
 }
 
-/// All pictures as kernels read them.
+/// All pictures in the form that kernels read.
 class Textures {
   public:
     explicit Textures(const std::vector<oracle::Picture>& pictures) {

@@ -20,7 +20,7 @@ std::vector<double> chances_of(const std::vector<AliasSlot>& slots) {
 }
 
 TEST(AliasTable, ChoosesByWeight) {
-    // By hand: of weights 1, 3 and 8 in slots of 4 each.
+    // Computed by hand for weights 1, 3 and 8 in slots of 4 each.
     const std::vector<double> weights = {1, 3, 8};
     const std::vector<double> chances = chances_of(alias_table(weights));
     EXPECT_NEAR(chances[0], 1.0 / 12, 1e-15);

@@ -17,8 +17,7 @@ namespace voxelume {
 
 /// A scene of 1.2 x 0.9 x 1 m from (-0.5, -0.1, -0.4) on, with a floor whose top is y = 0, seen
 /// from straight above by parallel rays: 0.9 x 0.62 m around (0.05, 0.1), in 45 x 31 pixels of 2
-/// cm.
-/// `models` and `objects` are the scene's further ones, each followed by a comma.
+/// cm. `models` and `objects` are added to the scene; each ends with a comma.
 inline Scene floor_scene(const std::string& models, const std::string& objects,
                          const std::string& lights) {
     return parse_scene(

@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Lanes, LightBeamLanes, testing::Values(1, 4, 8, 16));
 TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
     const Device device = test_device(GetParam());
     int shadowed = 0, lit = 0, shortened = 0;
-    // By default each number of lanes has the densest world and some of the others.
+    // By default, each number of lanes runs with the densest world and some of the others.
     const size_t own_turn =
         GetParam() == 1 ? 0 : size_t(std::countr_zero(unsigned(GetParam())) - 1);
     size_t turn = 0;

@@ -19,7 +19,7 @@ using testing::Not;
 
 using std::numbers::pi;
 
-/// A surface, and where the emissive object that has it is placed.
+/// A surface, and the placement of the emissive object with it.
 struct EmissiveCase {
     const char* surface;
     const char* placement = "world";

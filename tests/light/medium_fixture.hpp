@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A world that holds only medium, rays through it, and what the cells that they pass contribute.
+// A world that holds nothing but medium, rays through it, and the contributions of the cells that
+// the rays pass.
 #pragma once
 
 #include <fmt/format.h>
@@ -47,7 +48,7 @@ inline glm::dvec3 snapped(const glm::dvec3& v, int bits) {
            std::ldexp(1.0, -bits);
 }
 
-/// Rays between random places of the world. Some of them graze: along axes and faces.
+/// Rays between random points of the world. Some of them run along axes or faces.
 inline std::vector<MediumRay> medium_rays(const glm::ivec3& size, size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -75,8 +76,7 @@ inline std::vector<MediumRay> medium_rays(const glm::ivec3& size, size_t count, 
 /// The density at a voxel's centre in metres, or at a voxel.
 using DensityAt = std::function<double(const glm::dvec3& center, const glm::ivec3& voxel)>;
 
-/// The sum of density times metres on a ray's way, over the cells that it passes, in double
-/// precision.
+/// The sum of density times metres along a ray, over the cells that it passes, in double precision.
 inline double depth_of(const World& world, const MediumRay& ray, const DensityAt& density) {
     const double t_last = double(ray.t_hit >= 0 ? ray.t_hit : ray.t_end);
     double sum = 0;

@@ -65,7 +65,7 @@ float density_in(const DensityGrid& grid, const glm::ivec3& voxel) {
 }  // namespace
 
 TEST_F(ScanDensityTest, NothingIsWhereValuesAreMissing) {
-    // All others are alike, which makes no brick with both kinds of cells a constant.
+    // All cells with values are alike. Even so, no brick with both kinds of cells becomes constant.
     write_scan([](const glm::ivec3& cell) { return cell.x < 8 ? 1.0F : NAN; });
     const DensityGrid grid = form_density_grid(test_device(), world_of("scan.nrrd"));
     for (const int yz : {0, 5, 17, 31})

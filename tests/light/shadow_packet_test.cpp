@@ -86,8 +86,8 @@ TEST_P(Veils, LanesDoNotChangeABit) {
         EXPECT_EQ(colors(scene, lanes), expected) << lanes;
 }
 
-/// The light on a wall that a far light throws through a row of `voxels` voxels, each of which
-/// takes a thousandth.
+/// The light on a wall from a far light through a row of `voxels` voxels, each of which absorbs a
+/// thousandth.
 double light_behind(int voxels) {
     const Scene scene = parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 1, "bounds": {{"min": [-4, -4, -4], "max": [{0}, 4, 4]}}}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A transfer function of two windows, and its values by a way of its own.
+// A transfer function with two windows, and its values, computed independently.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace voxelume {
 
-/// Two windows: one of soft things, one of hard ones, nothing between them.
+/// Two windows: one for soft materials, one for hard ones, and nothing between them.
 inline const std::vector<TransferPoint> kWindows = {
     {-2, 0, {0, 0, 1}}, {-1, 2, {1, 0.5F, 0.25F}},   {0.5, 0.5F, {0, 1, 0}},  {1.25, 0, {0, 0, 0}},
     {3, 0, {1, 1, 1}},  {3.5, 8, {0.5F, 1, 0.125F}}, {6, 4, {0.25F, 0.5F, 1}}};
 
-/// The absorption, or absorption times a colour, at a value: found by looking for its neighbours.
+/// The absorption, or absorption times a colour, at a value, interpolated between its neighbours.
 inline double light_at(double value, int channel) {
     const auto of = [&](const TransferPoint& p) {
         return channel < 3 ? p.absorption * double(p.color[channel]) : p.absorption;

@@ -152,7 +152,7 @@ TEST_F(FramePlans, TellHowManyFramesAreDone) {
     EXPECT_EQ(done, (std::vector<size_t>{0, 1, 2}));
 }
 
-// What solids take in their own spaces is found once, but not where their voxels or shapes differ.
+// The needs of solids in their own spaces are found once, unless their voxels or shapes differ.
 TEST(SolidExtents, AreFoundOnceForEachModelAndEdge) {
     Model ball, box;
     ball.surface = Surface::smooth;

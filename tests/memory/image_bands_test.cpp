@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How images that are larger than memory are cut into bands.
+// The division of images that are larger than memory into bands.
 #include "runtime/memory/image_bands.hpp"
 
 #include <gmock/gmock.h>

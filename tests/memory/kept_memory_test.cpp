@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is retained for the next frame: in worlds that take less memory than they may, and in worlds
-// that take all.
+// The memory retained for the next frame: in worlds that take less than they may, and in worlds
+// that take all of it.
 #include <gmock/gmock.h>
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `check` promises of a device's memory against what a run takes at its height: of every
-// shipped scene and of built ones. Each test prints its line of a table.
+// The device memory that `check` promises, compared with the peak of a run, for every shipped scene
+// and for built ones. Each test prints its row of a table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -147,7 +147,7 @@ TEST(BuiltScene, WithPassesOfItsLightTakesWhatIsPromised) {
         scene.render.samples = 4;
         scene.render.channels = {has_color, false, false, false, false};
         scene.render.channels.albedo = scene.render.channels.shadow = true;
-        // Where one batch holds the image, its rays and hits are those that are retained.
+        // If one batch holds the image, its rays and hits are the ones that are retained.
         expect_image_kept(fmt::format("solids, {} and passes", has_color ? "color" : "no color"),
                           scene, test_device().is_cpu() ? kMaxRatio : kMaxOfOneBatch);
     }
@@ -173,7 +173,7 @@ TEST(BuiltScene, WithMoreSamplesWherePixelsContrastTakesWhatIsPromised) {
     expect_image_kept("cornell, adaptive, a part", scene);
 }
 
-/// A ball before a wall, of such materials, in such a space.
+/// A ball in front of a wall, with these materials, in this space.
 Scene room(const char* ball, const char* wall, const char* space, double voxel,
            const char* surface = "smooth") {
     const std::string text = fmt::format(

@@ -45,7 +45,7 @@ TEST_F(PlanCheck, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
                 HasSubstr(": objects[0]: an object's part of the world of 304x320x320 voxels needs "
                           "a buffer of 14.6 MB for its distances, and \"Small One\" allows 12.0 MB "
                           "in one piece: use voxels larger than 0.0029 m"));
-    // An instance has a lattice of its own.
+    // An instance has its own lattice.
     EXPECT_THAT(refusal(ball + "smooth\"}", 12, Placement::instance),
                 HasSubstr(": models.thing: a model of 288x288x288 voxels needs a buffer of "
                           "14.6 MB for its distances, and \"Small One\" allows 12.0 MB in "

@@ -82,7 +82,7 @@ TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
             glm::translate(glm::dmat4(1), step) * ball.world_from_object;
     }
     const ScenePlan plan = plan_of(scene);
-    // Nothing is left out; the minimum counts surfaces by their areas, the rest by distances.
+    // Nothing is left out. The minimum counts surfaces by their areas, and the rest by distances.
     EXPECT_GT(plan.min_bytes, 0.75 * plan.peak_bytes());
     EXPECT_LE(plan.min_bytes, plan.peak_bytes());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `check` promises of the memory of textures that meshes wear, which copies share.
+// The memory that `check` promises for textures that meshes wear; copies share it.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a process of the test does, by VXL_TEST_CASE.
+/// The work of a process of this test, chosen by VXL_TEST_CASE.
 std::string_view wanted_case() {
     const char* const name = std::getenv("VXL_TEST_CASE");
     return name ? name : "";
@@ -85,13 +85,13 @@ void make_self_test(KernelCompilers& compilers) {
     const Program program(device, foreseen.files[0], foreseen.defines);
     EXPECT_EQ(compilers.compiled(), int(is_helped));
     EXPECT_EQ(compilers.started(), int(wanted_case() != "warm" && wanted_case() != "unwritable"));
-    // What is there before a launch was compiled by others.
+    // Kernels that exist before a launch were compiled by helpers.
     EXPECT_EQ(compiled_kernels(), is_helped || wanted_case() == "warm" ? 2 : 0);
     EXPECT_EQ(find_fault(device), "");
     EXPECT_EQ(compiled_kernels(), 2);
 }
 
-/// Run in its own process. The exit code is 10 if the self-test passes and what the case says of
+/// Run in its own process. The exit code is 10 if the self-test passes and the case's claim about
 /// the helper is true.
 TEST(KernelCompilersProcess, DISABLED_MakesTheSelfTest) {
     KernelCompilers& compilers = KernelCompilers::instance();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What slices hold and leave out, and that a compiler accepts those of all kernels.
+// The contents of slices; compilers accept the slices of all kernels.
 #include "runtime/opencl/source/kernel_slice.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which program a folder of PoCL's belongs to, where not all of them are ours.
+// Which program a folder of PoCL belongs to, where not all of them are ours.
 #include "runtime/opencl/quirks/pocl_folder.hpp"
 
 #include <gtest/gtest.h>

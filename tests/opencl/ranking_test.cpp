@@ -30,7 +30,7 @@ DeviceInfo gpu(const char* vendor, int units, int clock, bool shares_memory = fa
     return info;
 }
 
-/// What `selector` chooses of devices without a driver.
+/// The devices, given without a driver, that `selector` chooses.
 std::string chosen(std::vector<DeviceInfo> devices, std::string_view selector = "auto") {
     for (size_t i = 0; i < devices.size(); ++i) devices[i].index = int(i);
     return devices[best_device(devices, selector)].name;

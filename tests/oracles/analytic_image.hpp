@@ -16,8 +16,8 @@ struct AnalyticImage {
     int width = 0;
     int height = 0;
     std::vector<glm::dvec3> radiance;
-    std::vector<uint8_t> edge;  ///< 1 if the way to the pixel had another decision than that to one
-                                ///< of its eight neighbours, so that rounding may decide
+    std::vector<uint8_t> edge;  ///< 1 if the way to the pixel had another decision than the way to
+                                ///< one of its eight neighbours, so that rounding may decide
 };
 
 /// Traces one sight ray through each pixel's centre. Throws std::invalid_argument for displays

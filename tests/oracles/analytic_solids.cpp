@@ -27,7 +27,7 @@ Real polygon_distance(const std::vector<std::pair<Real, Real>>& corners, Real x,
     return inside ? -nearest : nearest;
 }
 
-/// The distance to a solid of revolution: its profile is mirrored at the axis, and the inner edges
+/// The distance to a solid of revolution. Its profile is mirrored at the axis, and inner edges
 /// don't count.
 Real revolved_distance(Real bottom, Real top, Real half_height, const Vector& p) {
     return polygon_distance(
@@ -45,8 +45,8 @@ Real box_distance(const Vector& half, const Vector& p) {
     return inside > 0 ? std::sqrt(outside) : inside;
 }
 
-/// The distance to an ellipsoid: bisects for the foot point's multiplier, in the variable u = t +
-/// r_min², on (0, ...).
+/// The distance to an ellipsoid. Bisection finds the multiplier of the foot point, in the variable
+/// u = t + r_min², on (0, ...).
 Real ellipsoid_distance(const Vector& r, const Vector& point) {
     const Vector p = glm::abs(point);
     const int k = r.x <= r.y && r.x <= r.z ? 0 : r.y <= r.z ? 1 : 2;
@@ -171,8 +171,8 @@ AnalyticSolid::Crossing AnalyticSolid::first_crossing(const Vector& origin, cons
     return found;
 }
 
-/// Searches an interval for crossings. An interval whose middle is farther from the surface than
-/// its ends are from the middle has none; one shorter than `uncertainty` is decided by its ends.
+/// Searches an interval for crossings. An interval has none if its middle is farther from the
+/// surface than its ends are from the middle; its ends decide if it is shorter than `uncertainty`.
 void AnalyticSolid::search(const Vector& origin, const Vector& direction, long double first,
                            long double last, long double uncertainty, Crossing& found) const {
     if (found.is_hit) return;

@@ -29,7 +29,7 @@ double value_of(const Time& time, int fraction_bits) {
     return double(time.numerator) / double(time.denominator) * std::ldexp(1.0, 22 - fraction_bits);
 }
 
-/// Calls `visit(cell, axis, time in, time out)` for each cell until it says false.
+/// Calls `visit(cell, axis, time in, time out)` for each cell until it returns false.
 template <class Visit>
 void walk(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size, int fraction_bits,
           const Visit& visit) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spheres and turned boxes in double precision: the points of them that an observer sees.
+// Spheres and turned boxes in double precision, and their points that an observer sees.
 #pragma once
 
 #include <glm/mat3x3.hpp>

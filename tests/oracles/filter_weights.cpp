@@ -15,7 +15,7 @@ double value(FilterShape shape, double x) {
             return 1;
         case FilterShape::tent:
             return 1 - 2 * std::abs(x);
-        case FilterShape::gaussian: {  // a sixth of the width is the standard deviation
+        case FilterShape::gaussian: {  // the standard deviation is a sixth of the width
             const auto bell = [](double at) { return std::exp(-0.5 * (6 * at) * (6 * at)); };
             return bell(x) - bell(0.5);
         }
@@ -28,7 +28,8 @@ double value(FilterShape shape, double x) {
     return 0;
 }
 
-/// By Simpson's rule, on which the tent's bend must not lie inside of a part.
+/// Integrates by Simpson's rule. The tent's kink must not lie inside a part, so the integral is
+/// split at 0.
 double integral(FilterShape shape, double low, double high) {
     if (low < 0 && high > 0) return integral(shape, low, 0) + integral(shape, 0, high);
     constexpr int kParts = 200;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reconstruction filters of width 1 by their definitions, integrated by Simpson's rule.
+// Reconstruction filters of width 1, computed from their definitions and integrated by Simpson's
+// rule.
 #pragma once
 
 #include "runtime/scene/parts/reconstruction_filter.hpp"
 
 namespace voxelume::oracle {
 
-/// The filter's value at `x`, whose integral is 1; 0 outside of [-1/2, 1/2].
+/// The filter's value at `x`. Its integral is 1, and it is 0 outside [-1/2, 1/2].
 double filter_density(FilterShape shape, double x);
 
 /// The filter's integral from `low` to `high`.

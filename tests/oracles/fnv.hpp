@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hash FNV-1a with 64 bits, which changes when any bit of what was added does.
+// The 64-bit hash FNV-1a, which changes if any bit of the input changes.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ double GlassFormulas::reflected(double cosine) const {
     return (std::pow((a - b) / (a + b), 2) + std::pow((c - d) / (c + d), 2)) / 2;
 }
 
-/// Smith's function Lambda of a direction of this height.
+/// Smith's function Lambda for a direction with this height.
 double GlassFormulas::hidden(double height) const {
     const double z2 = height * height;
     return (std::sqrt(1 + alpha_ * alpha_ * (1 - z2) / z2) - 1) / 2;
@@ -48,7 +48,7 @@ double GlassFormulas::missing(double cosine) {
     const glm::dvec3 out{std::sqrt(1 - cosine * cosine), 0, cosine};
     double sum = 0;
     for (int k = 0; k < kHeights; ++k) {
-        // Closer where facets lie flat, and where they are steep and seen from the side.
+        // Steps are smaller where facets lie flat, and where they are steep and seen from the side.
         const double v = (k + 0.5) / kHeights, u = v * v * v * (10 - 15 * v + 6 * v * v);
         const double step = 30 * v * v * (1 - v) * (1 - v) / kHeights;
         const double tangent = alpha_ * std::sqrt(u / (1 - u));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rough glass by the formulas of Walter et al. 2007, in double precision: facets of GGX's
+// Rough glass by the formulas of Walter et al. 2007, in double precision: facets with GGX's
 // distribution that reflect and refract by Fresnel's law. Albedos are sums over all facets.
 #pragma once
 
@@ -10,16 +10,17 @@ namespace voxelume::oracle {
 
 class GlassFormulas {
   public:
-    /// Seen from a side with index `here`, with `behind` on the other.
+    /// The glass seen from a side with index of refraction `here`; the other side has `behind`.
     GlassFormulas(double alpha, double here, double behind)
         : alpha_(alpha), here_(here), behind_(behind) {}
 
-    /// pi times the distribution of what facets return at once between two directions, times the
-    /// cosine of the second, which is above the surface or behind it. Radiance isn't scaled by the
-    /// square of the index.
+    /// pi times the distribution of the light that facets return at once between two directions,
+    /// times the cosine of the second direction, which is above the surface or behind it. Radiance
+    /// isn't scaled by the square of the index.
     double at_once(const glm::dvec3& out, const glm::dvec3& in) const;
 
-    /// The share of light at an angle that facets don't return at once, and its mean by the cosine.
+    /// The share of light at an angle that facets don't return at once, and its mean weighted by
+    /// the cosine.
     double missing(double cosine);
     double mean_missing();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hash that changes when any bit of an image does.
+// A hash that changes if any bit of an image changes.
 #pragma once
 
 #include <cstdint>

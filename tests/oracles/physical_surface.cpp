@@ -36,14 +36,14 @@ double schlick(double reflectance, double cosine, double grazing = 1) {
 
 constexpr double kCoat = 0.04;  // ((1.5 - 1) / (1.5 + 1))^2
 
-/// The sum over facets of the share that each returns; `reflects` tells which part of the light
-/// that meets it at an angle, to be mirrored to another.
+/// The sum over facets of the share that each returns. `reflects` is the part of light that a facet
+/// mirrors, for light that meets it at an angle and leaves at another.
 double sum_of_facets(double cosine, double alpha, int parts,
                      const std::function<double(double meets, double out)>& reflects) {
     const glm::dvec3 o = at_cosine(cosine);
     double sum = 0;
     for (int k = 0; k < parts; ++k) {
-        // Shares of the facets' area, finer where they stand up.
+        // The facets' areas are divided into shares, which are finer for steep facets.
         const double rest = std::pow(1 - (k + 0.5) / parts, 3);
         const double tangent = alpha * std::sqrt((1 - rest * rest) / (rest * rest));
         for (int j = 0; j < parts; ++j) {
@@ -54,7 +54,8 @@ double sum_of_facets(double cosine, double alpha, int parts,
             if (meets <= 0 || i.z <= 0) continue;
             const double seen =
                 meets / (o.z * h.z) / (1 + lambda_of(o, alpha) + lambda_of(i, alpha));
-            // A facet's share falls by the sixth power of what is left of the parts.
+            // A facet's share is proportional to the derivative of the sixth power of the remaining
+            // parts.
             sum += seen * reflects(meets, i.z) * 6 * std::pow(1 - (k + 0.5) / parts, 5) /
                    (parts * parts);
         }
@@ -62,8 +63,8 @@ double sum_of_facets(double cosine, double alpha, int parts,
     return sum;
 }
 
-/// The mean over all directions by their cosine: Gauss and Legendre's six points for means over its
-/// square.
+/// The mean over all directions, weighted by their cosine: Gauss and Legendre's six points for
+/// means over the cosine's square.
 double mean_of(const std::function<double(double cosine)>& value) {
     constexpr double kAt[] = {0.0337652429, 0.1693953068, 0.3806904070};
     constexpr double kShare[] = {0.0856622462, 0.1803807865, 0.2339569673};

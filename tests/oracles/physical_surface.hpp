@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Physically based surfaces by the formulas of the literature, in double precision: GGX's facets,
-// Smith's shadowing, Schlick's reflectance, Kulla and Conty's later light, under a coat of the
-// same. Albedos are sums over facets.
+// Smith's shadowing, Schlick's reflectance, and Kulla and Conty's model of later light, under a
+// coat with the same models. Albedos are sums over facets.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -22,13 +22,13 @@ glm::dvec3 at_cosine(double cosine, double turn = 0);
 /// The albedo of facets of this reflectance, over the normals of all facets, seen or not.
 double facet_albedo(double cosine, double alpha, double reflectance);
 
-/// What a coat of index 1.5 returns.
+/// The light that a coat of index 1.5 returns.
 class CoatFormulas {
   public:
     explicit CoatFormulas(double alpha);
     double returned(double cosine) const;
 
-    /// The value of this coat, as PhysicalFormulas::value has it.
+    /// The value of this coat, in the units of PhysicalFormulas::value.
     double value(const glm::dvec3& out, const glm::dvec3& in) const;
 
   private:

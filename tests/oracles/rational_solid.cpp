@@ -11,7 +11,7 @@ int sign_of(const mpq_class& value) {
     return sgn(value);
 }
 
-/// A number, and a bound of its error.
+/// A number, and a bound on its error.
 struct Rounded {
     long double value = 0, error = 0;
 
@@ -43,10 +43,10 @@ int sign_of(const Rounded& a) {
 }
 
 int greatest(std::initializer_list<int> sides) {
-    return std::max(sides);  // kUnknown is greater than any
+    return std::max(sides);  // kUnknown is greater than all others
 }
 
-/// |a| <= edge / 2.
+/// The side of |a| <= edge / 2.
 template <class Number>
 int side_of_pair(const Number& a, double edge) {
     return sign_of(Number(a * a * Number(4.0) - Number(edge) * Number(edge)));
@@ -64,8 +64,8 @@ int side_of_ellipsoid(const std::array<Number, 3>& p, const glm::dvec3& radii) {
     return sign_of(Number(x * x + y * y + z * z - r * r));
 }
 
-/// Between the planes at -h/2 and h/2 the radius goes from `radius` to `top_radius`. Multiplied by
-/// 2h it is r0 (h - 2y) + r1 (h + 2y).
+/// Between the planes at -h/2 and h/2, the radius changes from `radius` to `top_radius`. Multiplied
+/// by 2h, it is r0 (h - 2y) + r1 (h + 2y).
 template <class Number>
 int side_of_cone(const std::array<Number, 3>& p, const Solid& s) {
     const Number h(s.height), two_y = p[1] * Number(2.0);
@@ -75,7 +75,7 @@ int side_of_cone(const std::array<Number, 3>& p, const Solid& s) {
         {side_of_pair(p[1], s.height), sign_of(Number(across * h * h * Number(4.0) - r * r))});
 }
 
-/// (x² + y² + z² + R² - r²)² = 4 R² (x² + z²).
+/// The torus is (x² + y² + z² + R² - r²)² = 4 R² (x² + z²).
 template <class Number>
 int side_of_torus(const std::array<Number, 3>& p, const Solid& s) {
     const Number ring(s.radius), tube(s.tube);

@@ -15,20 +15,19 @@ class RationalSolid {
   public:
     RationalSolid(const Solid& solid, const RationalMap& frame_from_solid);
 
-    /// Returns -1 inside, 0 on the boundary, 1 outside. For a combination it is the minimum of its
-    /// parts' sides (union) or the maximum (intersection); parts that are taken away have the
+    /// Returns -1 inside, 0 on the boundary, 1 outside. For a combination, it is the minimum of its
+    /// parts' sides (union) or the maximum (intersection); parts that are subtracted have the
     /// opposite sign.
-    /// Signs are first computed in long double, and trusted where the value is 10^6 times as large
-    /// as the bound of rounding.
     int side(const glm::dvec3& point) const;
 
   private:
-    /// The side, or another value where long doubles can't tell it.
+    /// The side, or another value if long doubles can't decide it.
     int likely_side(const glm::dvec3& point) const;
 
     Solid solid_;
     RationalMap solid_from_frame_;
-    std::array<long double, 12> rounded_{};  // that map: three rows of linear, then the offset
+    std::array<long double, 12> rounded_{};  // solid_from_frame_ in long doubles: three rows of
+                                             // linear, then the offset
     std::vector<RationalSolid> parts_;
 };
 

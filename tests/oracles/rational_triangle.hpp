@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place at which a ray meets a triangle, in rational numbers.
+// The t at which a ray meets a triangle, in rational numbers.
 #pragma once
 
 #include <optional>

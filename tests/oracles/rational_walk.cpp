@@ -69,8 +69,8 @@ std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
     std::vector<RationalCell> cells;
     mpq_class entry = 0;
     if (!find_entry(o, d, size, entry)) return cells;
-    // The walk starts in the infinite lattice just before the grid, so that at the grid's sides the
-    // order of crossings at one t decides as everywhere else.
+    // The walk starts in the infinite lattice just before the grid. So the order of crossings at
+    // one t decides at the grid's sides as it does elsewhere.
     long cell[3];
     for (int a = 0; a < 3; ++a) {
         const size_t i = size_t(a);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a convex solid's edges a distance field must show that knows the distances at the
-// nodes of a lattice alone.
+// The part of a convex solid's edges that a distance field must show, if the field knows only the
+// distances at the nodes of a lattice.
 //
 // The distance d of a convex solid is a convex function, in any affine space. Half-Taylor
-// interpolation (Kraaijpoel & van Leeuwen 2010) takes from the trilinear one of the same nodes a
-// sum of second differences, none of which is negative for a convex function. So wherever the
-// trilinear interpolation of d is below zero, the field is, and a ray that comes there has met it.
-// Around an edge of the angle w between two faces it can be above d by half a voxel's diagonal
-// along the difference of their normals, 1/2 cos(w/2) voxels on average over the corners (Jensen's
-// inequality), so the edge may recede by 1/2 cot(w/2) voxels: 0.5 at 90 degrees, 1.2 at 45.
+// interpolation (Kraaijpoel & van Leeuwen 2010) subtracts from the trilinear interpolation of the
+// same nodes a sum of second differences, none of which is negative for a convex function. So
+// wherever the trilinear interpolation of d is below zero, the field is below zero, too, and a ray
+// that comes there has met it. Around an edge with the angle w between its faces, the interpolation
+// can be above d by half a voxel's diagonal along the difference of their normals, 1/2 cos(w/2)
+// voxels on average over the corners (Jensen's inequality), so the edge may recede by 1/2 cot(w/2)
+// voxels: 0.5 at 90 degrees, 1.2 at 45.
 #pragma once
 
 #include <array>
@@ -39,7 +40,7 @@ class LatticeDistance {
         return sum;
     }
 
-    /// The minimum of `at` on the part of a ray that is inside of the solid, from `t` metres on, in
+    /// The minimum of `at` on the part of a ray that is inside the solid, from `t` metres on, in
     /// steps of a sixteenth of a voxel.
     double min_on(const glm::dvec3& origin, const glm::dvec3& direction, double t) const {
         const double step = edge_.x / 16;
@@ -54,7 +55,7 @@ class LatticeDistance {
     AnalyticSolid solid_;
 };
 
-/// True if the shape is convex and has edges, which one field rounds.
+/// True if the shape is convex and has edges, which a field rounds.
 constexpr bool has_convex_edges(SolidKind kind) {
     return kind == SolidKind::box || kind == SolidKind::cylinder || kind == SolidKind::cone;
 }

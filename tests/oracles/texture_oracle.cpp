@@ -8,7 +8,7 @@
 namespace voxelume::oracle {
 namespace {
 
-/// The texel for any number, by the plain meaning of the three ways to go on.
+/// The texel for any number, by the plain meaning of the three ways to continue beyond the edges.
 int texel_of(int at, int size, Beyond beyond) {
     if (beyond == Beyond::clamp) return std::clamp(at, 0, size - 1);
     if (beyond == Beyond::repeat) return (at % size + size) % size;

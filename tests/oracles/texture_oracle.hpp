@@ -13,17 +13,17 @@ namespace voxelume::oracle {
 
 enum class Beyond { repeat, mirror, clamp };
 
-/// Texels of a picture from its upper left corner on, in sRGB.
+/// Texels of a picture, from its upper left corner on, in sRGB.
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::array<uint8_t, 3>> texels;
     Beyond beyond_u = Beyond::repeat, beyond_v = Beyond::repeat;
 };
 
-/// Linear light of an sRGB code.
+/// The linear light of an sRGB code.
 double linear_light(double code);
 
-/// The bilinear value at a place, in picture widths from the upper left corner.
+/// The bilinear value at a point, in picture widths from the upper left corner.
 glm::dvec3 bilinear(const Picture& picture, const glm::dvec2& place);
 
 }  // namespace voxelume::oracle

@@ -32,14 +32,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AnimationFrames,
                                          Animation{"drill", {48, 36}, 40}),
                          [](const auto& animation) { return std::string(animation.param.name); });
 
-/// By default every other frame of the animation is in the run.
+/// By default, every other frame of the animation is rendered.
 const double kStep = is_exhaustive() ? 1 : 2;
 
 Scene scene_of_frame(const Scene& scene, size_t n) {
     return scene_at(scene, 1 + kStep * double(n));
 }
 
-/// All values that a volume shows.
+/// All values in a volume.
 struct ShownVolume {
     std::vector<uint64_t> indices;
     std::vector<glm::vec3> colors;

@@ -201,7 +201,7 @@ TEST_F(SoftCubes, LightFadesToTheTerminatorWithoutTheStepsShadows) {
         }
 }
 
-/// A white ball in a world of voxels of 0.05 m, of which its own are `ratio` times as large.
+/// A white ball in a world of voxels of 0.05 m. The ball's own voxels are `ratio` times as large.
 std::string resampled_ball(double ratio, const char* set, const char* turn) {
     return fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1.5, -1.5, -1.5], "max": [1.5, 1.5, 1.5]}}}},

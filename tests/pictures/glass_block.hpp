@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block of glass cubes over a floor of checks, which tests of glass cubes share with its
-// programs.
+// A block of glass cubes above a checkered floor, which the tests of glass cubes share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,8 +24,7 @@ inline Image picture_of(const std::string& text, int lanes = 0, uint64_t* second
     return image;
 }
 
-/// Materials that every scene here has out of sight, so that all scenes are rendered by the same
-/// programs.
+/// Materials that every scene here has, out of sight, so that the same programs render all scenes.
 inline constexpr const char* kMaterials =
     R"("all": {"refraction": 1, "opacity": 0.5, "absorption": [1, 1, 1], "checker": {"size": 0.3}})";
 inline constexpr const char* kModels =

@@ -28,8 +28,8 @@ namespace {
 using glm::dvec3;
 
 #if defined(__SSE__)
-/// With VXL_TEST_FLUSH in the environment the host treats denormal numbers as zero, from before the
-/// device's threads start: the stress case D4.
+/// With VXL_TEST_FLUSH in the environment, the host treats denormal numbers as zero from before the
+/// device's threads start. This is the stress case D4.
 [[maybe_unused]] const bool kFlushed = [] {
     if (!std::getenv("VXL_TEST_FLUSH")) return false;
     _mm_setcsr(_mm_getcsr() | 0x8040u);  // flush to zero, denormals are zero

@@ -23,7 +23,7 @@ class LeavingRays : public FileTest {
         write_obj(folder / "unit.obj", box(glm::vec3(-0.5f), glm::vec3(0.5f)));
     }
 
-    /// The red of a picture of such a world, its objects and its lights.
+    /// The red channel of a picture of a world, objects and lights.
     std::vector<float> picture(const std::string& text) const {
         AssetStore files;
         Scene scene = parse_scene(R"({"voxelume": 1, "models": {

@@ -41,7 +41,7 @@ constexpr std::array kWorkGroups = {"", "1", "24"};
 constexpr std::array kOptions = {"", "-cl-opt-disable"};
 constexpr std::array kCounts = {1, 2};  // of threads, of parts
 
-/// All combinations; those that share compiled kernels are neighbours.
+/// All combinations. Those that share compiled kernels are neighbours.
 std::vector<Combination> product() {
     std::vector<Combination> all;
     for (const char* work_group : kWorkGroups)
@@ -149,7 +149,7 @@ constexpr std::array kScenesInTurn = {"cubes", "prism", "turntable", "procession
 
 TEST(Matrix, EveryPairOfSettingsGivesTheGoldenBits) {
     const std::vector<Combination> rows = covering_array();
-    // Optimizing takes longest, and of cubes the least time.
+    // Optimizing takes longest, and cubes take the least time.
     const auto scene_of = [&](size_t row) {
         if (is_exhaustive()) return kScenesInTurn[row % kScenesInTurn.size()];
         return kScenesInTurn[*rows[row].options ? row / 2 % kScenesInTurn.size() : 0];

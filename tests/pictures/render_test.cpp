@@ -224,7 +224,7 @@ TEST(Render, SamplesCoverAPixelEvenly) {
 TEST(Render, LetsOtherProcessesWaitForItsKernelsUntilTheFirstTilesAreDoneAlone) {
     const Device device = test_device();
     if (!keeps_pocl_folder(device.info())) GTEST_SKIP() << "PoCL's cache is filled so";
-    // What no cache has makes this process the one that compiles.
+    // A program that no cache holds makes this process the one that compiles.
     const auto now = std::chrono::system_clock::now().time_since_epoch().count();
     Program::from_text(device, fmt::format("kernel void of_{}_{}(void) {{}}\n", getpid(), now), {});
     ASSERT_TRUE(PoclFolder::instance().has_turn());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the edges of convex solids recede in fields that know the distances at nodes alone.
+// How far the edges of convex solids recede in fields that know distances only at nodes.
 #include "tests/oracles/rounded_edges.hpp"
 
 #include <fmt/format.h>

@@ -21,7 +21,7 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
-/// A coarse ring whose corners have normals of their own, up to 25 degrees off its faces'.
+/// A coarse ring whose corners have their own normals, up to 25 degrees off those of its faces.
 Mesh ring_with_normals() {
     Mesh mesh = wavy_ring(24, 12);
     const std::vector<glm::vec3> round = corner_normals(mesh, {ShadingKind::smooth, 90});
@@ -182,7 +182,7 @@ TEST_F(ShadingNormals, OfOneObjectChangeNoBitOfAnother) {
         for (const char* placement : {"world", "instance"}) {
             if (std::string(material) == "glass" && std::string(placement) == "instance") continue;
             const bool is_plain = std::string(material) == "default";
-            // By default, plain ones are instances and the others lie in the world.
+            // By default, plain objects are instances and the others lie in the world.
             if (!is_exhaustive() && is_plain != (std::string(placement) == "instance")) continue;
             const auto image = [&](const char* shading) {
                 Scene scene = scene_of(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of an exact mesh of slivers: a closed pipe, as CAD programs write it, which no point of
-// its own shades, compared with the cylinder that it approximates.
+// Pictures of an exact mesh of slivers: a closed pipe, as CAD programs write it, none of whose
+// points shades another, compared with the cylinder that it approximates.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of scenes/ made small enough for tests.
+// Shipped scenes, made small enough for tests.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace voxelume {
 
 inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
 
-/// The names of all scenes there.
+/// The names of all shipped scenes.
 inline std::vector<std::string> shipped_scenes() {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of meshes that are smooth but for thin parts, whose surfaces overlap those of the rest.
+// Pictures of meshes that are smooth except for thin parts, whose surfaces overlap those of the
+// rest.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,9 +78,9 @@ bool is_flat(const Image& image, size_t pixel, double voxel) {
     return true;
 }
 
-/// Expects pictures of one body: every pixel of the one shows it where the other does, but for
-/// `rim` pixels of outlines, and at the same depth to a tenth of a voxel, but for as many where
-/// rays graze it and depths differ by more than a voxel from pixel to pixel.
+/// Expects pictures of one body. Every pixel of one picture shows the body where the other does,
+/// except for `rim` pixels of outlines. Depths are equal to a tenth of a voxel, except for as many
+/// pixels where rays graze the body and depths differ by more than a voxel from pixel to pixel.
 void expect_alike(const Image& mixed, const Image& exact, double voxel, int rim) {
     const auto& a = mixed.planes.at("Z");
     const auto& b = exact.planes.at("Z");
@@ -112,7 +113,7 @@ TEST_F(ThinPartImage, HasNoHolesWhereTheSurfacesMeet) {
         }
 }
 
-/// The light of a pixel's neighbours and its own: the least and the most of several pictures.
+/// The light of a pixel and its neighbours: the minimum and the maximum over several pictures.
 struct LightAround {
     float min = 1e9f, max = 0;
 };

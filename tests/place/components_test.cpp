@@ -213,7 +213,7 @@ TEST(Components, OfSmoothSurfacesAreThoseOfTheirSolids) {
         size_t missing = 0, floating = 0;
         Cells::for_each([&](const glm::ivec3& cell) {
             missing += expected.has(cell) && !found.has(cell);
-            // A voxel may hold surfaces of two parts beside the edge that they meet in.
+            // A voxel next to an edge between two parts may hold surfaces of both.
             const glm::dvec3 middle =
                 world_of_cells().origin + world_of_cells().voxel_edge * (glm::dvec3(cell) + 0.5);
             floating += found.has(cell) && std::abs(c.shape(middle)) > 0.1 * std::sqrt(3.0);

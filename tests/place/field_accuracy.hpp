@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distance fields for tests, and how right they are in the world.
+// Distance fields for tests, and their accuracy in the world.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace voxelume {
 
-/// Voxels from the surface within which objects' fields are right, as voxelizers make them.
+/// The distance from the surface, in voxels, within which objects' fields are right, as voxelizers
+/// make them.
 inline constexpr double kBand = 2.8;
 
 inline int16_t banded(double voxels) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A placer and an indexer that follow a world as its objects change, against placing all afresh.
+// A placer and an indexer that follow a world as its objects change, compared with placing
+// everything from scratch.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,13 +37,14 @@ inline PlacedObject at(const BrickGrid& grid, uint32_t number, const glm::dvec3&
             .material_of_group = {number % 3}};
 }
 
-/// The attributes of all voxels, which a pyramid with equal ones has but once.
+/// The attributes of all voxels; a pyramid whose voxels have equal attributes stores them only
+/// once.
 inline std::vector<uint32_t> attributes_of(const Pyramid& p) {
     if (p.attributes.empty()) return std::vector<uint32_t>(p.voxel_count, p.attribute);
     return p.attributes.read();
 }
 
-/// All buffers of a world's pyramid, which are what rays read.
+/// All buffers of a world's pyramid that rays read.
 inline std::vector<std::vector<uint32_t>> buffers_of(const Pyramid& p) {
     return {p.sectors.read(),    p.bricks.read(),
             p.leaves.read(),     p.leaf_voxels.read(),
@@ -63,7 +65,7 @@ struct Follower {
     }
 };
 
-/// Bricks that a world stores, those of fields apart.
+/// The number of bricks that a world stores, including the bricks of fields.
 inline uint32_t bricks_of(const PlacedWorld& world) {
     uint32_t sum = world.voxels.brick_count;
     for (const PlacedField& field : world.fields) sum += field.grid.brick_count;

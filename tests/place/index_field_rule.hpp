@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rule by which `index` keeps the cells of a distance field, as its documents say it, and
-// fields to try it on.
+// The rule by which `index` keeps the cells of a distance field, as documented, and fields to test
+// it with.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,7 @@ inline int second_difference(uint32_t bits) {
 }
 
 /// The bits of the second difference nearest to D, given 2D. Searches all, and takes the even one
-/// if two are equally near.
+/// of two that are equally near.
 inline uint32_t nearest_bits(int twice) {
     uint32_t best = twice < 0 ? 512 : 0;
     const uint32_t first = best;
@@ -108,7 +108,7 @@ inline double interpolate(const NodeDistance& f, const EdgeDifferences& differen
     return sum;
 }
 
-/// The distance to a torus in stored units; outside the table it is outside, as in missing bricks.
+/// The distance to a torus in stored units. Outside the table it is outside, as in missing bricks.
 inline NodeDistance torus(const glm::ivec3& size) {
     const glm::ivec3 nodes = (size / 16 + 1) * 16;
     return [=](const glm::ivec3& n) -> int16_t {
@@ -120,7 +120,7 @@ inline NodeDistance torus(const glm::ivec3& size) {
     };
 }
 
-/// Smooth noise that no distance field is, with steps up to six voxels and saturated nodes.
+/// Smooth noise that isn't a distance field, with steps of up to six voxels and saturated nodes.
 inline NodeDistance wild_field(uint32_t seed, const glm::ivec3& nodes, int lowest = -22000) {
     std::mt19937 random(seed);
     std::vector<int16_t> values(size_t(nodes.x * nodes.y * nodes.z));

@@ -23,7 +23,7 @@ glm::dmat4 rows(const std::array<double, 12>& m) {
                                      m[10], m[11], 0, 0, 0, 1));
 }
 
-/// Placements. The last one doesn't mirror: it is there for comparison.
+/// The placements. The last one doesn't mirror, for comparison.
 const std::array<Map, 4> kMaps = {{
     {"Mirrored", rows({-1, 0, 0, 0.05, 0, 1, 0, -0.03, 0, 0, 1, 0.02})},
     {"Inverted", rows({-1, 0, 0, 0.05, 0, -1, 0, -0.03, 0, 0, -1, 0.02})},
@@ -173,8 +173,8 @@ TEST_P(MirroredObjects, SmoothSurfacesHaveTheirRingsNormals) {
     EXPECT_LT(sum / double(count), 1);
 }
 
-/// The normals of cubes in the world have the directions of its axes, those of instances the
-/// directions of their own.
+/// The normals of cubes in the world have the directions of the world's axes, those of instances
+/// the directions of the instance's axes.
 TEST_P(MirroredObjects, CubesHaveTheirFacesNormals) {
     const Ring ring;
     const bool is_instance = std::string(std::get<1>(GetParam())) == "instance";

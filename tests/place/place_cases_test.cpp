@@ -22,7 +22,7 @@ double largest_difference(const glm::dmat3& a, const glm::dmat3& b) {
 TEST(PlaceCases, P4ComposedQuarterTurnsAndGimbalLock) {
     // The columns are the images of X, Y and Z.
     EXPECT_EQ(rotation_from_turn({90, 90, 90}), glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0));
-    // With theta at 90 degrees only psi - gamma matters, at -90 degrees only their sum.
+    // With theta at 90 degrees only psi - gamma matters, and at -90 degrees only their sum.
     for (const double psi : {0.0, 17.0, 133.0})
         for (const double gamma : {-40.0, 5.0, 250.0}) {
             EXPECT_LT(largest_difference(rotation_from_turn({psi, 90, gamma}),

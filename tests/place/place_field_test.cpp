@@ -123,7 +123,7 @@ TEST(PlaceField, WorldVoxelsMuchSmallerThanTheObjectsFindTheSurfaceInEachOfItsCe
     }
 }
 
-/// What `place` says about a sphere of voxels of 0.1 in a world of voxels of `edge`.
+/// The message of `place` about a sphere of voxels of 0.1 in a world of voxels of `edge`.
 std::string refusal_of(const BrickGrid& sphere, const glm::dvec3& edge, const glm::dvec3& scale) {
     try {
         place_one(sphere, affine_from_factors({0, 0, 0}, {10, 20, 30}, scale),

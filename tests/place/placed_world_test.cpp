@@ -34,7 +34,7 @@ std::vector<PlacedObject> spheres_at(const BrickGrid& sphere,
     return objects;
 }
 
-/// The least and largest distance of a voxel's points from a point, in metres.
+/// The minimum and maximum distance of a voxel's points from a point, in metres.
 glm::dvec2 distances_of(const glm::dvec3& low, const glm::dvec3& centre) {
     const glm::dvec3 closest = glm::clamp(centre, low, low + kVoxelEdge);
     const glm::dvec3 away = glm::max(glm::abs(low - centre), glm::abs(low + kVoxelEdge - centre));

@@ -34,8 +34,8 @@ struct HostPyramid {
         return listed;
     }
 
-    /// The voxel's index. Returns nothing for an empty place, and sets `empty_log2` to the log2
-    /// edge of the cube that is promised to be empty.
+    /// The voxel's index. Returns nothing for an empty cell, and sets `empty_log2` to the log2 edge
+    /// of the cube that is promised to be empty.
     std::optional<uint32_t> find(const glm::ivec3& v, int& empty_log2) const {
         const int sectors_x = (frame.size.x + 63) / 64, sectors_y = (frame.size.y + 63) / 64;
         const uint32_t sector =
@@ -80,7 +80,7 @@ inline bool any_in_cube(const VoxelMap& voxels, const glm::ivec3& v, int log2) {
 }
 
 /// Checks every voxel of the grid: each is found with its packed attributes and a unique index, and
-/// empty places and cubes are empty.
+/// empty cells and cubes are empty.
 inline void expect_holds(const Pyramid& pyramid, const VoxelMap& voxels) {
     const HostPyramid host(pyramid);
     ASSERT_EQ(pyramid.voxel_count, voxels.size());

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Where a point is seen: -1..1 across and down the image.
+/// The position of a point in the image: -1..1 across and down.
 glm::dvec2 place_in_image(const Observer& observer, const glm::dvec3& p) {
     const glm::dvec3 e = glm::transpose(observer.world_from_observer) * (p - observer.position);
     EXPECT_GT(e.z, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that leave things out, in JSON.
+// Scenes in JSON that leave out values.
 #pragma once
 
 #include <gtest/gtest.h>

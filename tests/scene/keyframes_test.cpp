@@ -84,9 +84,9 @@ TEST(Keyframes, OfTwoCubicKeysAreSmoothstep) {
     }
 }
 
-// By hand: the slopes around frame 3 are 1 and 4 and the spans 2 and 1. So the weights are 2*1+2 =
-// 4 and 1+2*2 = 5, and the slope there is 9 / (4/1 + 5/4) = 12/7. The control values of the cubic
-// Bezier curve lie a third of the span along the slopes.
+// Computed by hand: the slopes around frame 3 are 1 and 4 and the spans 2 and 1. So the weights are
+// 2*1+2 = 4 and 1+2*2 = 5, and the slope there is 9 / (4/1 + 5/4) = 12/7. The control values of the
+// cubic Bezier curve lie a third of the span along the slopes.
 TEST(Keyframes, OfCubicKeysAreTheHandComputedBezier) {
     const Keyframes keys = keys_of(Interpolation::cubic, {1, 3, 4}, {0, 2, 6});
     const double slope = 12.0 / 7;

@@ -47,7 +47,7 @@ inline nlohmann::json full_scene() {
         "animation": {"frames": 9}, "render": {"size": [48, 36]}})");
 }
 
-/// Densities, displays and views that the full scene doesn't have, each with its place in a
+/// Densities, displays and views that the full scene doesn't have, each with its path in a
 /// document.
 inline std::vector<std::pair<std::string, nlohmann::json>> other_parts() {
     const auto parsed = [](const char* text) { return nlohmann::json::parse(text); };

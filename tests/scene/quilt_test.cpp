@@ -26,7 +26,7 @@ Scene seen_by(const std::string& observer) {
 const std::string kAside = R"("position": [3, 2, 5], "look_at": [0.5, 0, 0.25],
                               "display": {"shape": "pyramid", "angle": 30})";
 
-/// Where a view's image shows a point, in pixels from the image's top left.
+/// The position of a point in a view's image, in pixels from the image's top left.
 glm::dvec2 pixel_of(const Scene& view, const glm::dvec3& point) {
     const Observer& observer = view.observer;
     const glm::dvec3 p = glm::transpose(observer.world_from_observer) * (point - observer.position);
@@ -54,7 +54,7 @@ TEST(Quilt, TheWindowHasOnePlaceInAllViews) {
                 EXPECT_NEAR(shown.x, expected.x, 1e-9) << number;
                 EXPECT_NEAR(shown.y, expected.y, 1e-9) << number;
             }
-            // What is behind the window goes with the observer, who goes to the right.
+            // Points behind the window move with the observer, who moves to the right.
             const glm::dvec3 behind =
                 observer.position + observer.world_from_observer[2] * 2.0 * distance;
             const double pixel = 2 * std::tan(observer.display.half_angles.x) / 210;

@@ -164,8 +164,8 @@ std::vector<json::json_pointer> places_in(const json& document) {
 
 class SceneVerdicts : public SceneSchema {
   protected:
-    /// By default one of four changes of a place is tried, each place having others than the one
-    /// before it, so that every place is changed and every change occurs at some places.
+    /// By default, one of four changes is tried at each path. Neighbouring paths get different
+    /// changes, so that every path is changed and every change occurs at some paths.
     bool is_left_out() { return !is_exhaustive() && turn_++ % 4 != 0; }
 
     void expect_same_verdict(const json& document, const std::string& change) {

@@ -58,8 +58,8 @@ struct ShownSurface {
     VoxelSet set = VoxelSet::supercover;  ///< for cubes
 };
 
-/// A scene of the mesh in `file` at its own place, `resolution` voxels along its longest side, and
-/// of an observer 1.8 longest sides from its centre. There are no lights.
+/// A scene of the mesh in `file` at its own position, with `resolution` voxels along its longest
+/// side, and an observer 1.8 longest sides from its centre. There are no lights.
 inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh,
                         const ShownSurface& choice, int resolution, const glm::ivec2& size) {
     constexpr int kMargin = 8;  // voxels of air around the mesh

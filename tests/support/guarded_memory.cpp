@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library that is preloaded into a test program. It places the end of every aligned block of
-// memory, which is what OpenCL uses for buffers on the CPU, against pages that may not be touched;
-// a freed block becomes such pages, too. A kernel that reads or writes there ends the program.
-// Blocks begin with bytes that no code wrote on purpose.
+// memory, which OpenCL uses for buffers on the CPU, next to pages that may not be touched; freed
+// blocks become such pages, too. A kernel that reads or writes there ends the program. Blocks begin
+// with bytes that no code wrote on purpose.
 #include <dlfcn.h>
 #include <sys/mman.h>
 
@@ -15,9 +15,9 @@
 namespace {
 
 constexpr size_t kPage = 4096;
-constexpr size_t kRegion = size_t{1} << 45;      // bytes of addresses; they are used once
+constexpr size_t kRegion = size_t{1} << 45;      // bytes of addresses, each of which is used once
 constexpr size_t kForbidden = size_t{16} << 20;  // behind each block: room for wrong indices
-constexpr size_t kBuffer = 64;  // least alignment of what may be a buffer; compilers ask for less
+constexpr size_t kBuffer = 64;  // minimum alignment of possible buffers; compilers ask for less
 constexpr int kFilling = 0xA5;
 
 /// The header in front of a block.

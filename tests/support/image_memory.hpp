@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an image is promised to take of a device, and what it takes.
+// The memory that an image is promised to take on a device, and what it really takes.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace voxelume {
 
-/// Bytes of the device, on which nothing else was done.
+/// Bytes on a device that has done nothing else.
 struct ImageMemoryUse {
     Device device;
     double min = 0, promise = 0;  ///< planned
-    double fact = 0;              ///< taken at the height
+    double fact = 0;              ///< the peak
 };
 
 /// Plans the image of a scene that stands still, and renders it.

@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// What is wrong with a list of indices, one of which a corner has; empty if nothing is. `none`
-/// stands for a corner without.
+/// What is wrong with a list of indices, one per corner; empty if nothing is wrong. `none` marks a
+/// corner without an index.
 inline std::string broken_indices(const std::vector<glm::uvec3>& indices, size_t triangles,
                                   size_t count, uint32_t none) {
     if (!indices.empty() && indices.size() != triangles) return "not one per triangle";
@@ -21,7 +21,7 @@ inline std::string broken_indices(const std::vector<glm::uvec3>& indices, size_t
     return {};
 }
 
-/// What is wrong with the colours of corners and their places on textures.
+/// What is wrong with the colours of corners and their texture coordinates.
 inline std::string broken_paint(const Mesh& mesh) {
     const size_t triangles = mesh.triangles.size();
     std::string broken = broken_indices(mesh.triangle_colors, triangles, mesh.vertex_colors.size(),

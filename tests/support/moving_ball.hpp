@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ball that moves past another, as tests of several frames show it.
+// A ball that moves past another one, for tests of several frames.
 #pragma once
 
 #include "runtime/scene/scene.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library that is preloaded into the program. It stands between it and OpenCL, counts calls, and
-// has one of them fail, or never return.
+// A library that is preloaded into the program. It stands between the program and OpenCL, counts
+// calls, and makes one of them fail or never return.
 //
-// VXL_FAULT=NAME:N:CODE has the N-th call of the function NAME (from 1 on) do nothing and return
-// the status CODE; with `hang` for a code it never returns. VXL_FAULT=clEnqueueReadBuffer:N:wrong
-// has the N-th reading give another first bit than was there. VXL_FAULT_COUNTS=FILE writes the
-// number of calls of each function to FILE when a program ends that made some, and
-// VXL_FAULT_SITES=FILE the numbers of the first calls from each place: a place is a stack of calls.
+// VXL_FAULT=NAME:N:CODE makes the N-th call of the function NAME (from 1 on) do nothing and return
+// the status CODE; with `hang` as the code, it never returns. VXL_FAULT=clEnqueueReadBuffer:N:wrong
+// makes the N-th read return a wrong first bit. VXL_FAULT_COUNTS=FILE writes the number of calls of
+// each function to FILE when a program that made calls ends, and VXL_FAULT_SITES=FILE the numbers
+// of the first calls from each site: a site is a stack of calls.
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_1_APIS
 #include <CL/cl.h>
@@ -27,7 +27,7 @@
 
 namespace {
 
-constexpr cl_int kWrong = 1;  // no status: those of failures are negative
+constexpr cl_int kWrong = 1;  // not a status, because those of failures are negative
 
 struct Fault {
     std::string name;
@@ -36,7 +36,7 @@ struct Fault {
     bool hangs = false;
 };
 
-/// What VXL_FAULT asks for; an unknown form ends the program.
+/// The fault that VXL_FAULT asks for. An unknown form ends the program.
 Fault requested_fault() {
     Fault fault;
     const char* const text = std::getenv("VXL_FAULT");
@@ -52,12 +52,14 @@ Fault requested_fault() {
 class Calls {
   public:
     ~Calls() {
-        if (counts_.empty()) return;  // of `timeout`, which ends after the program that it starts
+        if (counts_.empty())
+            return;  // true in `timeout`, which ends after the program that it
+                     // starts
         write(std::getenv("VXL_FAULT_COUNTS"), counts_);
         write(sites_file_, sites_);
     }
 
-    /// Counts a call. Returns the status with which it is to fail, if it is.
+    /// Counts a call. Returns the status with which it should fail, if any.
     std::optional<cl_int> count(const char* name) {
         bool is_it = false;
         {
@@ -103,7 +105,7 @@ Function* next(const char* name) {
 
 }  // namespace
 
-// A function that returns its status.
+// Defines a function that returns its status.
 #define VXL_STATUS_CALL(name, parameters, arguments)                     \
     extern "C" cl_int name parameters {                                  \
         static decltype(&name) const real = next<decltype(name)>(#name); \
@@ -111,7 +113,7 @@ Function* next(const char* name) {
         return status ? *status : real arguments;                        \
     }
 
-// A function that returns an object, and its status through its last parameter, `error`.
+// Defines a function that returns an object, and its status through its last parameter, `error`.
 #define VXL_OBJECT_CALL(type, name, parameters, arguments)               \
     extern "C" type name parameters {                                    \
         static decltype(&name) const real = next<decltype(name)>(#name); \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of a program that run in processes of their own.
+// Runs tests of a program in processes of their own.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,9 +11,9 @@
 
 namespace voxelume {
 
-/// Runs a disabled test of this program, such as "Suite.DISABLED_Name", as a process that has more
-/// variables in its environment, "A=1 B=2", and PoCL's folder chosen by us. Returns its exit code,
-/// or -1 if a signal ended it.
+/// Runs a disabled test of this program, such as "Suite.DISABLED_Name", in a new process with
+/// additional environment variables, "A=1 B=2", and a PoCL folder that this program chooses.
+/// Returns its exit code, or -1 if a signal ended it.
 inline int run_own_test(const std::string& test, const std::string& environment) {
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
     const std::string command = fmt::format(

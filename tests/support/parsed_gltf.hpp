@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files of a test's writer as the reader takes them.
+// Parses glTF files that a test's writer makes.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ inline GltfFile parsed_gltf(const GltfWriter& writer) {
     return {writer.gltf(), "a.gltf"};
 }
 
-/// What the reader says of a file whose mesh it refuses.
+/// The reader's message about a file whose mesh it refuses.
 inline std::string refusal_of_gltf(const GltfWriter& writer) {
     return error_of([&] { gltf_mesh(parsed_gltf(writer), 0); }).what();
 }

@@ -26,7 +26,7 @@ class ProgramTest : public FileTest {
         return run_line(fmt::format("'{}' {}", VXL_BINARY, arguments));
     }
 
-    /// Runs a whole line of a shell, which finds `voxelume`.
+    /// Runs a whole shell command line, which finds `voxelume`.
     ProgramResult run_line(const std::string& line) const {
         const std::filesystem::path programs = std::filesystem::path(VXL_BINARY).parent_path();
         const int status = std::system(

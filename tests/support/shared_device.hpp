@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One device for all tests of a program, which makes each kernel ready once.
+// One device for all tests of a program, so that each kernel is prepared only once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class SharedDevice : public ::testing::Environment {
 inline ::testing::Environment* const kSharedDevice =
     ::testing::AddGlobalTestEnvironment(new SharedDevice);
 
-/// Buffers of one device can't be read by kernels of another.
+/// The device of all tests: buffers of one device can't be read by kernels of another.
 inline const Device& shared_device() {
     return SharedDevice::device.value();
 }

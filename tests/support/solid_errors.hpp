@@ -17,12 +17,12 @@ namespace voxelume {
 struct SolidErrors {
     size_t both = 0;        ///< pixels that show the solid and should
     double depth_rms = 0;   ///< metres along the sight rays
-    double depth_max = 0;   ///< likewise
+    double depth_max = 0;   ///< metres along the sight rays
     double normal_rms = 0;  ///< degrees
     size_t silhouette = 0;  ///< pixels that show the solid and shouldn't, or the other way round
 };
 
-/// The place where a line first enters a solid in front of its origin.
+/// The point where a line first enters a solid in front of the line's origin.
 inline std::optional<oracle::Crossing> first_entry(const oracle::PlacedSolid& solid,
                                                    const oracle::Line& line) {
     const oracle::Crossings crossings = solid.crossings(line);
@@ -32,8 +32,8 @@ inline std::optional<oracle::Crossing> first_entry(const oracle::PlacedSolid& so
     return std::nullopt;
 }
 
-/// Compares an image of a scene with its object `number`, of which the model is a solid. Pixels of
-/// other objects don't count.
+/// Compares an image of a scene with its object `number`, whose model is a solid. Pixels of other
+/// objects don't count.
 inline SolidErrors measure_solid(const Scene& scene, const Image& image, size_t number = 0) {
     const Object& object = scene.objects[number];
     const oracle::PlacedSolid solid(*scene.models[size_t(object.model)].solid,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library that is preloaded into the program or a test. PoCL's CPU says that it is a GPU with
-// memory of its own, of another maker's platform: kernels have a GPU's lanes, batches, arithmetic
+// A library that is preloaded into the program or a test. It makes PoCL's CPU claim to be a GPU
+// with its own memory, on another vendor's platform: kernels get a GPU's lanes, batches, arithmetic
 // and compilation.
 //
-// With VXL_PROGRAMS=FOLDER the source of each program is written to FOLDER/NUMBER.cl as it is
+// With VXL_PROGRAMS=FOLDER, the source of each program is written to FOLDER/NUMBER.cl when it is
 // built, and its options to FOLDER/NUMBER.opt.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -37,7 +37,7 @@ void record(cl_program program, const char* options) {
     const char* const folder = std::getenv("VXL_PROGRAMS");
     if (!folder) return;
     const std::string source = source_of(program);
-    if (source.empty()) return;  // made of a binary
+    if (source.empty()) return;  // made from a binary
     static std::atomic<int> programs{0};
     char number[16];
     std::snprintf(number, sizeof number, "/%04d", programs++);

@@ -16,9 +16,9 @@
 
 namespace voxelume {
 
-/// A device on which nothing runs, open until the tests' end. All devices opened meanwhile share
-/// the compiler's cost of a context. It stays open where the process ends within a test, because
-/// the driver ends before static variables do.
+/// A device on which nothing runs, open until the tests end. All devices opened meanwhile share the
+/// compiler's cost of a context. It also stays open if the process ends within a test, because the
+/// driver ends before static variables do.
 class OpenContext : public ::testing::Environment {
   public:
     void TearDown() override { delete std::exchange(device, nullptr); }
@@ -39,7 +39,7 @@ inline Device test_device(int lanes = 0) {
     return Device::open(name, lanes, OpenContext::device);
 }
 
-/// The tests' device with so little memory.
+/// The tests' device, limited to this much memory.
 inline Device device_with_memory(uint64_t megabytes) {
     setenv("VOXELUME_MEMORY_MB", std::to_string(megabytes).c_str(), 1);
     Device device = test_device();
@@ -47,8 +47,8 @@ inline Device device_with_memory(uint64_t megabytes) {
     return device;
 }
 
-/// All numbers of lanes in an exhaustive run, otherwise the device's own alone: each makes kernels
-/// compile again.
+/// All numbers of lanes in an exhaustive run, otherwise only the device's own: each number makes
+/// kernels compile again.
 inline std::vector<int> lanes_with_all() {
     if (is_exhaustive()) return {1, 4, 8, 16};
     return {test_device().lanes()};

@@ -31,8 +31,8 @@ struct VoxSample {
                                             {0, 3, 1, 255}};
 };
 
-/// The map of a transform with such a rotation byte, by the format's own words: bits 0-1 and 2-3
-/// are the columns of the entries of the first two rows, bits 4 to 6 the signs of all three.
+/// The map of a transform with this rotation byte, as the format defines it: bits 0-1 and 2-3 are
+/// the columns of the entries in the first two rows, and bits 4 to 6 are the signs of all three.
 inline glm::dmat4 oracle_matrix(int byte, const glm::dvec3& translation) {
     const int first = byte & 3, second = byte >> 2 & 3;
     int third = 0;
@@ -45,7 +45,7 @@ inline glm::dmat4 oracle_matrix(int byte, const glm::dvec3& translation) {
     return m;
 }
 
-/// Adds a sample's voxels after a map, with Y up; what is there already stays.
+/// Adds a sample's voxels after a map, with Y up. Voxels that already exist stay.
 inline void add_oracle(const VoxSample& sample, const glm::dmat4& map,
                        const std::array<uint32_t, 256>& colors, VoxelCells& cells) {
     const glm::dvec3 pivot(sample.size[0] / 2, sample.size[1] / 2, sample.size[2] / 2);
@@ -58,7 +58,7 @@ inline void add_oracle(const VoxSample& sample, const glm::dmat4& map,
     }
 }
 
-/// All bytes that are rotations, mirrored ones among them.
+/// All bytes that are rotations, including mirrored ones.
 inline std::vector<int> all_rotations() {
     std::vector<int> bytes;
     for (int byte = 0; byte < 128; ++byte) {

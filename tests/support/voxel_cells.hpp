@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The voxels of a model by their cells.
+// The voxels of a model, by their cells.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct ShownVoxel {
     friend bool operator==(const ShownVoxel&, const ShownVoxel&) = default;
 };
 
-/// By the coordinates of the corner with the smallest ones.
+/// Keys are the coordinates of a cell's minimum corner.
 using VoxelCells = std::map<std::array<int, 3>, ShownVoxel>;
 
 /// The occupied cells of a model whose voxels are 1 long and lie on whole numbers.

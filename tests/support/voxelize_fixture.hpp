@@ -83,7 +83,7 @@ inline Mesh torus_mesh(const glm::vec3& center, float major, float minor, int ar
     return mesh;
 }
 
-/// A ball of longitudes and latitudes; rows first .. last of `rows` latitude bands only.
+/// A ball of longitudes and latitudes, with only the latitude bands first .. last of `rows`.
 inline Mesh ball_mesh(const glm::vec3& center, float radius, int columns, int rows, int first = 0,
                       int last = 1 << 20) {
     Mesh mesh;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library that is preloaded into the program. It counts calls that write to files below a folder,
-// and has one of them fail, as a full or broken disk would have it.
+// and makes one of them fail, as on a full or broken disk.
 //
-// VXL_WRITE_FAULT=FOLDER:N:ERRNO has the N-th such call (from 1 on) of a process, and all later
-// ones, do nothing and fail with that error; with 0 for N none does. VXL_WRITE_COUNTS=FILE writes
-// the number of the calls to FILE when a process ends that made some.
+// VXL_WRITE_FAULT=FOLDER:N:ERRNO makes the N-th such call of a process (from 1 on), and all later
+// ones, do nothing and fail with that error; with 0 for N, none fails. VXL_WRITE_COUNTS=FILE writes
+// the number of calls to FILE when a process that made calls ends.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/uio.h>
@@ -26,7 +26,7 @@ struct Fault {
     int code = 0;
 };
 
-/// What VXL_WRITE_FAULT asks for; an unknown form ends the program.
+/// The fault that VXL_WRITE_FAULT asks for. An unknown form ends the program.
 Fault requested_fault() {
     const char* const text = std::getenv("VXL_WRITE_FAULT");
     if (!text) return {};
@@ -48,8 +48,8 @@ class Calls {
         }
     }
 
-    /// True if the call that writes to the file or folder at `path` is to fail; errno says why,
-    /// then.
+    /// True if the call that writes to the file or folder at `path` should fail; errno then says
+    /// why.
     bool fails(const char* path) {
         if (fault_.folder.empty() || !is_below_folder(path)) return false;
         const long number = ++count_;

@@ -86,7 +86,7 @@ TEST(SmoothExtent, CountsSurfacesInTheSidesOfVoxelsOnce) {
         const glm::dvec3 q = glm::abs(glm::dvec3(p) - glm::dvec3(18, 17, 16)) - glm::dvec3(9, 8, 7);
         return stored_distance(std::max({q.x, q.y, q.z}));
     }));
-    // Faces bulge by 1/16 voxel at most in the voxel beside each edge: 17.3 in all, as counted
+    // Faces bulge by at most 1/16 voxel in the voxel next to each edge: 17.3 in all, as counted
     // over 32^3 points in each voxel.
     EXPECT_NEAR(extent.volume, 18 * 16 * 14 + 17.3, 0.3);
     EXPECT_NEAR(extent.area, 2 * (18 * 16 + 16 * 14 + 14 * 18), 10);

@@ -73,9 +73,10 @@ TEST(RelativeMse, HasNothingOfTheReferencesNoise) {
         }
         return image;
     };
-    // The references have four times the variance of the picture. Its error is 1e-4, over 1.01 and
-    // a little more for the variance of the references' mean. A product has a standard deviation of
-    // 5.1e-4, and the mean of 196,608 of them 1.15e-6, four of which are allowed.
+    // The references have four times the variance of the picture. The picture's error is 1e-4,
+    // divided by 1.01 and a little more for the variance of the references' mean. A product has a
+    // standard deviation of 5.1e-4, and the mean of 196,608 of them 1.15e-6, four of which are
+    // allowed.
     const References references = {noisy(0.02), noisy(0.02)};
     EXPECT_NEAR(relative_mse(noisy(0.01), references), 1e-4 / 1.01, 4.6e-6);
 }
@@ -115,8 +116,8 @@ TEST(GlobalRows, HaveTheErrorAgainstManySamplesOfTheSameScene) {
         Scene few = scene;
         few.render.samples = row.samples;
         const double error = error_against(render(device, few, report), exact);
-        // References that had the picture's own samples would have it a fourth too small. The
-        // products of two differences over 768 pixels leave noise of some 3 %.
+        // If the references had the picture's own samples, the error would be a fourth too small.
+        // The products of two differences over 768 pixels leave noise of about 3 %.
         EXPECT_NEAR(row.relative_mse / error, 1, 0.1) << row.samples << " samples";
     }
 }
@@ -260,7 +261,7 @@ TEST_F(GlobalProgram, RefusesWhatItCannotCompareInWords) {
     EXPECT_THAT(refusal(R"({"rows": "oops", "global": {"rows": []}})"),
                 HasSubstr("it isn't an object with a \"size\" and a list of \"rows\""));
     EXPECT_EQ(run("bench --scene missing.json").exit_code, 4);
-    // Files of a scene that can't be read are told before anything is measured.
+    // A scene's files that can't be read are reported before anything is measured.
     std::ofstream(folder / "bad.obj") << "v 1 2 x\n";
     std::ofstream(folder / "later.json") << R"({"voxelume": 1,
         "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},

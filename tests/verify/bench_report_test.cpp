@@ -59,8 +59,8 @@ TEST(Convergence, FindsTheSlopeOfAPowerAndItsInterval) {
     EXPECT_NEAR(exact.slope, 3, 1e-14);
     EXPECT_NEAR(std::exp(exact.intercept), 0.3, 1e-14);
     EXPECT_NEAR(exact.half_width, 0, 1e-13);
-    // By hand: u = 0 1 2, v = 0 2 1 (in units of ln 2): slope 1/2, residuals -1/2 1 -1/2, so the
-    // standard error is sqrt(1.5 / 1 / 2), and t of one degree of freedom is 12.7062.
+    // Computed by hand: u = 0 1 2, v = 0 2 1 (in units of ln 2): slope 1/2, residuals -1/2 1 -1/2,
+    // so the standard error is sqrt(1.5 / 1 / 2), and t of one degree of freedom is 12.7062.
     const SlopeFit rough = fit_slope(std::vector<double>{1, 2, 4}, std::vector<double>{1, 4, 2});
     EXPECT_NEAR(rough.slope, 0.5, 1e-15);
     EXPECT_NEAR(rough.half_width, 12.7062 * std::sqrt(0.75), 1e-12);

@@ -121,7 +121,7 @@ class RowFlood {
         }
     }
 
-    /// The voxels of a word that are next to one of the row's along x.
+    /// The voxels of a word that neighbour one of the row's voxels along x.
     uint64_t beside(const uint64_t* row, size_t word) const {
         uint64_t near = row[word] << 1 | row[word] >> 1;
         if (word > 0) near |= row[word - 1] >> 63;

@@ -17,7 +17,7 @@ using glm::vec3;
 
 constexpr VoxelSet kAllSets[] = {VoxelSet::supercover, VoxelSet::thin, VoxelSet::solid};
 
-/// Places of which every coordinate is on a plane of the lattice by half a chance.
+/// Points each of whose coordinates is on a plane of the lattice with a probability of one half.
 vec3 random_place(std::mt19937& random, const ivec3& size) {
     vec3 place;
     for (int axis = 0; axis < 3; ++axis) {

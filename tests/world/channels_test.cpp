@@ -98,7 +98,7 @@ void expect_planes(const Picture& shown, const ImageChannels& asked) {
 TEST_F(Channels, NotAskedForAreNeitherMadeNorStored) {
     const Picture all = show(glass(), {.distance = true});
     for (int bits = 0; bits < 32; ++bits) {
-        // By default each pair of channels is there, one of them, and neither.
+        // By default, each pair of channels occurs together, separately, and not at all.
         constexpr std::array kCovering = {0, 3, 13, 21, 26, 30};
         if (!is_exhaustive() && !std::ranges::count(kCovering, bits)) continue;
         const ImageChannels asked{true,           bool(bits & 1), bool(bits & 2),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What parts of an image's light cost, their progress, and that they have the bits of scenes alone.
+// The cost of the parts of an image's light, their progress, and that their bits equal those of
+// scenes with only that part.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,7 +85,7 @@ TEST_F(LightPasses, TheyHaveTheBitsOfScenesThatTraceTheirOwnSightRays) {
     }
 }
 
-/// What is told of the work while a scene is rendered, as parts of it.
+/// The reports on the work while a scene is rendered, as parts of the whole.
 std::vector<double> told(const Scene& scene) {
     std::vector<double> parts;
     RenderReport report;

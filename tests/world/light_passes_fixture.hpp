@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage whose light has every part, and images of it.
+// A stage whose light has all components, and images of it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -56,7 +56,8 @@ class LightPasses : public testing::Test {
     static constexpr ImageChannels kColor{true, false, false, false, false};
 };
 
-/// The stage without what lets light through: no pass differs in what sight rays meet.
+/// The stage without anything that lets light through, so that passes don't differ in what sight
+/// rays meet.
 inline Scene opaque(Scene scene) {
     for (Material& material : scene.materials) material.refraction = 0;
     return scene;

@@ -111,7 +111,7 @@ TEST_F(LightPasses, DirectAndIndirectLightAddUpToTheImage) {
     }
 }
 
-/// A floor under a sky and a glowing ball, and a ball that hides a part of both.
+/// A floor under a sky and an emissive ball, and another ball that hides a part of both.
 Scene overcast(const std::string& ball) {
     return parse_scene(R"({"voxelume": 1,
         "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
@@ -150,8 +150,8 @@ TEST_F(LightPasses, DirectLightIsThatOfAllThatShinesWhateverOtherThingsReflect) 
     for (const char* color : kColors)
         for (size_t i = 0; i < objects.size(); ++i) {
             if (!shows_floor(i)) continue;
-            // Nothing but the ball sends the floor light that isn't its own: a thousandth of what
-            // falls on it, which beside the lamp is several times what falls on the floor.
+            // Only the ball sends indirect light to the floor: a thousandth of what falls on the
+            // ball, which next to the emissive object is several times what falls on the floor.
             const float all = dark.planes.at(color)[i];
             EXPECT_NEAR(value(dark, "direct", color, i), all, 1e-2f * all) << color << i;
             EXPECT_EQ(value(dark, "direct", color, i), value(bright, "direct", color, i))

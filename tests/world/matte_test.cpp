@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mattes of rendered images. The oracle is light: in a scene where one object alone glows, a
-// pixel's light is the part of it that this object covers.
+// Mattes of rendered images. The oracle is light: in a scene with a single emissive object, a
+// pixel's light is proportional to the part of it that this object covers.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -37,7 +37,7 @@ Image image_of(Scene scene) {
     return render(shared_device(), scene, report);
 }
 
-/// How much of each pixel a name covers, from the planes of a layer alone.
+/// The part of each pixel that a name covers, from the planes of a layer alone.
 std::vector<float> share_of(const Image& image, const std::string& layer, const std::string& name) {
     const float id = std::bit_cast<float>(cryptomatte_bits(name));
     std::vector<float> shares(size_t(image.width * image.height), 0.0f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of what pixels show, held against projections worked out by hand.
+// The motion of what pixels show, compared with projections worked out by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// Two boxes, of which the first moves and turns, before an observer who moves, too.
+/// Two boxes in front of an observer who moves, too. The first box moves and turns.
 Scene moving_scene(const std::string& display, const std::string& tracks) {
     return parse_scene(R"({"voxelume": 1,
 "world": {"voxel_size": 0.1, "bounds": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
@@ -114,7 +114,7 @@ TEST(Motion, OfParallelRaysIsInMetresOfThePicture) {
 "animation": {"frames": 5, "tracks": [{"target": "observer.height", "interpolation": "linear",
     "keys": [{"frame": 1, "value": 2}, {"frame": 5, "value": 4}]}]}})",
                                     "motion.json", {});
-    // What is 0.5 m left of the middle is 25 of 50 pixels away at 2 m, and 20 at 2.5 m.
+    // A point 0.5 m left of the middle is 25 of 50 pixels away at 2 m, and 20 at 2.5 m.
     const Motion m = motion_of(scene, 1, 1, {0.5f, 0.25f, -0.1f});
     EXPECT_NEAR(m.forward_u, 5, 1e-4);
     EXPECT_NEAR(m.forward_v, -2.5, 1e-4);

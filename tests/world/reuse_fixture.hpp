@@ -73,7 +73,8 @@ inline std::string gem(double top) {
         top);
 }
 
-/// A value of the scene that changes from the first to the second frame, and the work that follows.
+/// A value of the scene that changes from the first to the second frame, and the work that this
+/// causes.
 struct Change {
     const char* name;
     const char* target;
@@ -99,7 +100,7 @@ inline Kernels all_of(std::initializer_list<Kernels> parts) {
     return all;
 }
 
-// The light samples of emissive objects are found again with the light.
+// The light samples of emissive objects are found again together with the light.
 inline const Kernels kShade = {"absorb_shadows", "absorb_sight",  "add_light",
                                "find_surface",   "list_emissive", "resolve_pixels",
                                "shade_surface",  "trace_shadows"};
@@ -128,7 +129,8 @@ inline const Kernels kPaths = {"absorb_sight",
                                "shade_surface",
                                "trace_closest",
                                "trace_shadows"};
-// Unites the fields of smooth objects with the other voxels; one is a mesh that is cut.
+// These kernels unite the fields of smooth objects with the other voxels; one object is a mesh that
+// is cut.
 inline const Kernels kUnite = all_of(
     {kJoin,
      {"append_masks", "mark_inside", "join_parts", "unite_marks", "write_fields", "write_united"}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of worlds that the cache doesn't keep, and of objects without voxels.
+// Warnings about worlds that the cache doesn't keep, and about objects without voxels.
 #include "runtime/world/voxel_warnings.hpp"
 
 #include <gmock/gmock.h>

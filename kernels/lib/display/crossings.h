@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The crossings of probe lines with the surfaces in one voxel: every one, not the first alone.
+// All crossings of probe lines with the surfaces in one voxel, not only the first ones.
 #ifndef VXL_CROSSINGS_H
 #define VXL_CROSSINGS_H
 
@@ -13,11 +13,11 @@
 #include "shared/display.h"
 #include "shared/voxel.h"
 
-// How far inside of a face between two voxels of the display its probe points are, in such voxels:
-// more than rounding moves them.
+// How far inside its face between two voxels of the display a probe point is put, in such voxels:
+// farther than rounding moves it.
 #define VXL_INWARD 0.0009765625f
 
-// Crossings of one solid in one voxel, at most.
+// The maximum number of crossings of one solid in one voxel.
 #define VXL_SOLID_CROSSINGS 4
 
 /// The slots of a packet's crossings: slot i of line n is at i * stride + n.
@@ -25,17 +25,17 @@ typedef struct {
     float4 row;  // of the lattice coordinate along the lines
     uint first, stride, slots;
     global float* restrict crossings;
-    global uint* restrict surfaces;  // of each crossing, where light goes through some
-    uint covers;                     // 1: what sight rays count of them is looked for, see
+    global uint* restrict surfaces;  // of each crossing, where light goes through some surfaces
+    uint covers;                     // 1: crossings are looked for as covers count them; see
                                      // scan_lines
     lane_uint count;                 // crossings found, including those without a slot
     Vector origin, way;              // the lines in the world's voxels
-    TransformedRay into;  // ... and in the voxels that are scanned, of scenes with instances
-    uint instance;        // whose voxels these are, VXL_NO_INSTANCE for the world's
+    TransformedRay into;  // the lines in the voxels that are scanned, in scenes with instances
+    uint instance;        // whose voxels are scanned; VXL_NO_INSTANCE for the world's
     lane_uint surface;    // what is crossed: packed attributes, with VXL_LINE_CUBE for a kind
 } ScanResult;
 
-/// The surface of a voxel, of a field or of a primitive, as in ScanResult.
+/// The packed attributes of the surface of a voxel, a field or a primitive, as in ScanResult.
 static inline lane_uint surface_of(const SurfaceView* s, const InstanceView* instances,
                                    uint instance, lane_uint number, lane_uint primitive,
                                    lane_int tested) {
@@ -46,9 +46,10 @@ static inline lane_uint surface_of(const SurfaceView* s, const InstanceView* ins
     return packed & ((1u << VXL_KIND_SHIFT) - 1u);
 }
 
-/// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to
-/// the one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where
-/// 0. It is 2 where lines for covers enter a cube.
+/// Keeps the `crossed` lanes' crossings at t. A crossing on a face between two voxels of the
+/// display is moved into the voxel that its object is in: the next one where `inward` is 1, the one
+/// before where it is -1; it stays where `inward` is 0, which means unknown. `inward` is 2 where
+/// lines for covers enter a cube.
 static inline void keep_crossings(ScanResult* r, lane_int crossed, lane_float t,
                                   lane_float inward) {
     if (!lanes_any(crossed)) return;
@@ -85,7 +86,7 @@ static inline void keep_crossings(ScanResult* r, lane_int crossed, lane_float t,
     r->count += LANES_AS_UINT(crossed) & 1u;
 }
 
-/// Keeps the crossing between u = a and b of a smooth voxel, where F changes its sign.
+/// Keeps the crossing with a smooth voxel between u = a and b, where F changes its sign.
 static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ray, lane_int crossed,
                                lane_float a, lane_float b, lane_float fa, lane_float fb,
                                ScanResult* r) {
@@ -144,8 +145,8 @@ static inline void scan_chain(const FieldChain* c, const Walk* w, lane_int teste
     }
 }
 
-/// Keeps the crossings with the fields of the `tested` lanes' voxels: one, or those that the record
-/// lists.
+/// Keeps the crossings with the fields of the `tested` lanes' voxels: one field, or those that the
+/// record lists.
 static inline void scan_smooth(const WorldView* world, const Walk* w, lane_uint voxel,
                                lane_int tested, lane_int lists, ScanResult* r) {
     const SurfaceView* s = &world->surface;
@@ -201,7 +202,7 @@ static INLINED void scan_solid(const PyramidView* p, const SurfaceView* s, const
     }
 }
 
-/// 1 where the line meets the front of the triangle, -1 where it meets its back.
+/// 1 where the line meets the triangle's front, -1 where it meets its back.
 static inline lane_float triangle_inward(global const float* restrict triangles, lane_uint number,
                                          const Walk* w) {
     const float4 edge = (float4)(1.0f, 1.0f, 1.0f, 0.0f);
@@ -210,8 +211,8 @@ static inline lane_float triangle_inward(global const float* restrict triangles,
     return LANES_SELECT(LANE_MASK(along < 0.0f), (lane_float)1.0f, (lane_float)-1.0f);
 }
 
-/// Keeps the crossings with the primitives that the voxel lists. What lies on a voxel's side may be
-/// kept for both voxels.
+/// Keeps the crossings with the primitives that the voxel lists. A crossing on a voxel's side may
+/// be kept for both voxels.
 static inline void scan_primitives(const WorldView* world, const PyramidView* p, const Walk* w,
                                    lane_uint voxel, lane_int tested, ScanResult* r) {
     const SurfaceView* s = &world->surface;
@@ -247,8 +248,9 @@ static inline void scan_primitives(const WorldView* world, const PyramidView* p,
     }
 }
 
-/// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these. A cube
-/// that other surfaces come before is one where the line crosses none of them in its voxel.
+/// Crosses the surfaces in the `tested` lanes' voxels, except cubes. Returns the mask of lanes in
+/// cubes. If other surfaces come before a cube, its lane is in the mask only where the line crosses
+/// none of them in the voxel.
 static INLINED lane_int scan_voxels(const WorldView* world, const PyramidView* p, const Walk* w,
                                     lane_uint leaf, lane_int tested, ScanResult* r) {
     const SurfaceView* s = &world->surface;

@@ -9,7 +9,8 @@
 #include "shared/display.h"
 #include "shared/scene.h"
 
-/// The vector from E's `lead` to a point, in voxels.
+/// The vector from the camera's `origin`, which is E or the point `lead` before it, to a point, in
+/// voxels.
 static inline Vector from_eye(const Camera* camera, Vector p) {
     const Vector result = {p.x - camera->origin.x - camera->origin_low.x,
                            p.y - camera->origin.y - camera->origin_low.y,
@@ -17,14 +18,15 @@ static inline Vector from_eye(const Camera* camera, Vector p) {
     return result;
 }
 
-/// The part of a vector, in metres, that leads along Z_E.
+/// The component of a vector along Z_E, in metres.
 static inline lane_float along_sight(const Camera* camera, float4 edge, Vector metres) {
     // Z_E in voxels per metre, times the edge, is a unit vector.
     return fma(metres.x, camera->axis_z.x * edge.x,
                fma(metres.y, camera->axis_z.y * edge.y, metres.z * (camera->axis_z.z * edge.z)));
 }
 
-/// The depth in metres of a point given in voxels from E's `lead`: along Z_E, or along the ray.
+/// The depth in metres of a point given in voxels from the camera's `origin`: along Z_E, or along
+/// the ray.
 static inline lane_float depth_of(const Camera* camera, float4 edge, Vector from_eye) {
     const Vector metres = scaled(from_eye, edge);
     if (!depth_is_along_z(camera)) return exact_sqrt(dot_product(metres, metres));
@@ -37,10 +39,10 @@ static inline lane_uint step_of(const DisplaySteps* steps, lane_float depth) {
     return LANES_AS_UINT(clamp(step, (lane_int)0, (lane_int)(steps->count - 1)));
 }
 
-/// The relation of a ray's t to depth beyond the near surface.
+/// The relation between a ray's t and the depth beyond the near surface.
 typedef struct {
-    lane_float metres;  // of a unit of t
-    lane_float along;   // depth of a unit of t
+    lane_float metres;  // metres per unit of t
+    lane_float along;   // depth per unit of t
     lane_float origin;  // depth at t = 0
 } DepthScale;
 

@@ -15,7 +15,7 @@ static inline float3 middle_of(const DisplayLattice* l, int4 v) {
                     fma((float)v.z + 0.5f, l->edge.z, l->corner.z));
 }
 
-/// True if the display has voxel v, which means that its middle lies in the shape.
+/// True if the display has voxel v, that is, if the voxel's middle lies in the display's shape.
 static inline bool is_in_display(const DisplayLattice* l, int4 v) {
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= l->size_x || v.y >= l->size_y || v.z >= l->size_z)
         return false;
@@ -29,8 +29,8 @@ static inline bool is_in_display(const DisplayLattice* l, int4 v) {
     return is_in_shape(l, middle_of(l, v));
 }
 
-/// Voxel number `which` (0 .. 7) of those that a point lies in or on. Its x is -1 if it is a voxel
-/// of a lower number, or if the display doesn't have it.
+/// Voxel number `which` (0 .. 7) of the voxels that a point lies in or on. Its x is -1 if the voxel
+/// has a lower number as well, or if the display doesn't have it.
 static inline int4 voxel_at(const DisplayLattice* l, float3 point, uint which) {
     const float3 below = floor(point);
     int4 v = (int4)((int)below.x, (int)below.y, (int)below.z, 0);

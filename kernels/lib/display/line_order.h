@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The crossings of one probe line in their order, without those that other objects hide.
+// Puts the crossings of one probe line in order and removes those that other objects hide.
 //
-// Inside an object that lets light through, surfaces of objects that come after it in the order of
-// priorities are not seen: see lib/traverse/medium_set.h, whose rules these are for a line that
-// goes on through everything.
+// Inside an object that lets light through, surfaces of objects with a lower priority are not seen.
+// The rules are those of lib/traverse/medium_set.h, for a line that continues through everything.
 #ifndef VXL_LINE_ORDER_H
 #define VXL_LINE_ORDER_H
 
 #include "shared/display.h"
 #include "shared/voxel.h"
 
-// The object of a line's crossing is in its packed attributes, whose kind is this for cubes, else
-// 0.
+// A line's crossing names its object in packed attributes, whose kind is this value for cubes and
+// otherwise 0.
 #define VXL_LINE_CUBE (1u << VXL_KIND_SHIFT)
 
-// The number of objects that a line may be inside of at once; it forgets further ones.
+// The number of objects that a line may be inside of at once; further ones are ignored.
 #define VXL_LINE_MEDIA 16
 
-// Crossings of one object in the same sense that are closer together, in voxels, are one: a line
-// through the edge of two triangles, or through the side between two voxels of the world, meets the
-// same surface twice.
+// Crossings of one object in the same sense that are closer together than this, in voxels, count as
+// one: a line through the edge of two triangles, or through the side between two voxels of the
+// world, meets the same surface twice.
 #define VXL_SAME_POINT 0.0009765625f
 
 #define VXL_NO_RANK 0xFFFFFFFFu
@@ -30,8 +29,8 @@ typedef struct {
     global float* restrict places;
     global uint* restrict surfaces;
     global const uint* restrict ranks;       // of each object, see medium_set.h
-    global const float* restrict opacities;  // of each material: 1 opaque, 2 where light goes
-                                             // through but shows nothing of what is behind
+    global const float* restrict opacities;  // of each material: 1 opaque; 2 light passes, but
+                                             // nothing behind is shown
 } LineCrossings;
 
 /// The ranks of the objects that a line is inside of.
@@ -48,7 +47,7 @@ static inline float opacity_of_surface(global const float* restrict opacities, u
     return opacities[(surface >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK];
 }
 
-/// The rank of the object of crossing i; VXL_NO_RANK if no light goes through its surface there.
+/// The rank of the object of crossing i, or VXL_NO_RANK if the surface there is opaque.
 static inline uint rank_at(const LineCrossings* l, uint i) {
     const uint surface = l->surfaces[i * l->stride];
     if (opacity_of_surface(l->opacities, surface) == 1.0f) return VXL_NO_RANK;
@@ -70,7 +69,7 @@ static inline void leave(LineMedia* m, uint rank) {
     m->count = kept;
 }
 
-/// Sorts by insertion: the scan finds most crossings in their order.
+/// Insertion sort: the scan finds most crossings already in order.
 static inline void sort_crossings(const LineCrossings* l) {
     for (uint i = 1; i < l->count; ++i) {
         const float place = l->places[i * l->stride];
@@ -85,7 +84,7 @@ static inline void sort_crossings(const LineCrossings* l) {
     }
 }
 
-/// The objects that the line begins inside of: those whose first surface it leaves.
+/// The objects inside which the line begins: those whose first crossing leaves them.
 static inline LineMedia begin_line(const LineCrossings* l) {
     LineMedia media;
     media.count = 0;
@@ -99,10 +98,10 @@ static inline LineMedia begin_line(const LineCrossings* l) {
     return media;
 }
 
-/// True if crossing i, which is `kept` crossings after the line's begin, is one of them again.
+/// True if crossing i repeats one of the `kept` crossings before it.
 static inline bool is_again(const LineCrossings* l, uint i, uint kept) {
     const uint sense = sense_at(l, i);
-    if (sense == VXL_CROSSES_CUBE) return false;  // one for each cube
+    if (sense == VXL_CROSSES_CUBE) return false;  // cubes have one crossing each
     const float place = l->places[i * l->stride];
     const uint object = l->surfaces[i * l->stride] & VXL_OBJECT_MASK;
     for (uint k = kept; k-- > 0u && place - l->places[k * l->stride] < VXL_SAME_POINT;)
@@ -111,7 +110,8 @@ static inline bool is_again(const LineCrossings* l, uint i, uint kept) {
     return false;
 }
 
-/// Goes across crossing i; true if the object that the line is in, as rays see it, changes there.
+/// Crosses surface i and updates `media`. Returns true if the object that the line is in, as rays
+/// see it, changes there.
 static inline bool cross_surface(const LineCrossings* l, uint i, LineMedia* media) {
     const uint rank = rank_at(l, i);
     if (rank == VXL_NO_RANK) return true;
@@ -130,7 +130,8 @@ static inline bool cross_surface(const LineCrossings* l, uint i, LineMedia* medi
     return is_first;
 }
 
-/// Sorts the line's crossings and leaves out those that are not seen; the number of the others.
+/// Sorts the line's crossings and removes those that are not seen. Returns the number of the
+/// others.
 static inline uint order_crossings(const LineCrossings* l) {
     sort_crossings(l);
     LineMedia media = begin_line(l);

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Probe points on the voxels of a lattice, and rays that look at them.
+// Probe points in the voxels of a lattice, and rays aimed at them.
 #ifndef VXL_PROBE_H
 #define VXL_PROBE_H
 
 #include "lib/display/depth.h"
 #include "shared/trace.h"
 
-// How far in front of a probe point another surface must be to hide it, in lattice voxels.
+// How far in front of a probe point another surface must be to hide the point, in lattice voxels.
 #define VXL_HIDING_DISTANCE 0.0625f
 
-// How far before its probe point a voxel's light ray begins, and how far behind it may end.
+// How far before its probe point a voxel's light ray begins, and how far behind the point it may
+// end, in lattice voxels.
 #define VXL_LIGHT_DISTANCE 1.0f
 
 /// The parameters that `bind` of ProbePoints sets, in its order.
 #define VXL_POINTS_PARAMETERS \
     uint point_count, uint total, global float *restrict points, global uint *restrict view_of_point
 
-/// `count` probe points, with room for `total`; 0xFFFFFFFF is the view of those that have none.
+/// `count` probe points, in arrays of `total`. Points without a view have the view 0xFFFFFFFF.
 typedef struct {
     uint count, total;
     global float* restrict points;
@@ -32,7 +33,7 @@ typedef struct {
 #define VXL_VIEW_PARAMETERS \
     Camera camera, PyramidShape shape, DisplayLattice lattice, global const float4 *restrict views
 
-/// Lattice coordinates in the world's voxels.
+/// Converts lattice coordinates to the world's voxels.
 static inline Vector point_in_world(const DisplayLattice* l, Vector p) {
     const Vector result = {
         fma(p.x, l->axis_x.x, fma(p.y, l->axis_y.x, fma(p.z, l->axis_z.x, l->origin.x))),
@@ -45,7 +46,7 @@ static inline Vector point_in_world(const DisplayLattice* l, Vector p) {
 typedef struct {
     Vector point;
     Vector way;       // from where the ray begins to the point
-    lane_float near;  // the part of the way before the display
+    lane_float near;  // the part of the way that lies before the display
     lane_int aimed;   // mask
 } ProbeWay;
 
@@ -64,7 +65,7 @@ static inline ProbeWay way_from_eye(const Camera* camera, float4 edge, Vector po
     return w;
 }
 
-/// Lets points whose view is not E's be looked at along their views.
+/// Replaces the ways of points whose view is not E's by ways along their views.
 static inline void look_along_views(global const float4* restrict views, lane_uint view,
                                     ProbeWay* w) {
     const lane_int parallel = LANE_MASK(view != 0u);
@@ -78,7 +79,7 @@ static inline void look_along_views(global const float4* restrict views, lane_ui
     w->aimed |= parallel;
 }
 
-/// A t that passes one lattice voxel along the fastest axis.
+/// The t in which a ray passes one lattice voxel along its fastest axis.
 static inline lane_float t_per_voxel(const DisplayLattice* l, Vector d) {
     const lane_float rate =
         fmax(fabs(fma(d.x, l->row_x.x, fma(d.y, l->row_x.y, d.z * l->row_x.z))),
@@ -87,7 +88,8 @@ static inline lane_float t_per_voxel(const DisplayLattice* l, Vector d) {
     return exact_reciprocal(rate);
 }
 
-/// Stores the rays along the ways, cut where `search` (see aim_rays) and the world end.
+/// Stores the rays along the ways, cut to the part that `search` asks for (see aim_rays) and to the
+/// world.
 static inline void store_ways(PyramidShape shape, const DisplayLattice* lattice, ProbeWay* w,
                               uint search, global float* restrict rays, uint stride, uint first) {
     w->way.x = LANES_SELECT(w->aimed, w->way.x, (lane_float)1.0f);

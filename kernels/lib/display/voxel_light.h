@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of rays that were aimed at display voxels, in the form in which voxels hold it.
+// The light of rays that were aimed at display voxels, as voxels store it.
 #ifndef VXL_VOXEL_LIGHT_H
 #define VXL_VOXEL_LIGHT_H
 
@@ -12,9 +12,10 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// The least part of a surface's light that is taken back out of the medium before it. The medium's
-// own light has three roundings of 2^-24 by then, and dividing by this makes 18 % of it of them:
-// through more medium they would be all that is left.
+// The smallest transmittance of the medium by which a surface's light is divided to remove the
+// medium before it. The medium's own light has three rounding errors of 2^-24 by then, and dividing
+// by this limit makes them 18 % of it; through more medium, nothing but rounding errors would
+// remain.
 #define VXL_MIN_TRANSMITTANCE 1e-6f
 
 /// What a packet's rays see of their surfaces.
@@ -26,8 +27,8 @@ typedef struct {
 } SeenLight;
 
 /// The light of rays first .. first + VXL_LANES - 1. The medium between a ray's start and its
-/// surface counts as air. Where surfaces let light through, the nodes hold the surface's own light
-/// and coverage.
+/// surface is removed. Where surfaces let light through, the nodes hold the surface's own light and
+/// coverage.
 static inline SeenLight seen_light(PyramidShape shape, const SpaceMedium* medium,
                                    const RayBatch* batch, const NodeLight* nodes, uint first) {
     const uint stride = batch->stride;

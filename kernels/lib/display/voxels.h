@@ -9,7 +9,7 @@
         global float *restrict opacities, global float *restrict depths, \
         global uint *restrict objects
 
-/// runtime/stages/display/display_rays.hpp has the meaning of each.
+/// The arrays are described in runtime/stages/display/display_rays.hpp.
 typedef struct {
     global ulong* restrict indices;
     global float* restrict colors;
@@ -22,7 +22,7 @@ typedef struct {
 #define VXL_VOXELS \
     { indices, colors, opacities, depths, objects }
 
-/// What kernels make of one packet's voxels: a value of each lane.
+/// What kernels compute for one packet's voxels, one value per lane.
 typedef struct {
     float color[3 * VXL_LANES];
     float opacity[VXL_LANES];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The types and functions of OpenCL C that the kernels use, declared here for PoCL.
 //
-// PoCL reads 17,000 declarations before each program, which takes 80 ms. With _OPENCL_H_ defined
-// it leaves them out, and the host puts this text in front of the kernels instead. A kernel that
-// uses a function which isn't here is compiled with all declarations, as every other driver does.
+// PoCL reads 17,000 declarations before each program, which takes 80 ms. With _OPENCL_H_ defined,
+// it skips them, and the host puts this text in front of the kernels instead. A kernel that uses a
+// function which isn't declared here is compiled with all declarations, as on every other driver.
 // The attributes are those that clang's own header gives these functions.
 #ifndef VXL_DECLARED_H
 #define VXL_DECLARED_H
@@ -60,7 +60,7 @@ VXL_VECTORS(float, float)
 size_t VXL_FUNCTION get_global_id(uint);
 size_t VXL_FUNCTION get_global_size(uint);
 
-// These write declare(type, n) for numbers, whose n is empty, and for vectors.
+// These macros write declare(type, n) for scalars, whose n is empty, and for vectors.
 #define VXL_VECTOR_SIZES(declare, type) \
     declare(type, 2) declare(type, 3) declare(type, 4) declare(type, 8) declare(type, 16)
 #define VXL_SIZES(declare, type) declare(type, ) VXL_VECTOR_SIZES(declare, type)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Division and square root that round correctly on every device, so that all give the same bits.
+// Division and square root that are correctly rounded on every device, so that all give the same
+// bits.
 //
-// OpenCL lets a device miss x/y by 2.5 units in the last place, and NVIDIA's do. So kernels divide
-// by these functions alone, but for constants, and bounds of voxelization that only say which
-// voxels are looked at exactly; .ci/kernel_arithmetic holds that. Markstein's correction by fma
-// makes the result correctly rounded from any such start, for results and residuals in the normal
-// range; VXL_NATIVE_DIVIDE = 1 says that the device's own operations already are (every CPU
-// driver's).
+// OpenCL lets a device miss x/y by 2.5 units in the last place, and NVIDIA's devices do. So kernels
+// divide only by these functions, except for constants and for bounds of voxelization that merely
+// select the voxels to be tested exactly; .ci/kernel_arithmetic checks this. From any such start,
+// Markstein's correction by fma gives the correctly rounded result, if results and residuals are in
+// the normal range. VXL_NATIVE_DIVIDE = 1 says that the device's own operations are already
+// correctly rounded, as with every CPU driver.
 #ifndef VXL_EXACT_FLOAT_H
 #define VXL_EXACT_FLOAT_H
 
@@ -27,7 +28,8 @@ static inline lane_float exact_reciprocal(lane_float x) {
     return r;
 }
 
-/// a / b, correctly rounded, for b != 0 and a, b, a/b far from overflow and underflow; or a = 0.
+/// a / b, correctly rounded, for b != 0 and a, b, a/b far from overflow and underflow; or for a =
+/// 0.
 static inline lane_float exact_divide(lane_float a, lane_float b) {
     if (VXL_NATIVE_DIVIDE) return a / b;
     lane_float r = exact_reciprocal(b);
@@ -37,7 +39,7 @@ static inline lane_float exact_divide(lane_float a, lane_float b) {
     return LANES_SELECT(LANE_MASK(a == 0.0f), first, q);  // the correction would lose the sign of 0
 }
 
-/// a / b of single numbers, rounded as exact_divide does.
+/// a / b for single numbers, rounded as by exact_divide.
 static inline float exact_quotient(float a, float b) {
     float all[VXL_LANES];
     LANES_STORE(exact_divide((lane_float)a, (lane_float)b), all, 0);
@@ -51,8 +53,8 @@ static inline float inverse_of_power(float power) {
 
 /// The square root of x >= 0, correctly rounded, for x = 0 or far from underflow.
 ///
-/// A corrected root is within one unit of it; Tuckerman's test, y (y - unit) < x <= y (y + unit),
-/// then finds the one. (The correction alone gives 1 for the float below 1.)
+/// A corrected root is within one unit of the true one. Then Tuckerman's test, y (y - unit) < x <=
+/// y (y + unit), finds the right one. (The correction alone gives 1 for the float below 1.)
 static inline lane_float exact_sqrt(lane_float x) {
     lane_float root = sqrt(x);
     if (!VXL_NATIVE_DIVIDE) {

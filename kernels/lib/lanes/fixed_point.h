@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snapping rays to the fixed point in which the walk is exact (shared/trace.h).
+// Functions that snap rays to the fixed point in which the walk is exact (shared/trace.h).
 #ifndef VXL_FIXED_POINT_H
 #define VXL_FIXED_POINT_H
 
 #include "lib/lanes/vector.h"
 #include "shared/trace.h"
 
-/// The power of two that brings the largest of |x|, |y|, |z| into [1/2, 1). At least one is normal.
+/// The power of two that brings the largest of |x|, |y|, |z| into [1/2, 1). At least one of them
+/// must be normal.
 static inline lane_float power_of_two_scale(lane_float x, lane_float y, lane_float z) {
     const lane_float largest = fmax(fabs(x), fmax(fabs(y), fabs(z)));
     const lane_int exponent = (LANES_AS_INT(largest) >> 23) & 255;
@@ -18,8 +19,8 @@ static inline lane_float snap_direction(lane_float d) {
     return rint(d * (float)(1 << VXL_DIRECTION_BITS)) * (1.0f / (float)(1 << VXL_DIRECTION_BITS));
 }
 
-/// A coordinate rounded to the fixed point: to the nearest where `side` is 0, else towards its
-/// sign.
+/// A coordinate rounded to the fixed point: to the nearest value where `side` is 0, else in the
+/// direction of its sign.
 static inline lane_float snap_position(lane_float o, lane_float side, float fixed_point) {
     const lane_float scaled = o * fixed_point;
     const lane_float nearest = rint(scaled);
@@ -30,7 +31,7 @@ static inline lane_float snap_position(lane_float o, lane_float side, float fixe
     return snapped * inverse_of_power(fixed_point);
 }
 
-/// Limits [t_first, t_last] of a ray to what lies between two planes of one axis.
+/// Limits [t_first, t_last] of a ray to the part between two planes of one axis.
 static inline void clip_axis(lane_float o, lane_float d, float size, lane_float* t_first,
                              lane_float* t_last) {
     const lane_float inverse = exact_reciprocal(d);
@@ -42,7 +43,7 @@ static inline void clip_axis(lane_float o, lane_float d, float size, lane_float*
     *t_last = fmin(*t_last, LANES_SELECT(moves, fmax(a, b), none));
 }
 
-/// Limits [t_first, t_last] of a ray to what lies in the world.
+/// Limits [t_first, t_last] of a ray to the part in the world.
 static inline void clip_to_world(Vector o, Vector d, int size_x, int size_y, int size_z,
                                  lane_float* t_first, lane_float* t_last) {
     clip_axis(o.x, d.x, (float)size_x, t_first, t_last);
@@ -50,13 +51,14 @@ static inline void clip_to_world(Vector o, Vector d, int size_x, int size_y, int
     clip_axis(o.z, d.z, (float)size_z, t_first, t_last);
 }
 
-/// How far a ray comes in one unit of t, of voxels with these edges in metres.
+/// The length of one unit of t in metres, for voxels with these edges.
 static inline lane_float metres_per_t(float4 edge, Vector d) {
     const Vector metric = {d.x * edge.x, d.y * edge.y, d.z * edge.z};
     return exact_sqrt(dot_product(metric, metric));
 }
 
-/// A coordinate of the ray o + low + d t at t_first: exactly the world's side where it comes in.
+/// A coordinate of the ray o + low + d t at t_first: exactly the world's side where the ray enters
+/// there.
 static inline lane_float start_coordinate(float o, lane_float low, lane_float d, float size,
                                           lane_float t_first) {
     const lane_float side = LANES_SELECT(LANE_MASK(d < 0.0f), (lane_float)size, (lane_float)0.0f);

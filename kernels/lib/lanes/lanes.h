@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lane types: a kernel is written once and carries VXL_LANES rays in each work-item.
+// Lane types: a kernel is written once and processes VXL_LANES rays in each work-item.
 //
 // With 16, 8 or 4 lanes a lane_float is a vector register of a CPU; with 1 it is a plain float,
 // which is what a GPU runs. A mask is a lane_int of 0 (no) or -1 (yes) in every width.
@@ -19,9 +19,9 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// For functions at the bottom of most kernels' call trees. PoCL 3.1 copies a kernel's functions
-// once for each chain of calls that leads to them, and without inlining there would be millions of
-// chains through these. Where the optimizer runs, it inlines them by itself.
+// INLINED marks functions at the bottom of most kernels' call trees. PoCL 3.1 copies a kernel's
+// functions once for each chain of calls that leads to them, and without inlining there would be
+// millions of chains through these functions. Where the optimizer runs, it inlines them by itself.
 #if defined(__clang__) && !defined(__OPTIMIZE__) && !defined(OCLGRIND)
 #define INLINED inline __attribute__((always_inline))
 #else
@@ -31,7 +31,8 @@
 #define VXL_JOIN_(a, b) a##b
 #define VXL_JOIN(a, b) VXL_JOIN_(a, b)
 
-// The smaller of two numbers that are not NaN: one instruction, where fmin's care for NaN is four.
+// The smaller of two numbers that are not NaN. This takes one instruction; fmin, which handles NaN,
+// takes four.
 #define LANES_LESS(a, b) LANES_SELECT(LANE_MASK((a) < (b)), a, b)
 
 #if VXL_LANES == 1
@@ -97,7 +98,7 @@ typedef VXL_JOIN(long, VXL_LANES) lane_long;
 #define LANES_FIRST(v) ((v).s0)
 
 // Indexed loads in this form become one gather instruction. `any` on a vector would compile to a
-// ladder of branches; folding halves does not.
+// chain of branches; folding halves does not.
 #if VXL_LANES == 4
 #define VXL_INDEXED(p, i) (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3]
 #define LANES_NUMBERS ((int4)(0, 1, 2, 3))
@@ -169,7 +170,7 @@ static inline uint lanes_all_bits(uint16 v) {
 }
 #endif
 
-/// Bits set in each lane's number; PoCL's popcount of a vector goes lane by lane.
+/// The number of bits set in each lane. PoCL's popcount of a vector works lane by lane.
 static inline lane_uint lanes_popcount(lane_uint v) {
     v -= (v >> 1) & 0x55555555u;
     v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
@@ -183,7 +184,8 @@ static inline lane_uint lanes_ranks(lane_int mask) {
     return lanes_popcount((lane_uint)lanes_all_bits(LANES_AS_UINT(mask) & own) & (own - 1u));
 }
 
-// Indices are read as signed: a gather of unsigned ones becomes two, of 64-bit addresses.
+// Indices are read as signed: a gather with unsigned ones becomes two gathers with 64-bit
+// addresses.
 #define LANES_GATHER_UINT(p, i) ((lane_uint)(VXL_INDEXED(p, LANES_AS_INT(i))))
 #define LANES_GATHER_FLOAT(p, i) ((lane_float)(VXL_INDEXED(p, LANES_AS_INT(i))))
 #endif

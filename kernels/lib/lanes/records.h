@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records of eight words, one for each lane, read whole.
+// Reads whole records of eight words, one record for each lane.
 //
 // Eight gathers would touch every record eight times. Instead each lane's record is one load, and
-// the square of words is turned in three rounds: round s exchanges, between vectors i and i + s,
-// the words k with k & s (i without that bit) in each eighth.
+// the square of words is transposed in three rounds: round s exchanges, between vectors i and i +
+// s, the words k with k & s (i without that bit) in each group of eight.
 #ifndef VXL_RECORDS_H
 #define VXL_RECORDS_H
 
@@ -11,7 +11,7 @@
 
 #define VXL_RECORD_WORDS 8
 
-/// Word k of every lane's record in `word[k]`.
+/// `word[k]` holds word k of every lane's record.
 typedef struct {
     lane_uint word[VXL_RECORD_WORDS];
 } Records;
@@ -39,7 +39,7 @@ static inline void exchange_words_4(uint16* restrict a, uint16* restrict b) {
     *b = (uint16)(x.s4567, y.s4567, x.scdef, y.scdef);
 }
 
-/// The records numbered `number`, in eights of words from p on.
+/// Reads the records numbered `number` of the array at p.
 static inline Records read_records(global const uint* restrict p, lane_uint number) {
     const lane_uint n = number;
     uint16 v0 = VXL_RECORD_PAIR(p, n.s0, n.s8), v1 = VXL_RECORD_PAIR(p, n.s1, n.s9);
@@ -58,7 +58,7 @@ static inline Records read_records(global const uint* restrict p, lane_uint numb
 
 #else
 
-/// The records numbered `number`, in eights of words from p on.
+/// Reads the records numbered `number` of the array at p.
 static inline Records read_records(global const uint* restrict p, lane_uint number) {
     Records r;
     for (uint i = 0; i < VXL_RECORD_WORDS; ++i)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of lanes: three components, each a lane type, and how they lie in memory `stride` apart.
+// Vectors of lanes: three components, each a lane type. In memory, the components are `stride`
+// values apart.
 #ifndef VXL_VECTOR_H
 #define VXL_VECTOR_H
 
@@ -19,7 +20,7 @@ static inline lane_float dot_product(Vector a, Vector b) {
     return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
 }
 
-/// v with each component times that of `by`: from voxels to metres, or back.
+/// v, with each component multiplied by that of `by`: converts voxels to metres, or back.
 static inline Vector scaled(Vector v, float4 by) {
     const Vector result = {v.x * by.x, v.y * by.y, v.z * by.z};
     return result;
@@ -30,7 +31,7 @@ static inline Vector opposite(Vector v) {
     return result;
 }
 
-/// v scaled to length 1; a vector without length stays as it is.
+/// v scaled to length 1; a zero vector stays as it is.
 static inline Vector unit(Vector v) {
     const lane_float length = exact_sqrt(dot_product(v, v));
     const lane_float inverse =

@@ -7,8 +7,8 @@
 #include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
-/// The points of light number `number` that the paths' samples choose, all of which are equally
-/// probable, in voxels.
+/// The points of light number `number` that the paths' samples choose, in voxels. All points are
+/// equally probable.
 static inline Vector area_point(LightRecord light, LightAreaRecord area, const PathSamples* samples,
                                 uint number) {
     SquarePoint p = path_point(samples, VXL_DECISION_LIGHT + number);
@@ -26,12 +26,12 @@ static inline Vector area_point(LightRecord light, LightAreaRecord area, const P
 
 /// Where rays run into a light.
 typedef struct {
-    lane_int met;        // mask: rays that do, on the side that shines
+    lane_int met;        // mask: rays that do, on the side that emits light
     lane_float t;        // of the rays
-    lane_float falloff;  // of the light from there where they were scattered: cosine / d^2
+    lane_float falloff;  // cosine / d^2 of the light there, seen from where the ray was scattered
 } AreaMeeting;
 
-/// Where rays, which were scattered `travelled` before their origins, would run into a light.
+/// Where rays run into a light. They were scattered `travelled` before their origins.
 static inline AreaMeeting meet_area(LightRecord light, LightAreaRecord area, float4 edge,
                                     Vector origin, Vector direction, lane_float travelled) {
     const lane_float one = (lane_float)1.0f;

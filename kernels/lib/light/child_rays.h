@@ -9,7 +9,8 @@
 #include "lib/traverse/offset_origin.h"
 #include "lib/traverse/ray_queue.h"
 
-/// A ray from a surface point along `direction` in metres, on the `side` that a vector points to.
+/// Sets out a ray from a surface point along `direction` in metric space. Its origin is rounded
+/// towards `side`, which points to the side of the surface on which it begins.
 static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position, Vector side,
                                  Vector direction) {
     const lane_float x = direction.x * shape.inverse_edge.x;
@@ -26,7 +27,8 @@ static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position
     r->t_end = (lane_float)INFINITY;
 }
 
-/// Mask: rays that go straight on from these hits are inside of the surfaces' objects.
+/// Mask: hits on surfaces of objects with a body, which rays that go straight on from there enter
+/// or leave.
 static inline lane_int bodies_of(const Surroundings* around, const RayBatch* batch, uint first,
                                  lane_uint packed, lane_int hit) {
     if (!VXL_TEXTURE_ALPHA) return (lane_int)-1;
@@ -34,7 +36,7 @@ static inline lane_int bodies_of(const Surroundings* around, const RayBatch* bat
     return have_bodies(around->materials, packed, primitive, hit);
 }
 
-/// How wide rays are at the surfaces that they met, in metres.
+/// The widths of rays at the surfaces that they met, in metres.
 static inline lane_float width_at(const RayBatch* batch, uint first) {
     if (!VXL_WIDENS) return (lane_float)0.0f;
     const lane_uint hit = first + LANES_AS_UINT((lane_int)LANES_NUMBERS);
@@ -42,8 +44,8 @@ static inline lane_float width_at(const RayBatch* batch, uint first) {
                               hit * VXL_PAINT_FLOATS(VXL_TEXTURE_MAPS) + VXL_PAINT_WIDTH);
 }
 
-/// How wide rays that go straight on are at their origins. Those in the mask `restarted` begin at
-/// their surfaces. Rays from an observer stay such.
+/// The widths of rays that go straight on at their origins. Those in the mask `restarted` begin at
+/// their surfaces. Rays from an observer keep counting as such.
 static inline lane_float width_straight(const RayBatch* batch, uint first, lane_int restarted) {
     if (!VXL_WIDENS) return (lane_float)0.0f;
     const lane_float before =
@@ -51,7 +53,7 @@ static inline lane_float width_straight(const RayBatch* batch, uint first, lane_
     return LANES_SELECT(restarted & LANE_MASK(before > 0.0f), width_at(batch, first), before);
 }
 
-/// What all rays that leave the points have in common. Each begins a node of its own.
+/// What all rays that leave the points have in common. Each begins its own node.
 static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, uint first) {
     const lane_float one = (lane_float)1.0f;
     NewRays r;
@@ -65,16 +67,17 @@ static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, u
     return r;
 }
 
-/// Mask: the entries' surfaces are those of instances.
+/// Mask: entries whose surfaces belong to instances.
 static inline lane_int are_of_instances(const RayBatch* batch, uint first) {
     if (!VXL_INSTANCES) return (lane_int)0;
     return LANE_MASK(LANES_LOAD(batch->hits, VXL_HIT_INSTANCE * batch->stride + first) !=
                      VXL_NO_INSTANCE);
 }
 
-/// Makes rays that go straight on and are in the mask `restarted` begin behind their surface. A ray
-/// that goes on from a surface of the world begins where it did before and skips what it has met
-/// already; from an instance's it can't, for no cell of the world is known in which to go on.
+/// Makes rays that go straight on and are in the mask `restarted` begin behind their surface. From
+/// a surface of the world, a ray begins again at its old origin and skips what it has already met.
+/// From a surface of an instance this is impossible, because the cell of the world in which it
+/// would continue is unknown.
 static inline void begin_behind(PyramidShape shape, const RayBatch* batch, uint first,
                                 lane_int restarted, NewRays* r) {
     if (!VXL_INSTANCES) return;
@@ -96,8 +99,7 @@ static inline void begin_behind(PyramidShape shape, const RayBatch* batch, uint 
     r->flags &= ~(LANES_AS_UINT(restarted) & (VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
 }
 
-/// Sets what all rays have in common that stay on the side of the surfaces from which they were
-/// met.
+/// Sets what all rays have in common that stay on the side from which the surfaces were met.
 static inline void stay_on_side(const Surroundings* around, const ScatterPoint* p,
                                 const RayBatch* batch, uint first, NewRays* r) {
     const uint stride = batch->stride;
@@ -107,7 +109,7 @@ static inline void stay_on_side(const Surroundings* around, const ScatterPoint* 
     r->medium = (lane_uint)0;
     if (VXL_TRANSMISSION) r->medium = medium_inside(&p->before, around->ranks);
     if (!VXL_CUBE_BODIES) return;
-    // On a cube's side towards its inside, rays begin in a known cell.
+    // Rays that stay inside a cube begin in a known cell.
     const lane_int cube = is_cube(p->packed, p->primitive);
     r->flags |= joined_flag(&p->before, around->materials) |
                 (LANES_AS_UINT(cube & p->leaving) & VXL_PATH_FROM_CELL);
@@ -125,9 +127,9 @@ static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
                   n, mirrored_direction(p));
 }
 
-/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on from
-/// where it began. Like every refracted ray it has no end, though the ray that met the surface may
-/// have one: those that look at the voxels of a display end shortly behind them.
+/// Turns `r` into the rays that the surfaces refract. Between equal media the ray continues from
+/// its old origin. Like every refracted ray it has no end, even if the ray that met the surface has
+/// one: rays aimed at the voxels of a display end shortly behind them.
 static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                                 const ScatterPoint* p, const RayBatch* batch, uint first,
                                 NewRays* r) {

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clear coat of physically based surfaces: facets of a width of their own, through which light
-// gets to what is below, and back.
+// The clear coat of physically based surfaces: facets with their own width, through which light
+// reaches what is below and returns.
 //
-// A coat lets one share of light through along the direction in which light comes, and another
+// A coat lets through one share of the light along the direction in which light comes, and another
 // along that in which it leaves. Light that the facets below return at once is multiplied by the
-// smaller of the two shares: what a polished coat throws back at a mirror leaves the same way
-// later. The rest is spread by the rules for light that facets miss, so that none is lost and both
-// ways between two directions are equal.
+// smaller of the two shares: what a polished coat reflects back to a mirror leaves the same way
+// later. The rest is distributed by the rules for light that facets miss, so that none is lost and
+// the reflectance is reciprocal.
 #ifndef VXL_COAT_H
 #define VXL_COAT_H
 
 #include "lib/light/facet_albedo.h"
 #include "lib/light/ggx.h"
 
-/// The coat of surfaces that are seen along one direction.
+/// The coat of surfaces, seen along one direction.
 typedef struct {
     FacetTable facets;
-    lane_uint losses;  // the number of the first value of VXL_COAT_TABLE
+    lane_uint losses;  // the index of the first value of VXL_COAT_TABLE
     lane_float share;  // of the surface; 0: it has no coat
-    lane_float later;  // what facets return later of what they miss
+    lane_float later;  // the part that facets return later of what they miss
     lane_float per_missing, per_entered;
-    lane_float reflects;           // what the reflectance below is multiplied by
-    lane_float missing, returned;  // at the viewer's angle, as coat_returned tells
-    lane_float chance;             // how probably paths are mirrored by it
+    lane_float reflects;           // the factor of the reflectance below
+    lane_float missing, returned;  // at the viewer's angle, see coat_returned
+    lane_float chance;             // the probability that it mirrors paths
 } Coat;
 
-/// The share of light that a coat which is everywhere returns at an angle. Sets the share that its
-/// facets miss.
+/// The share of light that a coat without gaps returns at an angle. Sets `missing` to the share
+/// that its facets miss.
 static inline lane_float coat_returned(const Coat* coat, lane_float cosine, lane_float* missing) {
     const Albedo a = albedo_at(&coat->facets, cosine);
     *missing = a.missing;
@@ -64,8 +64,8 @@ static inline Coat view_coat(global const float* restrict materials, lane_int is
     return c;
 }
 
-/// What facets under the coat return at an angle where that returns `returned`, of what they
-/// return without.
+/// What facets under the coat return at an angle, given `a`, what they would return without a coat,
+/// and `returned`, the share that the coat returns there.
 static inline Albedo under_coat(const Coat* coat, Albedo a, lane_float cosine,
                                 lane_float returned) {
     const lane_float place = exact_sqrt(cosine);
@@ -81,9 +81,9 @@ static inline Albedo under_coat(const Coat* coat, Albedo a, lane_float cosine,
     return under;
 }
 
-/// What the coat returns of light at a cosine, as facet_lobe has it: it reflects by `fifth`, the
-/// fifth power of Schlick's formula, and misses `missing` there. Sets how probable paths are to be
-/// mirrored there.
+/// The light that the coat returns at a cosine, in the units of facet_lobe. `fifth` is the fifth
+/// power in Schlick's formula, and `missing` the share that the facets miss there. Sets `mirrored`
+/// to the density of directions that the facets mirror.
 static inline lane_float coat_value(const Coat* coat, Vector h, Vector in, lane_float cosine,
                                     Vector out, lane_int above, lane_int is, lane_float fifth,
                                     lane_float missing, lane_float* mirrored) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that a source sends to surface points, and the shadow rays that it waits for.
+// The light that a source sends to surface points, and the shadow rays that decide whether it
+// arrives.
 //
-// Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.
+// Local light follows Whitted 1980: ambient light, Lambert's cosine, and the highlight of Blinn's
+// half vector.
 #ifndef VXL_DIRECT_LIGHT_H
 #define VXL_DIRECT_LIGHT_H
 
@@ -12,7 +14,7 @@
 #include "shared/scene.h"
 #include "shared/trace.h"
 
-/// The part of a spot light's intensity along the unit vector `to_surface`: smoothstep of the
+/// The part of a spot light's intensity along the unit vector `to_surface`: a smoothstep of the
 /// cosine.
 static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
     const lane_float cosine = dot_product(vector_of(light.direction), to_surface);
@@ -22,10 +24,10 @@ static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
     return s * s * fma(-2.0f, s, 3.0f);
 }
 
-/// The falloff of a small part of an emissive surface at a point at distance d, from which it is
-/// seen at an angle with this cosine: cosine / (d^2 + A/pi). Over a disk's middle this is exact;
-/// far away it is the cosine over d^2; and however near, it never exceeds the light that a surface
-/// can receive (Wallace, Elmquist and Haines 1989).
+/// The falloff of a small part of an emissive surface at a point at distance d, which sees the part
+/// at an angle with this cosine: cosine / (d^2 + A/pi). Above a disk's middle this is exact; far
+/// away it is the cosine over d^2; and near by it never exceeds the light that a surface can
+/// receive (Wallace, Elmquist and Haines 1989).
 static inline lane_float area_sample_falloff(LightRecord light, Vector to_surface,
                                              lane_float squared) {
     const lane_float cosine = dot_product(vector_of(light.direction), to_surface);
@@ -34,7 +36,8 @@ static inline lane_float area_sample_falloff(LightRecord light, Vector to_surfac
     return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
 }
 
-/// The light's falloff at the `lit` points, whose squared distance to it is `squared` metres.
+/// The light's falloff at the `lit` points, whose squared distances to the light in square metres
+/// are `squared`.
 static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squared, lane_int lit) {
     lane_float falloff = (lane_float)1.0f;
     if (light.kind != VXL_LIGHT_DIRECTIONAL)
@@ -45,8 +48,8 @@ static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squa
     return falloff;
 }
 
-/// The light as surface points see it that it shines on from the points `from`, or for a
-/// directional light along the ways that lead there.
+/// The light as it arrives at surface points: from the points `from` or, for a directional light,
+/// along the directions `from`.
 static inline Incidence incidence_of(LightRecord light, Vector from, float4 edge, Vector position,
                                      Vector normal, lane_int lit) {
     Incidence i;
@@ -64,22 +67,23 @@ static inline Incidence incidence_of(LightRecord light, Vector from, float4 edge
     return i;
 }
 
-/// Blinn-Phong: the cosine between the normal and the half vector between the light's direction and
-/// the viewer's, who looks along `d`.
+/// Blinn-Phong: the cosine between the normal and the half vector of the directions to the light,
+/// `l`, and to the viewer, who looks along `d`.
 static inline lane_float highlight_of(Vector normal, Vector l, Vector d, float4 edge) {
     const Vector view = unit(scaled(opposite(d), edge));
     const Vector between = {l.x + view.x, l.y + view.y, l.z + view.z};
     return clamp(dot_product(normal, unit(between)), 0.0f, 1.0f);
 }
 
-/// Shadow rays from surface points to the light, and the light that each would bring.
+/// Shadow rays from surface points to the light, and the light that each brings if nothing blocks
+/// it.
 typedef struct {
     Vector origin, direction;
     lane_float t_end;
     lane_float contribution[3];
 } LitRays;
 
-/// Aims rays at the light from `start`, which is on the side of the surface that `normal` points
+/// Aims rays at the light from `start`, which lies on the side of the surface that `normal` points
 /// to.
 static inline void aim_at_light(PyramidShape shape, LightRecord light, const Incidence* i,
                                 Vector start, Vector normal, LitRays* r) {
@@ -97,7 +101,8 @@ static inline void aim_at_light(PyramidShape shape, LightRecord light, const Inc
     if (light.kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
 }
 
-/// The part and the exponent of surfaces' highlights, which maps change in local light.
+/// The specular share of surfaces and, below, the exponent of their highlights, which maps change
+/// in local light.
 static inline lane_float surface_specular(global const float* restrict materials,
                                           lane_uint material, Colors colors) {
     if (VXL_GLOBAL) return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR);
@@ -139,7 +144,7 @@ static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_f
     return any_contribution;
 }
 
-/// Adds the `lit` lanes' shares to the radiance of the rays from `first` on.
+/// Adds the `lit` lanes' contributions to the radiance of the rays from `first` on.
 static inline void add_shares(const lane_float* contribution, lane_int lit, const RayBatch* batch,
                               uint first) {
     for (int channel = 0; channel < 3; ++channel) {
@@ -150,8 +155,8 @@ static inline void add_shares(const lane_float* contribution, lane_int lit, cons
     }
 }
 
-/// The primitives that rays to the light begin on, and don't meet. A ray that begins above its
-/// triangle, towards a light behind it, may meet it.
+/// The primitives that rays to the light begin on, and therefore don't meet. A ray that begins
+/// above its triangle may meet it on its way to a light behind it.
 static inline lane_uint sources_of(const RayBatch* batch, uint first, lane_int behind) {
     const lane_uint packed = LANES_LOAD(batch->hit_attributes, first);
     const lane_uint source = source_of_hits(batch->hits, batch->stride, first, packed);
@@ -159,8 +164,8 @@ static inline lane_uint sources_of(const RayBatch* batch, uint first, lane_int b
     return LANES_SELECT(behind, (lane_uint)VXL_NO_PRIMITIVE, source);
 }
 
-/// Writes the `lit` lanes' rays, which begin on these sources, to slots of the queue, `stride`
-/// apart, which are all reserved at once.
+/// Writes the `lit` lanes' rays, which begin on the sources `begins_on`, to slots of the queue,
+/// `stride` apart. All slots are reserved at once.
 static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_int lit,
                               lane_uint begins_on, uint stride, uint first) {
     int lit_lane[VXL_LANES];
@@ -195,8 +200,8 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     }
 }
 
-/// Moves the starts of shadow rays off the surfaces, and clears `lit` of points that are lit from
-/// behind. Returns the mask of rays that leave a triangle, above which they begin, on its back.
+/// Moves the starts of shadow rays off the surfaces, and clears `lit` for points that are lit from
+/// behind. Returns the mask of rays that begin above a triangle and leave it on its back.
 static inline lane_int start_off_surface(const WorldView* world, const RayBatch* batch, uint first,
                                          LightRecord light, Incidence* incidence, LitPoints* p) {
     const uint stride = batch->stride;
@@ -220,8 +225,8 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
     return behind;
 }
 
-/// Queues the `lit` lanes' rays, or adds their light at once if nothing can come between. The light
-/// is `behind` the triangles that they begin above.
+/// Queues the `lit` lanes' rays, or adds their light at once if nothing can block it. Lanes in
+/// `behind` have the light behind the triangles that they begin above.
 static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_int lit,
                                lane_int behind, const RayBatch* batch, uint first) {
     if (VXL_SHADOWS | VXL_MEDIUM) {
@@ -233,10 +238,10 @@ static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_
     }
 }
 
-/// Adds a light that shines from the points `from`: every surface point that faces it and to which
-/// it contributes gets a slot in the queue of shadow rays with the light's contribution. If neither
-/// an object nor the medium can come between, the contribution is added at once. Paths that
-/// physically based surfaces scatter may run into `area` square metres of the light, too.
+/// Adds a light that shines from the points `from`: every surface point that faces the light and
+/// returns some of it gets a slot in the queue of shadow rays, with the light's contribution. If
+/// neither an object nor the medium can block it, the contribution is added at once. Paths that
+/// physically based surfaces scatter may also run into `area` square metres of the light.
 static inline void shine_from(const WorldView* world, LightRecord light, Vector from,
                               lane_float area, global const float* restrict materials,
                               const ShadowQueue* queue, const RayBatch* batch, uint first) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of an emissive surface's light counts for a ray that meets it, where rays are sent to
-// emitters as well: the two ways to find it share it (Veach & Guibas 1995, the balance heuristic).
+// The weight of an emissive surface's light for a ray that meets it, where rays are also sent to
+// emitters: the two ways to find the light share it (Veach & Guibas 1995, the balance heuristic).
 #ifndef VXL_EMISSION_SHARE_H
 #define VXL_EMISSION_SHARE_H
 
@@ -16,7 +16,7 @@ static inline lane_int looks_for_emitter(const RayBatch* batch, uint first) {
     return LANE_MASK((state & VXL_STATE_TO_EMITTER) != 0u);
 }
 
-/// Mask: those of them that go to the sky.
+/// Mask: rays that look for an emitter and go to the sky.
 static inline lane_int goes_to_sky(const RayBatch* batch, uint first) {
     const lane_uint word = LANES_LOAD(batch->paths, VXL_PATH_EMITTER * batch->stride + first);
     return LANE_MASK(word == VXL_EMITTER_IS_SKY);
@@ -31,9 +31,9 @@ static inline lane_int emits_light(global const float* restrict materials, lane_
     return emits;
 }
 
-/// The share of the emission that hits count for; 1 for those that are not `asked` for. A ray that
-/// ran into an emitter counts by how much likelier that was than a ray sent there. A ray that was
-/// sent counts if it met its emitter, and not otherwise; its weight is in its throughput.
+/// The weight of the emission that rays find at their hits; 1 for hits that are not `asked` for. A
+/// ray that ran into an emitter is weighted by the balance heuristic against a ray sent to it. A
+/// ray that was sent counts only if it met its emitter; its weight is in its throughput.
 static inline lane_float emission_share(const Emitters* e, const ShadedHit* h, float4 edge,
                                         const RayBatch* batch, uint first, lane_int asked) {
     const uint stride = batch->stride;
@@ -46,7 +46,7 @@ static inline lane_float emission_share(const Emitters* e, const ShadedHit* h, f
     if (VXL_INSTANCES) instance = LANES_LOAD(batch->hits, VXL_HIT_INSTANCE * stride + first);
     const lane_uint number = emitter_at(e, h->voxel, instance, h->hit & (ran_in | looks));
     const lane_int known = h->hit & ran_in & LANE_MASK(number != VXL_NO_EMITTER);
-    // A ray that was sent chose its emitter where the path was scattered.
+    // A ray that was sent to an emitter chose it where the path was last scattered.
     Vector from = h->world_origin;
     if (VXL_TRAVELS) {
         const lane_float travelled =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays from surface points to emissive voxels: how they are chosen, and how probable a ray was.
+// Rays from surface points to emissive voxels: how they are chosen, and how probable each ray was.
 //
-// A ray goes to a point of the sides of the voxel's box that it can see, and counts if it meets the
-// voxel's surfaces first. So whatever lies in the voxel, cubes, fields, triangles or solids, the
+// A ray goes to a point on the visible sides of the voxel's box, and counts if it meets the voxel's
+// surfaces first. So whatever lies in the voxel, cubes, fields, triangles or solids, the
 // probability of a direction is that of a point on a parallelogram.
 #ifndef VXL_EMITTERS_H
 #define VXL_EMITTERS_H
@@ -12,8 +12,8 @@
 #include "shared/emitters.h"
 #include "shared/instance.h"
 
-/// The parameters that `bind` of EmitterTable sets, in its order: none where paths look for no
-/// emitters. A comma ends them.
+/// The parameters that `bind` of EmitterTable sets, in its order; there are none where paths look
+/// for no emitters. A comma ends them.
 #if VXL_EMITTERS
 #define VXL_EMITTER_PARAMETERS                                                                  \
     uint emitter_count, global const float *restrict emitters, uint emitter_slots,              \
@@ -30,7 +30,7 @@ typedef struct {
     uint slots;
     global const uint* restrict table;
     global const float* restrict frames;
-    float volume;  // of the world's voxels, cubic metres
+    float volume;  // volume of the world's voxels, cubic metres
 } Emitters;
 
 /// The value of Emitters in a kernel with these parameters.
@@ -42,17 +42,17 @@ typedef struct {
     { 0, 0, 0, 0, 0, 0.0f }
 #endif
 
-/// Emitters' boxes as points see them: coordinates in which the box is the unit cube.
+/// Emitters' boxes seen from points, in coordinates in which the box is the unit cube.
 typedef struct {
     Vector at;      // the point
-    Vector weight;  // of each axis' side: how likely it is chosen; 0: it isn't seen
+    Vector weight;  // weight of the side across each axis; 0: it isn't visible
     lane_uint frame;
     lane_float sum;  // of the weights
     lane_float probability;
     lane_float volume;
 } BoxView;
 
-/// A vector mapped by nine numbers of a frame.
+/// A vector, mapped by the matrix at `first` of a frame.
 static inline Vector framed(const Emitters* e, lane_uint frame, uint first, Vector v) {
     if (!VXL_INSTANCES) return v;
     lane_float m[9];
@@ -63,8 +63,8 @@ static inline Vector framed(const Emitters* e, lane_uint frame, uint first, Vect
     return result;
 }
 
-/// How much a side counts of an axis along which the point is `at`: its distance from the box's
-/// middle, to which the solid angle of the side is in proportion from far away.
+/// The weight of the visible side across an axis along which the point is `at`: the distance from
+/// the box's middle, to which the solid angle of the side is proportional from far away.
 static inline lane_float side_weight(lane_float at, lane_uint sides, uint low) {
     const lane_int below = LANE_MASK(at < 0.0f) & LANE_MASK((sides & low) != 0u);
     const lane_int above = LANE_MASK(at > 1.0f) & LANE_MASK((sides & (low << 1)) != 0u);
@@ -102,9 +102,8 @@ static inline BoxView view_box(const Emitters* e, lane_uint number, Vector point
     return b;
 }
 
-/// The probability, per solid angle, of rays that come through a side with this weight after t of
-/// ways whose component across the side is `across` in the box's coordinates and whose length is
-/// `metres`.
+/// The probability, per solid angle, of rays that pass a side of weight `weight` at t. Their ways
+/// have the component `across` the side in the box's coordinates, and the length `metres`.
 static inline lane_float side_density(const BoxView* b, lane_float weight, lane_float t,
                                       lane_float across, lane_float metres) {
     const lane_int some = LANE_MASK(weight > 0.0f) & LANE_MASK(across != 0.0f);
@@ -115,7 +114,8 @@ static inline lane_float side_density(const BoxView* b, lane_float weight, lane_
     return LANES_SELECT(some, density, (lane_float)0.0f);
 }
 
-/// When a way comes between an axis' two planes: 0 if it begins there.
+/// The t at which a way enters the space between an axis' two planes; 0 if it doesn't enter it from
+/// outside.
 static inline lane_float entry_of(lane_float at, lane_float along) {
     const lane_float out = LANES_SELECT(LANE_MASK(at > 1.0f), 1.0f - at, -at);
     const lane_int outside = LANE_MASK(at < 0.0f) | LANE_MASK(at > 1.0f);
@@ -124,8 +124,8 @@ static inline lane_float entry_of(lane_float at, lane_float along) {
     return LANES_SELECT(comes, t, (lane_float)0.0f);
 }
 
-/// The probability, per solid angle, with which the points would have sent rays along `way`, in the
-/// world's voxels and `metres` long, to the emitters that these have met.
+/// The probability, per solid angle, with which the points would have sent rays along `way` to the
+/// emitters that rays have met. `way` is in the world's voxels and `metres` long.
 static inline lane_float emitter_density(const Emitters* e, const BoxView* b, Vector way,
                                          lane_float metres) {
     const Vector along = framed(e, b->frame, 0u, way);
@@ -145,11 +145,12 @@ typedef struct {
     lane_int found;      // mask: the emitter has a side towards the point
     lane_uint number;    // of the emitter
     Vector direction;    // a unit vector in metres
-    lane_float metres;   // how far away the last point of the emitter's box can be
+    lane_float metres;   // how far away the farthest point of the emitter's box can be
     lane_float density;  // the probability of the direction, per solid angle
 } EmitterRays;
 
-/// A number of [0, 1) that has decided for `yes` if it is below `share`, spread over [0, 1) again.
+/// Stretches a number x of [0, 1), which has decided for `yes` by being below `share`, to [0, 1)
+/// again.
 static inline lane_float spread_again(lane_float x, lane_float share, lane_int yes) {
     const lane_float low = LANES_SELECT(yes, (lane_float)0.0f, share);
     const lane_float width = LANES_SELECT(yes, share, 1.0f - share);
@@ -157,9 +158,9 @@ static inline lane_float spread_again(lane_float x, lane_float share, lane_int y
     return clamp(exact_divide(x - low, safe), 0.0f, 0.99999994f);
 }
 
-/// How far away the last points of boxes can be, to which `way` in the world's voxels leads, which
-/// is `metres` long. No point of a box is farther from another than its diagonal, and rays
-/// begin less than a voxel away from where they are aimed.
+/// How far away the farthest points of boxes can be. `way`, in the world's voxels and `metres`
+/// long, leads to a point of the box. No point of a box is farther from another than its diagonal,
+/// and rays begin less than a voxel away from where they are aimed.
 static inline lane_float farthest_point(const Emitters* e, const BoxView* b, Vector way,
                                         lane_float metres, lane_int found) {
     lane_float width = (lane_float)1.7320509f;
@@ -171,7 +172,7 @@ static inline lane_float farthest_point(const Emitters* e, const BoxView* b, Vec
     return fma(metres, more, metres);
 }
 
-/// Chooses an emitter by `choice`, and the point of its box's sides at `place`.
+/// Chooses an emitter by `choice`, and the point on its box's sides by `place`.
 static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float4 edge,
                                          SquareBits choice, SquarePoint place) {
     const lane_float zero = (lane_float)0.0f, by_share = unit_interval(choice.y);
@@ -205,7 +206,7 @@ static inline EmitterRays choose_emitter(const Emitters* e, Vector origin, float
     return s;
 }
 
-/// The emitters in these voxels of instances or the world, VXL_NO_EMITTER where a voxel is none.
+/// The emitters in these voxels of instances or the world; VXL_NO_EMITTER for other voxels.
 static inline lane_uint emitter_at(const Emitters* e, lane_uint voxel, lane_uint instance,
                                    lane_int wanted) {
     global const uint* words = (global const uint*)e->records;

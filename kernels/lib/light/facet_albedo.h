@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much light rough facets return, by tables of the angle: see VXL_ALBEDO_ENTRIES.
+// The light that rough facets return, from tables over the angle: see VXL_ALBEDO_ENTRIES.
 #ifndef VXL_FACET_ALBEDO_H
 #define VXL_FACET_ALBEDO_H
 
@@ -9,21 +9,22 @@
 /// The tables of surfaces' facets.
 typedef struct {
     global const float* restrict materials;
-    lane_uint first;   // the number of the first value
+    lane_uint first;   // the index of the first value
     lane_float width;  // of highlights, above 0
-    // Where textures have maps: the table of the next roughness, and its part of what is between.
+    // Where textures have maps: the table of the next roughness, and its weight.
     lane_uint next;
     lane_float part;
 } FacetTable;
 
-/// What facets return at some angle: of all light at once if they reflect all of it, or the part
-/// (1 - m)^5; the share that they miss, which is later light; and the share that reaches them.
+/// What facets return at an angle: `all` is the share returned at once if they reflect all light,
+/// `by_angle` the share if they reflect the part (1 - m)^5; `missing` is the share that they miss,
+/// which is returned later; `entered` is the share that reaches them.
 typedef struct {
     lane_float all, by_angle, missing, entered;
 } Albedo;
 
-/// One of the `rows` numbers of an entry, `at` a place between the first of `entries`, 0, and the
-/// last, 1.
+/// One number of an entry, interpolated: entries have `rows` numbers, and `at` is 0 at the first
+/// entry, 1 at the last.
 static inline lane_float between_entries(global const float* restrict materials, lane_uint values,
                                          uint rows, uint row, lane_float at) {
     const lane_float place = at * (float)(VXL_ALBEDO_ENTRIES - 1);
@@ -34,7 +35,7 @@ static inline lane_float between_entries(global const float* restrict materials,
     return fma(place - LANES_FLOAT(entry), high - low, low);
 }
 
-/// One of the numbers of VXL_ALBEDO_FLOATS, between the two tables.
+/// One of the VXL_ALBEDO_FLOATS numbers, interpolated between the two tables.
 static inline lane_float between_tables(const FacetTable* t, uint row, lane_float at) {
     const lane_float low = between_entries(t->materials, t->first, VXL_ALBEDO_FLOATS, row, at);
     if (!VXL_TEXTURE_MAPS) return low;
@@ -42,7 +43,7 @@ static inline lane_float between_tables(const FacetTable* t, uint row, lane_floa
     return fma(t->part, high - low, low);
 }
 
-/// What facets that all light reaches return.
+/// What facets return if all light reaches them.
 static inline Albedo albedo_at(const FacetTable* t, lane_float cosine) {
     const lane_float by_width = exact_divide(cosine * (1.0f + t->width), cosine + t->width);
     Albedo a;
@@ -53,8 +54,8 @@ static inline Albedo albedo_at(const FacetTable* t, lane_float cosine) {
     return a;
 }
 
-/// What facets return at once that reflect `reflectance` of the light straight on, and `grazing` of
-/// it at grazing angles.
+/// The share that facets return at once if they reflect `reflectance` at normal incidence and
+/// `grazing` at grazing angles.
 static inline lane_float at_once(const Albedo* a, lane_float reflectance, lane_float grazing) {
     return fma(reflectance, a->all - a->by_angle, grazing * a->by_angle);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light along a shadow ray that transmitting surfaces and objects let through.
+// The part of a shadow ray's light that transmitting surfaces and objects let through.
 #ifndef VXL_FILTER_H
 #define VXL_FILTER_H
 
@@ -26,14 +26,14 @@ static inline lane_float medium_between(const PyramidView* p, const MediumView* 
                         (lane_float)0.0f);
 }
 
-/// The progress of shadow rays, and the light that surfaces and objects so far let through.
+/// The progress of shadow rays, and the light that surfaces and objects have let through so far.
 typedef struct {
-    lane_float throughput[3];  // by surfaces
+    lane_float throughput[3];  // of surfaces
     lane_float depth[3];       // optical depth of objects and of the medium between them
     lane_float t_last;         // where the last surface was
-    lane_float t_out;          // where the way leaves the world, in which objects end
-    lane_float metres;         // of a unit of t
-    lane_int layers;           // surfaces met
+    lane_float t_out;          // where the ray leaves the world, in which all objects end
+    lane_float metres;         // metres per unit of t
+    lane_int layers;           // number of surfaces met
 } Filter;
 
 /// The filter of rays at their start.
@@ -54,7 +54,7 @@ static inline Filter begin_filter(PyramidShape shape, const Walk* w, lane_float 
 }
 
 /// Adds the optical depth of the `ended` rays' way from the last surface to `t_now`: that of the
-/// object `before`, which counts there, or of the medium.
+/// object `before`, the effective medium there, or of the medium of S.
 static inline void add_depth(const WorldView* world, const Surroundings* around, const Walk* w,
                              lane_uint before, lane_float t_now, lane_int ended, Filter* filter) {
     const lane_uint record =
@@ -84,12 +84,12 @@ static inline lane_int passes_glass_face(const WorldView* world, const Surroundi
                                          const Packet* f, lane_uint packed, lane_int passing) {
     const Walk* w = &f->walk;
     const lane_int exit = f->found.exit;
-    // Rays that enter a body out of another one have left that at the same t.
+    // Rays that enter a body directly from another one have left that one at the same t.
     const lane_int follows = f->ray_state.goes_on & LANE_MASK(f->found.t == f->ray_state.t_first);
     const lane_int faces = passing & (exit | follows) & is_cube(packed, f->found.primitive) &
                            LANE_MASK(w->axis != 3) & is_joined(packed, around->materials);
     if (!lanes_any(faces)) return faces;
-    FaceCell other = {w->x, w->y, w->z};  // of rays that leave, the cell behind the face
+    FaceCell other = {w->x, w->y, w->z};  // for rays that leave, the cell behind the face
     const FaceCell before = neighbor_of(other, LANES_AS_UINT(w->axis), ~crossed_upwards(w));
     other.x = LANES_SELECT(exit, other.x, before.x);
     other.y = LANES_SELECT(exit, other.y, before.y);
@@ -161,7 +161,8 @@ static inline void leave_instances(const PyramidView* p, lane_int restarted, Pac
     ray_state->t_first = LANES_SELECT(restarted, zero, ray_state->t_first);
 }
 
-/// Lets the `passing` rays go on from the surface that they have found, of these attributes.
+/// Lets the `passing` rays continue from the surface that they have found, whose packed attributes
+/// are `packed`.
 static inline void go_on(const PyramidView* p, lane_uint packed, lane_int leaving, lane_int passing,
                          Packet* f, Filter* filter) {
     const SurfaceHit* found = &f->found;
@@ -181,16 +182,16 @@ static inline void go_on(const PyramidView* p, lane_uint packed, lane_int leavin
     filter->t_last = ray_state->t_first;
 }
 
-/// Filters the light of the `ended` rays on their way to the surface that those of `hit` have
-/// found, or to their light, and lets it go on through that surface: the mask of rays that do. The
-/// surface numbered VXL_MAX_LAYERS ends a ray.
+/// Filters the light of the `ended` rays on their way to the surface that those in `hit` have
+/// found, or to their light. Lets the light continue through that surface, and returns the mask of
+/// rays that do. The surface numbered VXL_MAX_LAYERS ends a ray.
 static inline lane_int pass_surface(const WorldView* world, const Surroundings* around, Packet* f,
                                     lane_int ended, lane_int hit, Filter* filter) {
     const SurfaceHit* found = &f->found;
     RayState* ray_state = &f->ray_state;
     const Walk* w = &f->walk;
     global const float* materials = around->materials;
-    // The way up to here, to the light or out of the world, inside of the object that counts.
+    // The way up to here, or to the light, or out of the world, lies inside the effective medium.
     const lane_uint before = effective_medium(&ray_state->media, around->ranks);
     const lane_float t_now = LANES_SELECT(hit, found->t, fmax(filter->t_out, filter->t_last));
     add_depth(world, around, w, before, t_now, ended, filter);

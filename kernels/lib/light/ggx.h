@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rough surfaces as mirrors in all directions: GGX's microfacets, by Smith's shadowing that knows
-// heights (Walter et al. 2007; Heitz 2014).
+// Rough surfaces, modelled as mirrors in all directions: GGX's microfacets with Smith's
+// height-correlated shadowing (Walter et al. 2007; Heitz 2014).
 //
-// Directions are unit vectors in a surface's own frame, whose z is the normal. With
-// k(v) = sqrt(width^2 (x^2 + y^2) + z^2) the shares that other facets hide need no quotient:
-// G2 / (4 z_in z_out) = 1 / (2 (k_in z_out + k_out z_in)), and of facets seen from `out`,
-// G1 / (4 z_out) = 1 / (2 (z_out + k_out)).
+// Directions are unit vectors in a surface's own frame, whose z is the normal. With k(v) =
+// sqrt(width^2 (x^2 + y^2) + z^2), the terms for shadowing and masking need no quotient: G2 / (4
+// z_in z_out) = 1 / (2 (k_in z_out + k_out z_in)), and, for facets seen from `out`, G1 / (4 z_out)
+// = 1 / (2 (z_out + k_out)).
 #ifndef VXL_GGX_H
 #define VXL_GGX_H
 
@@ -17,7 +17,7 @@ typedef struct {
     Vector x, y, z;
 } Frame;
 
-/// The axes of around_normal.
+/// A frame with the axes that around_normal uses.
 static inline Frame frame_around(Vector n) {
     const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
     const Frame f = {around_normal(n, one, zero, zero), around_normal(n, zero, one, zero), n};
@@ -36,13 +36,13 @@ static inline Vector out_of_frame(const Frame* f, Vector v) {
     return result;
 }
 
-/// k(v) above.
+/// The length k(v) of the file's head.
 static inline lane_float stretched_length(Vector v, lane_float width) {
     const lane_float aside = fma(v.x, v.x, v.y * v.y);
     return exact_sqrt(fma(width * width, aside, v.z * v.z));
 }
 
-/// How many facets face along h, which is of any length: their area per solid angle.
+/// The density of facets that face along h, which has any length: their area per solid angle.
 static inline lane_float facet_density(Vector h, lane_float width) {
     const lane_float aside = fma(h.x, h.x, h.y * h.y), squared = fma(h.z, h.z, aside);
     const lane_float stretched = fma(width * width, h.z * h.z, aside);
@@ -51,9 +51,10 @@ static inline lane_float facet_density(Vector h, lane_float width) {
     return 0.318309886f * ratio * ratio;
 }
 
-/// What white facets return between two directions that h lies between, the second at a cosine: pi
-/// times the reflectance distribution times the cosine, in the lanes `above`. Sets the density of
-/// directions that they mirror `out` to, in the lanes `is`.
+/// The light that white facets return between the directions `in`, at a cosine, and `out`, with
+/// half vector h: pi times the reflectance distribution times the cosine, in the lanes `above`.
+/// Sets `mirrored` to the density of directions into which the facets mirror `out`, in the lanes
+/// `is`.
 static inline lane_float facet_lobe(Vector h, Vector in, lane_float cosine, Vector out,
                                     lane_float width, lane_int above, lane_int is,
                                     lane_float* mirrored) {
@@ -66,8 +67,8 @@ static inline lane_float facet_lobe(Vector h, Vector in, lane_float cosine, Vect
                         LANES_SELECT(above & LANE_MASK(both > 0.0f), both, one));
 }
 
-/// Unit normals of facets that are seen from `out`, each as probable as it is visible (Dupuy &
-/// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
+/// Unit normals of facets seen from `out`, each as probable as its visible area (Dupuy & Benyoub
+/// 2023, "Sampling Visible GGX Normals with Spherical Caps").
 static inline Vector visible_facet(Vector out, lane_float width, SquarePoint p) {
     const Vector stretched = {out.x * width, out.y * width, out.z};
     const Vector view = unit(stretched);
@@ -80,7 +81,7 @@ static inline Vector visible_facet(Vector out, lane_float width, SquarePoint p) 
     return unit(facet);
 }
 
-/// The mirrored directions of `out` at facets that are seen from there.
+/// The directions into which facets seen from `out` mirror it.
 static inline Vector mirrored_by_facet(Vector out, lane_float width, SquarePoint p) {
     const Vector h = visible_facet(out, width, p);
     const lane_float twice = 2.0f * dot_product(out, h);

@@ -38,7 +38,8 @@ static inline Layer load_layer(const Surroundings* around, global const uint* re
     return l;
 }
 
-/// Adds the layer's light and coverage to its nodes; what is left of both goes on with `on`.
+/// Adds the layer's light and coverage to its nodes. `on` gets what is left of both for the layers
+/// behind.
 static inline void add_layer(const Layer* l, const RayBatch* batch, uint first, uint first_layer,
                              const NodeLight* nodes, global float* restrict node_weights,
                              NewRays* on) {

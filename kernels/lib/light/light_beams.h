@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The use of a light's beams: where shadow rays to the light can end.
+// Where shadow rays may end, given the beams of a light.
 #ifndef VXL_LIGHT_BEAMS_H
 #define VXL_LIGHT_BEAMS_H
 
@@ -15,8 +15,8 @@ static inline lane_float beside_c(const BeamGrid* g, lane_float y, lane_float z)
     return g->axis == 2 ? y : z;
 }
 
-/// The t from which on nothing is between rays and the grid's light; +infinity if that is unknown.
-/// `ends` are those of send_light_beams.
+/// The t beyond which nothing lies between rays and the grid's light; +infinity if that is unknown.
+/// `ends` are the ends that send_light_beams wrote.
 static inline lane_float clear_from(const BeamGrid* g, global const float* restrict ends,
                                     const Walk* w) {
     const lane_float oa = g->axis == 0 ? w->ox : g->axis == 1 ? w->oy : w->oz;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays from surface points to light: to an emitter, or to a sky that is a map.
+// Rays from surface points to light sources: to an emitter, or to a sky that is a map.
 #ifndef VXL_LIGHT_RAYS_H
 #define VXL_LIGHT_RAYS_H
 
@@ -7,7 +7,7 @@
 #include "lib/light/path_samples.h"
 #include "lib/light/sky_map.h"
 
-/// The map's parameters where paths send rays to it. A comma ends them.
+/// The map's parameters, where paths send rays to it. A comma ends them.
 #if VXL_SKY_RAYS
 #define VXL_SOUGHT_SKY_PARAMETERS VXL_SKY_MAP_PARAMETERS
 #define VXL_SOUGHT_SKY VXL_SKY_MAP_VIEW
@@ -17,7 +17,7 @@
     { {0, 0, 0, 0, 0, 0, 0, 0}, 0, 0 }
 #endif
 
-/// Chooses for each path where it looks for light, from `origin` in the world's voxels.
+/// Chooses for each path where it looks for light, seen from `origin` in the world's voxels.
 static inline EmitterRays choose_light(const Emitters* emitters, const SkyMap* sky,
                                        const PathSamples* samples, Vector origin, float4 edge) {
     const SquareBits choice = path_bits(samples, VXL_DECISION_EMITTER);

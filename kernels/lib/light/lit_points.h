@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface points that a light may reach, and how they see it.
+// Surface points that a light may reach, and the light as they see it.
 #ifndef VXL_LIT_POINTS_H
 #define VXL_LIT_POINTS_H
 
@@ -10,19 +10,19 @@
 #include "shared/paths.h"
 #include "shared/trace.h"
 
-/// The light as a packet of surface points sees it.
+/// A light as a packet of surface points sees it.
 typedef struct {
     lane_int lit;       // mask: the light may contribute to the point
-    Vector to_light;    // in voxels: to the light; directional light: towards it
-    Vector l;           // the unit vector to it, in metres' space
-    lane_float cosine;  // between it and the shading normal
+    Vector to_light;    // in voxels: to the light; for a directional light, its direction
+    Vector l;           // the unit vector to the light, in metric space
+    lane_float cosine;  // between l and the shading normal
     lane_float falloff;
 } Incidence;
 
 /// Surface points that light may reach. Their shadow rays begin at `start`.
 typedef struct {
     lane_int lit;      // mask
-    lane_int leaving;  // mask: met from inside; only of scenes with rough glass
+    lane_int leaving;  // mask: met from inside; only in scenes with rough glass
     lane_uint material;
     Colors colors;
     Vector position, normal, shading_normal, start;

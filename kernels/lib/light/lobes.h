@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways on which surfaces send light, and how a path chooses one of them.
+// The ways in which surfaces send light on, and how a path chooses one of them.
 #ifndef VXL_LOBES_H
 #define VXL_LOBES_H
 
@@ -9,22 +9,23 @@
 #include "lib/sampling/sobol.h"
 #include "lib/surface/surface_color.h"
 
-/// How much of the light that comes from each way on a packet's surfaces return.
+/// The share of light that a packet's surfaces return from each way.
 typedef struct {
-    lane_float diffuse[3];  // in all directions, also all that physically based ones return
+    lane_float diffuse[3];  // in all directions, including all that physically based surfaces
+                            // return
     lane_float reflected, refracted;
-    lane_float straight;  // past the surface, which covers only a part
+    lane_float straight;  // past the surface, which covers only a part of what is behind
 } Lobes;
 
-/// The ways that the paths go on, as masks, and what their light is multiplied by.
+/// The chosen ways as masks, and the factors of their light.
 typedef struct {
     lane_int diffuse, reflected, refracted, straight;
     lane_float throughput[3];
-    lane_float clear;   // in proportion to the straight way's throughput
-    lane_float chance;  // of the diffuse way
+    lane_float clear;   // factor of the straight way's uncovered part
+    lane_float chance;  // probability of the diffuse way
 } Choice;
 
-/// The physically based ones of a packet's surfaces, as paths see them.
+/// The physically based surfaces among a packet's surfaces, as paths see them.
 static inline PhysicalView view_of_paths(const Surroundings* around,
                                          global const uint* restrict colors, const RayBatch* batch,
                                          uint first, const ScatterPoint* p) {
@@ -36,7 +37,8 @@ static inline PhysicalView view_of_paths(const Surroundings* around,
                          opposite(p->way), p->leaving);
 }
 
-/// What the surfaces return. Those that a path meets after its last scattering only let it pass.
+/// The lobes of the surfaces. Surfaces that a path meets after its last scattering only let it
+/// pass.
 static inline Lobes lobes_of(const Surroundings* around, global const uint* restrict colors,
                              const RayBatch* batch, uint first, ScatterPoint* p,
                              const PhysicalView* view, const lane_float opacity,
@@ -67,8 +69,8 @@ static inline Lobes lobes_of(const Surroundings* around, global const uint* rest
     return l;
 }
 
-/// Chooses a way for each path with a probability in proportion to what comes from it. `roulette`
-/// is the mask of paths that may end, the more probably the less light they can still bring.
+/// Chooses a way for each path with a probability proportional to the light from it. `roulette` is
+/// the mask of paths that may end; they end the more probably, the less light they can still bring.
 static inline Choice choose_way(const Lobes* l, const lane_float* throughput, SquarePoint p,
                                 lane_int roulette) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;

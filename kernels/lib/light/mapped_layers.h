@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of physically based surfaces whose roughness and metalness maps change: their tables
-// lie between those of two roughnesses.
+// The layers of physically based surfaces whose roughness and metalness maps change them: their
+// tables are interpolated between those of two roughnesses.
 #ifndef VXL_MAPPED_LAYERS_H
 #define VXL_MAPPED_LAYERS_H
 
 #include "lib/light/facet_albedo.h"
 #include "lib/surface/surface_color.h"
 
-/// What a material says of its layers, or what maps make of it.
+/// The layers as a material, or its maps, define them.
 typedef struct {
-    lane_int mapped;  // mask: maps change it
+    lane_int mapped;  // mask: maps change the material
     lane_float metallic, width;
     lane_float missing, by_angle;  // means of what facets return
 } Layers;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays that light paths go on with: their directions, and the objects that they are inside of.
+// The rays with which light paths continue: their directions, and the objects that they are inside
+// of.
 #ifndef VXL_NEXT_RAYS_H
 #define VXL_NEXT_RAYS_H
 
@@ -7,14 +8,15 @@
 #include "lib/light/lobes.h"
 #include "lib/sampling/directions.h"
 
-/// The least cosine with a surface of a way on which it scatters light in all directions.
+/// The minimum cosine with a surface of a direction into which it scatters light.
 static inline lane_float min_cosine(const ScatterPoint* p) {
     const lane_float zero = (lane_float)0.0f;
     if (!VXL_SHADING_NORMALS) return zero;
     return LANES_SELECT(p->curved, (lane_float)VXL_MIN_COSINE, zero);
 }
 
-/// The cosine of directions from surfaces, of which mask `above` tells those on the surfaces' side.
+/// The cosines of directions with surfaces' shading normals. Sets `above` to the mask of those
+/// above.
 static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch, uint first,
                                    Vector direction, lane_int* above) {
     Vector normal = p->normal;
@@ -25,18 +27,18 @@ static inline lane_float cosine_at(const ScatterPoint* p, const RayBatch* batch,
     return fmax(cosine, 0.0f);
 }
 
-/// The ways on which surfaces scatter light in all directions.
+/// The directions into which surfaces scatter light.
 typedef struct {
     Vector ahead;    // a unit vector
-    lane_int moved;  // mask: up to the least cosine
+    lane_int moved;  // mask: moved up to the minimum cosine
     // Only for physically based surfaces:
-    lane_int is, lives;    // masks: such a surface; the way is above it, or through it
-    lane_int through;      // mask: the latter
+    lane_int is, lives;    // masks: physically based surface; direction above it or through it
+    lane_int through;      // mask: direction through the surface
     lane_float density;    // of the direction, per solid angle
-    lane_float weight[3];  // what comes from there over the mean of all directions
+    lane_float weight[3];  // light from there over the mean of all directions
 } ScatteredWay;
 
-/// No way: rays along the normals.
+/// A way that leads nowhere: rays along the normals.
 static inline ScatteredWay no_scattered_way(const ScatterPoint* p) {
     ScatteredWay s;
     s.ahead = p->normal;
@@ -46,8 +48,8 @@ static inline ScatteredWay no_scattered_way(const ScatterPoint* p) {
     return s;
 }
 
-/// Turns ways from physically based surfaces to where these scatter light. `layer` chooses the part
-/// of the surface.
+/// Replaces ways from physically based surfaces by directions into which these scatter light.
+/// `layer` chooses the part of the surface.
 static inline void scatter_physically(const PhysicalView* view, Vector normal, SquarePoint at,
                                       lane_float layer, ScatteredWay* s) {
     lane_float value[3];
@@ -90,8 +92,8 @@ static inline ScatteredWay scatter_by(const ScatterPoint* p, const RayBatch* bat
     return s;
 }
 
-/// VXL_PATH_EMITTER of rays that surfaces have scattered: 0 for those `moved`, which all lie on one
-/// cone that no ray to an emitter can be on.
+/// VXL_PATH_EMITTER of rays that surfaces have scattered. It is 0 for `moved` rays, which all lie
+/// on one cone that no ray to an emitter can lie on.
 static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch, uint first,
                                    const Choice* way, const ScatteredWay* scattered,
                                    const NewRays* r, float4 edge) {
@@ -103,8 +105,8 @@ static inline lane_uint density_of(const ScatterPoint* p, const RayBatch* batch,
     return LANES_SELECT(way->diffuse & ~scattered->moved, LANES_AS_UINT(density), (lane_uint)0);
 }
 
-/// VXL_PATH_DENSITY of rays that surfaces have scattered: 0 for those that no ray to a light could
-/// be, since these go by the shading normal.
+/// VXL_PATH_DENSITY of rays that surfaces have scattered. It is 0 for directions that no ray to a
+/// light can have, since these are tested against the shading normal.
 static inline lane_float shared_density(const RayBatch* batch, uint first, const Choice* way,
                                         const ScatteredWay* scattered) {
     lane_int shared = way->diffuse & scattered->is & ~scattered->moved & shares_light(batch, first);
@@ -115,8 +117,8 @@ static inline lane_float shared_density(const RayBatch* batch, uint first, const
     return LANES_SELECT(shared, scattered->density, (lane_float)0.0f);
 }
 
-/// Directions and sides of the rays that leave surfaces: where these scatter light in all
-/// directions, where mirrors reflect and glass refracts it.
+/// Sets the directions and sides of the rays that leave surfaces: scattered directions, mirrored
+/// ones, and those that glass refracts.
 static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const RayBatch* batch,
                                 uint first, const Choice* way, const ScatteredWay* scattered,
                                 NewRays* r) {
@@ -135,8 +137,8 @@ static inline void set_out_ways(PyramidShape shape, const ScatterPoint* p, const
     if (VXL_AREA_SHARES) r->density = shared_density(batch, first, way, scattered);
 }
 
-/// Completes rays of scenes with transmitting objects: which of these the rays are inside of, and
-/// those that go on along the ray that met the surface. Rough glass has `bent` some.
+/// Completes rays in scenes with transmitting objects: sets the objects that they are inside of,
+/// and lets unbent ones continue along the ray that met the surface. Rough glass has `bent` some.
 static inline void enter_media(PyramidShape shape, const Surroundings* around,
                                const ScatterPoint* p, const RayBatch* batch, uint first,
                                const Choice* way, lane_int bent, NewRays* r) {

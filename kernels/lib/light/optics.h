@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell and Fresnel over lanes, without cancellation where it would hurt.
+// Snell's and Fresnel's laws over lanes, without harmful cancellation.
 #ifndef VXL_OPTICS_H
 #define VXL_OPTICS_H
 
 #include "lib/lanes/vector.h"
 
-/// How light goes on behind a surface between two media.
+/// How light continues behind a surface between two media.
 typedef struct {
     lane_int total;        // mask: total internal reflection
     lane_float cosine;     // of the angle of refraction, 0 where total
     lane_float reflected;  // Fresnel's reflectance of unpolarised light, 1 where total
-    lane_float refracted;  // the rest of 1; the smaller of the two is not a difference
+    lane_float refracted;  // 1 - reflected; the smaller of the two is not a difference
 } Refraction;
 
 /// cos^2 of the angle of refraction: 1 - eta^2 (1 - c^2) = (eta c)^2 - (eta^2 - 1).
 ///
-/// Below 1 that is a sum. Above 1, eta c - sqrt(eta^2 - 1) is what decides: eta^2 - 1 = (eta - 1)
-/// (eta + 1) and its root are held in two floats each, also for indices almost equal, so that
-/// the sign is right within 1e-7 of the critical angle. Source: accuracy notes on Snell's law;
-/// Kahan.
+/// For eta below 1 this is a sum. For eta above 1, the sign of eta c - sqrt(eta^2 - 1) decides:
+/// eta^2 - 1 = (eta - 1) (eta + 1) and its root are held in two floats each, also for indices that
+/// are almost equal, so that the sign is right within 1e-7 of the critical angle. Source: accuracy
+/// notes on Snell's law; Kahan.
 static inline lane_float squared_cosine(lane_float eta, lane_float c) {
     const lane_int denser = LANE_MASK(eta > 1.0f);
     const lane_float less = fabs(eta - 1.0f), more = eta + 1.0f;
@@ -32,9 +32,10 @@ static inline lane_float squared_cosine(lane_float eta, lane_float c) {
     return LANES_SELECT(denser, from_denser, from_rarer);
 }
 
-/// `eta` is the index before the surface over the one behind it, `c` the cosine of incidence. At
-/// c = 0 ratios are 0 / 0 between equal media and where all is reflected, which need none;
-/// elsewhere floats are 2^-24 apart from 1 or more, so that c or the cosine behind is above 3e-4.
+/// Refracts at a surface. `eta` is the index before the surface over the one behind it, `c` the
+/// cosine of incidence. At c = 0, ratios between equal media and under total reflection would be 0
+/// / 0, but are not needed; elsewhere floats differ from 1 by at least 2^-24, so c or the cosine
+/// behind is above 3e-4.
 static inline Refraction refraction_at(lane_float eta, lane_float c) {
     const lane_float square = squared_cosine(eta, c);
     const lane_int same = LANE_MASK(eta == 1.0f);
@@ -56,7 +57,8 @@ static inline Refraction refraction_at(lane_float eta, lane_float c) {
 }
 
 /// The unit direction behind a surface of a ray along the unit vector `v`. `n` is the unit normal
-/// against it, `c` the cosine of incidence; `eta` and `bend` as for refraction_at, not total.
+/// against the ray, `c` the cosine of incidence; `eta` and `bend` are as in refraction_at, without
+/// total reflection.
 static inline Vector refracted_direction(Vector v, Vector n, lane_float eta, lane_float c,
                                          const Refraction* bend) {
     const lane_float turn = fma(eta, c, -bend->cosine);

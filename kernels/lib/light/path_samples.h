@@ -9,13 +9,14 @@
 #include "shared/paths.h"
 #include "shared/trace.h"
 
-/// The pixels and samples of a packet's paths, and the surfaces that these have met.
+/// The pixels and samples of a packet's paths, and the number of surfaces that these have met.
 typedef struct {
     SampledPixels of;
     lane_uint met;
 } PathSamples;
 
-/// `target` numbers the paths' sight rays in their batch.
+/// The samples of paths in these states. `target` is the number of each path's sight ray in its
+/// batch.
 static inline PathSamples path_samples(const PathSampling* of, lane_uint target, lane_uint state) {
     const uint tiles_x = of->tiles_x;
     const lane_uint group = target / 16u;

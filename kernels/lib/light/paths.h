@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state that a path's rays hand on, and the nodes that collect their light.
+// The state that a path's rays pass on, and the nodes that collect their light.
 #ifndef VXL_PATHS_H
 #define VXL_PATHS_H
 
@@ -9,20 +9,20 @@
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/surroundings.h"
 
-/// No node: an entry that sends no ray.
+/// Marks an entry that sends no ray and so has no node.
 #define VXL_NO_CHILD 0xFFFFFFFFu
 
-/// Numbers in `counters`.
+/// Indices into `counters`.
 #define VXL_COUNT_LAYER 0u        // entries of the next layer
 #define VXL_COUNT_CHILDREN 1u     // nodes of the next depth
 #define VXL_COUNT_TO_EMITTERS 0u  // in global light: rays to emitters
-#define VXL_COUNT_ENDED 2u        // paths that ended for their small weight
+#define VXL_COUNT_ENDED 2u        // paths that ended because of their small weight
 
 /// The parameters that `bind` of NodeLight sets, in its order.
 #define VXL_NODE_PARAMETERS \
     global float* restrict node_radiance, global float* restrict node_coverage, uint node_stride
 
-/// The sums of light of nodes; `coverage` may be null.
+/// The light that nodes sum up; `coverage` may be null.
 typedef struct {
     global float* restrict radiance;
     global float* restrict coverage;
@@ -65,8 +65,8 @@ static inline lane_float largest(const lane_float* value) {
     return fmax(value[0], fmax(value[1], value[2]));
 }
 
-/// The chance that a path goes on which can still bring this share of a light. Its root weighs the
-/// time that a path takes against the noise that its end makes.
+/// The probability that a path continues that can still bring this share of a light. The square
+/// root balances the time that a path takes against the noise of ending it.
 static inline lane_float chance_to_go_on(lane_float brings) {
     return exact_sqrt(fmin(brings, 1.0f));
 }
@@ -75,12 +75,12 @@ static inline lane_int below(uint first, uint count) {
     return LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
 }
 
-/// VXL_PATH_JOINED of rays inside of a set of objects.
+/// VXL_PATH_JOINED for rays inside a set of objects.
 static inline lane_uint joined_flag(const MediumSet* in, global const float* restrict materials) {
     return LANES_AS_UINT(is_joined(body_inside(in), materials)) & VXL_PATH_JOINED;
 }
 
-/// The index of refraction of a RayBatch::inside.
+/// The index of refraction of a medium as in RayBatch::inside.
 static inline lane_float medium_ior(global const float* restrict materials, lane_uint medium) {
     const lane_int some = LANE_MASK(medium != 0u);
     const lane_uint material = ((medium - 1u) & LANES_AS_UINT(some)) * VXL_MATERIAL_FLOATS;
@@ -88,9 +88,9 @@ static inline lane_float medium_ior(global const float* restrict materials, lane
                         (lane_float)1.0f);
 }
 
-/// Mask: hits whose paths may share light with rays that are sent to lights with an area: those
-/// that aren't met inside of objects that let light through, and not on cubes with normals, above
-/// whose steps rays to lights begin, but paths don't.
+/// Mask: hits whose paths may share light with rays that are sent to lights with an area. Hits
+/// inside transmitting objects don't, nor do cubes with normals: rays to lights begin above their
+/// steps, but paths don't.
 static inline lane_int shares_light(const RayBatch* batch, uint first) {
     lane_int shares = LANE_MASK(LANES_NUMBERS >= 0);
     if (VXL_TRANSMISSION) shares &= LANE_MASK(LANES_LOAD(batch->inside, first) == 0u);
@@ -103,8 +103,8 @@ static inline lane_int shares_light(const RayBatch* batch, uint first) {
     return shares;
 }
 
-/// Adds a channel's light to the nodes that the `valid` lanes name, each at most one lane; `begins`
-/// their sums.
+/// Adds a channel's light to the nodes that the `valid` lanes name, at most one lane per node. With
+/// `begins`, the light starts their sums.
 static inline void add_to_nodes(const NodeLight* nodes, uint channel, lane_int valid,
                                 lane_uint target, lane_float light, uint begins) {
     int add[VXL_LANES];
@@ -124,7 +124,7 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
     if (lanes_any(mask)) atomic_add(counter, (uint)lanes_count(mask));
 }
 
-/// Does what cross_medium does, and counts the sets without room in `overflows`.
+/// Does what cross_medium does, and counts sets that were full in `overflows`.
 static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int leaving,
                                       lane_int crossing, global uint* overflows) {
     lane_int full;

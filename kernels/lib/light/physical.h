@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Physically based surfaces: metal, and matt surfaces under clear facets, both of rough facets, and
-// with a coat.
+// Physically based surfaces: metal, or matt surfaces under clear facets; the facets are rough, and
+// there may be a coat above.
 //
 // What facets return at once is GGX's lobe with Schlick's reflectance. What they return after more
-// reflections, and what comes back from the matt surface below them, has no direction of its own
-// and is shared out so that no light is lost and both ways between two directions are equal (Kulla
-// & Conty 2017, "Revisiting Physically Based Shading at Imageworks").
+// reflections, and what returns from the matt surface below, has no direction of its own and is
+// distributed so that no light is lost and the reflectance is reciprocal (Kulla & Conty 2017,
+// "Revisiting Physically Based Shading at Imageworks").
 #ifndef VXL_PHYSICAL_H
 #define VXL_PHYSICAL_H
 
@@ -16,43 +16,46 @@
 #include "lib/light/rough_glass.h"
 #include "lib/surface/surface_color.h"
 
-/// Surfaces as they are seen along one direction.
+/// Surfaces seen along one direction.
 typedef struct {
     lane_int is;  // mask: physically based ones
     global const float* restrict materials;
     FacetTable facets;
     Layers layers;
-    lane_float width, reflectance, multiple;  // the last: what comes back later of `reflectance`
-    lane_float grazing;                       // what facets reflect of light along the surface ...
-    lane_float clear_grazing;                 // ... and those of what isn't metal
-    lane_float facet[3];                      // what facets reflect straight on
-    lane_float later[3];                      // what light returns later, per missing shares
-    lane_float matt[3];                       // of the surface below, per passed shares
+    lane_float width, reflectance, multiple;  // multiple: what returns later of `reflectance`
+    lane_float grazing;                       // reflectance of the facets at grazing angles ...
+    lane_float clear_grazing;                 // ... and of the part that isn't metal
+    lane_float facet[3];                      // reflectance of the facets at normal incidence
+    lane_float later[3];                      // light that returns later, per product of missing
+                                              // shares
+    lane_float matt[3];                       // light of the matt surface below, per product of
+                                              // passed shares
     Frame frame;
     Vector out;         // the direction to the viewer, in the frame
-    Albedo seen;        // at its angle
-    lane_float passed;  // the share of light that gets through the facets there
+    Albedo seen;        // at the viewer's angle
+    lane_float passed;  // share of light that passes the facets at the viewer's angle
     lane_float albedo[3];
-    lane_float gloss;    // how probably paths are mirrored by facets
-    GlassView glass;     // the part of the surfaces that lets light through
-    Coat coat;           // on the others
+    lane_float gloss;    // probability that facets mirror paths
+    GlassView glass;     // of the surfaces that let light through
+    Coat coat;           // on the other surfaces
     lane_float tint[3];  // the colour of what light passes through
 } PhysicalView;
 
-/// What the facets return at an angle, under their coat.
+/// What the facets under the coat return at an angle.
 static inline Albedo albedo_below(const PhysicalView* s, lane_float cosine, lane_float returned) {
     const Albedo a = albedo_at(&s->facets, cosine);
     if (!VXL_COAT) return a;
     return under_coat(&s->coat, a, cosine, returned);
 }
 
-/// The share of light that gets through the facets of what isn't metal.
+/// The share of light that passes the facets of the part that isn't metal.
 static inline lane_float passed_share(const PhysicalView* s, const Albedo* a) {
     return fmax(
         a->entered - at_once(a, s->reflectance, s->clear_grazing) - s->multiple * a->missing, 0.0f);
 }
 
-/// What facets return later, per share that they don't return at once (Kulla & Conty 2017).
+/// The light that facets return later, per share that they don't return at once (Kulla & Conty
+/// 2017).
 static inline lane_float multiple_share(lane_float reflectance, lane_float grazing,
                                         lane_float missing) {
     const lane_float mean =
@@ -60,7 +63,7 @@ static inline lane_float multiple_share(lane_float reflectance, lane_float grazi
     return exact_divide(mean * mean * (1.0f - missing), fma(-mean, missing, (lane_float)1.0f));
 }
 
-/// The factor of the materials' matt part, chosen so that no light is lost.
+/// The factor of the materials' matt part; it is chosen so that no light is lost.
 static inline lane_float matt_factor(const PhysicalView* s, lane_uint material) {
     const lane_float own = LANES_GATHER_FLOAT(s->materials, material + VXL_MATERIAL_MATT);
     const Layers* l = &s->layers;
@@ -71,7 +74,8 @@ static inline lane_float matt_factor(const PhysicalView* s, lane_uint material) 
     return LANES_SELECT(l->mapped, exact_divide(one - l->metallic, passed), own);
 }
 
-/// Adds what the coat returns to the albedos, and what it does evenly to the rest.
+/// Adds what the coat returns to the albedos, and what it returns evenly in all directions to
+/// `rest`.
 static inline void add_coat(PhysicalView* s, lane_float glossy, lane_float* rest) {
     Coat* coat = &s->coat;
     const lane_float later = coat->share * coat->later * coat->missing;
@@ -82,7 +86,7 @@ static inline void add_coat(PhysicalView* s, lane_float glossy, lane_float* rest
     coat->chance = exact_divide(first, LANES_SELECT(LANE_MASK(all > 0.0f), all, (lane_float)1.0f));
 }
 
-/// Finds what surfaces of `base` colour and their layers return.
+/// Finds what surfaces of `base` colour return with their layers.
 static inline void set_layers(lane_uint material, const lane_float* base, PhysicalView* s) {
     const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
     const lane_float metallic = s->layers.metallic, missing = s->layers.missing;
@@ -117,8 +121,8 @@ static inline void set_layers(lane_uint material, const lane_float* base, Physic
     }
 }
 
-/// The surfaces of `material` that are seen from the unit vector `out`, by their `normal`, by the
-/// `leaving` lanes from inside. `color` is what color_offset tells.
+/// The surfaces of `material`, seen from the unit vector `out`, by their `normal`; the `leaving`
+/// lanes see them from inside. `color` is an offset from color_offset.
 static inline PhysicalView view_physical(global const float* restrict materials, lane_int met,
                                          lane_uint material, lane_uint color, Colors colors,
                                          Vector normal, Vector out, lane_int leaving) {
@@ -145,10 +149,10 @@ static inline PhysicalView view_physical(global const float* restrict materials,
     return s;
 }
 
-/// What surfaces return of the light from `in`, a unit vector in the world, towards the viewer:
-/// `value` holds pi times the reflectance distribution times the cosine, which for a white matt
-/// surface is the cosine. Returns the mask of directions above the surfaces; `density` is how
-/// probable paths are to go there, per solid angle.
+/// The light from `in`, a unit vector in the world, that surfaces return towards the viewer.
+/// `value` gets pi times the reflectance distribution times the cosine, which for a white matt
+/// surface is the cosine; `density` gets the probability, per solid angle, with which paths go
+/// there. Returns the mask of directions above the surfaces.
 static inline lane_int physical_value(const PhysicalView* s, Vector in, lane_float* value,
                                       lane_float* density) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
@@ -195,7 +199,7 @@ static inline lane_int physical_value(const PhysicalView* s, Vector in, lane_flo
     return above;
 }
 
-/// Finds what surfaces let through of the light from `in` on their other side, and the density of
+/// Finds how much light from `in`, on their other side, surfaces let through, and the density of
 /// that direction. Returns the mask of surfaces that let some of it through.
 static inline lane_int physical_through(const PhysicalView* s, Vector in, lane_float* value,
                                         lane_float* density) {
@@ -209,9 +213,9 @@ static inline lane_int physical_through(const PhysicalView* s, Vector in, lane_f
     return some;
 }
 
-/// Directions, as unit vectors in the world, in which paths go on, some of them into the surfaces.
-/// Where `layer`, spread over what isn't glass, is below `gloss` facets mirror them. `down` becomes
-/// the mask of those meant to get through glass.
+/// Directions, as unit vectors in the world, in which paths continue, some of them into the
+/// surfaces. Where `layer`, stretched over what isn't glass, is below `gloss`, facets mirror the
+/// path. `down` becomes the mask of paths that go through glass.
 static inline Vector physical_direction(const PhysicalView* s, SquarePoint at, lane_float layer,
                                         lane_int* down) {
     const lane_float one = (lane_float)1.0f;

@@ -8,9 +8,9 @@
 #include "lib/surface/shading_normal.h"
 #include "shared/scene.h"
 
-/// How much of a light with an area that a ray was sent to counts, where the rays that surfaces
-/// scatter find the same light with this density of their directions: the balance heuristic
-/// (Veach & Guibas 1995), for points of the `area` that are equally probable.
+/// The weight of a light with an area for a ray that was sent to it, where rays that surfaces
+/// scatter find the same light with this density of directions: the balance heuristic (Veach &
+/// Guibas 1995), for points of the `area` that are equally probable.
 static inline lane_float sent_share(lane_float density, lane_float falloff, lane_float area) {
     const lane_float likelier = fmin(density * falloff * area, 1e30f);
     return exact_reciprocal(likelier + 1.0f);
@@ -25,9 +25,9 @@ static inline lane_int scatters_to(const LitPoints* p, Vector direction) {
     return LANE_MASK(dot_product(p->normal, direction) >= lowest);
 }
 
-/// Sets the light that physically based ones of the points return towards the viewer. Returns the
-/// mask of points, of all kinds, that return any. Paths may run into `area` square metres of the
-/// light, too.
+/// Sets the light that the physically based ones among the points return towards the viewer.
+/// Returns the mask of points, of all kinds, that return any. Paths may also run into `area` square
+/// metres of the light.
 static inline lane_int find_physical_shares(LightRecord light, const Incidence* i, lane_float area,
                                             const LitPoints* p, Vector d, float4 edge,
                                             global const float* restrict materials, lane_int some,

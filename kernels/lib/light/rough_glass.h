@@ -2,10 +2,10 @@
 // Rough surfaces that let light through: facets of GGX's distribution that reflect and refract by
 // Fresnel's law (Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces").
 //
-// Light that facets don't return at once, on either side, comes back or gets through in all
-// directions, so that none is lost and both ways between two directions are equal (Kulla & Conty
-// 2017). Radiance isn't scaled by the square of the index of refraction: a path that comes out
-// again takes that back.
+// Light that facets don't return at once, on either side, returns or passes through in all
+// directions, so that none is lost and the distribution is reciprocal (Kulla & Conty 2017).
+// Radiance isn't scaled by the square of the index of refraction: a path that leaves the glass
+// again undoes the scaling.
 #ifndef VXL_ROUGH_GLASS_H
 #define VXL_ROUGH_GLASS_H
 
@@ -13,19 +13,19 @@
 #include "lib/light/optics.h"
 #include "shared/scene.h"
 
-/// The glass of surfaces, as it is seen along a direction from one of its sides.
+/// The glass of surfaces, seen along a direction from one of its sides.
 typedef struct {
-    lane_float share;        // of the surface; 0: it is none
-    lane_float eta;          // the index before the surface over that behind it
+    lane_float share;        // of the surface; 0: it isn't glass
+    lane_float eta;          // index of refraction before the surface over the one behind it
     lane_float missing;      // the share of light that facets don't return at once, at this angle
-    lane_float per_missing;  // over its mean on the side of the viewer ...
-    lane_float per_missing_behind;  // ... and on the other
-    lane_float back;                // the part of it that comes back
-    lane_uint here, behind;         // the tables' first numbers for the two sides
+    lane_float per_missing;  // 1 over the mean of `missing` on the viewer's side ...
+    lane_float per_missing_behind;  // ... and on the other side
+    lane_float back;                // the part of `missing` that returns
+    lane_uint here, behind;         // indices of the first values of the two sides' tables
     global const float* restrict materials;
 } GlassView;
 
-/// The missing share of a side at a place of its table, from 0 to 1.
+/// The missing share of a side at an angle, from the side's table.
 static inline lane_float glass_missing(const GlassView* g, lane_uint side, lane_float cosine,
                                        lane_float width) {
     const lane_float by_width = exact_divide(cosine * (1.0f + width), cosine + width);
@@ -66,9 +66,9 @@ static inline GlassView view_glass(global const float* restrict materials, lane_
     return g;
 }
 
-/// What glass returns of light from above, at a cosine: `lobe` is pi times that of white facets,
-/// which light meets at an angle with the cosine `meets`; `mirrored` is the density of directions
-/// that facets mirror. Sets how probable paths are to go there.
+/// The light from above, at a cosine, that glass returns. `lobe` is pi times the distribution of
+/// white facets, which light meets at an angle of cosine `meets`; `mirrored` is the density of
+/// directions that facets mirror. Sets `density` to the probability with which paths go there.
 static inline lane_float glass_value(const GlassView* g, lane_float width, lane_float cosine,
                                      lane_float lobe, lane_float meets, lane_float mirrored,
                                      lane_float* density) {
@@ -80,8 +80,9 @@ static inline lane_float glass_value(const GlassView* g, lane_float width, lane_
     return fma(lobe, reflected, later * missing * cosine);
 }
 
-/// Pi times what glass lets through of light from `in`, on the other side, times the cosine there,
-/// and how probable paths are to go there. Directions are in the surface's frame.
+/// Pi times the distribution of the light from `in`, on the other side, that glass lets through,
+/// times the cosine there. Sets `density` to the probability with which paths go there. Directions
+/// are in the surface's frame.
 static inline lane_float glass_through(const GlassView* g, lane_float width, Vector out, Vector in,
                                        lane_float* density) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
@@ -112,9 +113,9 @@ static inline lane_float glass_through(const GlassView* g, lane_float width, Vec
     return LANES_SELECT(below, value, zero);
 }
 
-/// Directions in which paths go on from glass. `choice` decides between facets and the rest, and
-/// between reflection and refraction. `down` becomes the mask of those meant to get through; facets
-/// may send light to the other side, too, where it is lost.
+/// Directions in which paths continue from glass. `choice` decides between facets and the rest, and
+/// between reflection and refraction. `down` becomes the mask of paths that pass through the glass;
+/// facets may send light to the wrong side, where it is lost.
 static inline Vector glass_direction(const GlassView* g, lane_float width, Vector out,
                                      SquarePoint at, lane_float choice, lane_int* down) {
     const lane_float one = (lane_float)1.0f;

@@ -10,32 +10,32 @@
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/ray_batch.h"
 
-/// The rays of one sort that leave a packet of surface points, and where they are put.
+/// The rays of one kind, reflected or refracted, that leave a packet of surface points.
 typedef struct {
-    lane_float returned;  // of their light that the surface returns
+    lane_float returned;  // the share of their light that the surface returns
     lane_int wanted;
 } Scattered;
 
-/// A packet of surface points. Directions are in metres' space: `way` along the ray, the normal
-/// against it.
+/// A packet of surface points. Directions are in metric space: `way` is along the ray, and the
+/// normal points against it.
 typedef struct {
     lane_int valid;         // mask: entries of the batch
-    lane_int hit, leaving;  // masks: the surface is met; from inside of its object
+    lane_int hit, leaving;  // masks: the surface is met; it is met from inside its object
     lane_uint packed, material, primitive;
-    lane_uint beyond;  // the glass behind the face of another, as VXL_SIDE_BEYOND_SHIFT has it
+    lane_uint beyond;  // the glass behind the face of other glass, as in VXL_SIDE_BEYOND_SHIFT
     lane_uint source;  // of the rays that leave the point
     Vector position, normal, way;
-    Vector shading;     // the normal by which light is reflected and refracted
-    lane_int curved;    // mask: it isn't that of the surface
-    lane_float cosine;  // of the angle of incidence with it
-    lane_float mirror;  // where maps change it: the share of light that is reflected
-    lane_float eta;     // the index of refraction before the surface over that behind it
+    Vector shading;     // the normal for reflection and refraction
+    lane_int curved;    // mask: `shading` differs from the surface's normal
+    lane_float cosine;  // of the angle of incidence with `shading`
+    lane_float mirror;  // the share of light that is reflected, where maps change it
+    lane_float eta;     // index of refraction before the surface over the one behind it
     Refraction bend;
     MediumSet before, behind;  // the objects that the ray is inside of
 } ScatterPoint;
 
-/// The points of entries `first` .. , of those below `end`. `eta` and `bend` are those of equal
-/// media.
+/// The points of the entries from `first` on that are below `end`. `eta` and `bend` are set for
+/// equal media.
 static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint first, uint end) {
     const uint stride = batch->stride;
     ScatterPoint p;
@@ -87,9 +87,9 @@ static inline lane_int cross_objects(const Surroundings* around, ScatterPoint* p
     return open;
 }
 
-/// Refracts between the media before and behind the surfaces, those that aren't `open` as if they
-/// were of their material, and parts the light between reflection and refraction by Fresnel's law
-/// where the material asks for it.
+/// Refracts between the media before and behind the surfaces; surfaces that aren't `open` refract
+/// as if they were filled with their material. Divides the light between reflection and refraction
+/// by Fresnel's law where the material asks for it.
 static inline void refract_light(const Surroundings* around, ScatterPoint* p, lane_int open,
                                  Scattered* reflected, Scattered* refracted) {
     global const float* materials = around->materials;
@@ -141,7 +141,7 @@ static inline Vector mirrored_direction(const ScatterPoint* p) {
     return select_vector(p->curved, kept, mirrored);
 }
 
-/// The direction of the refracted rays, which `into` the surface is along.
+/// The directions of the refracted rays. `into` points into the surface.
 static inline Vector bent_direction(const ScatterPoint* p, Vector into) {
     const Vector bent = refracted_direction(p->way, p->shading, p->eta, p->cosine, &p->bend);
     if (!VXL_SHADING_NORMALS) return bent;

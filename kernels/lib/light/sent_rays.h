@@ -8,7 +8,7 @@
 #include "lib/light/paths.h"
 #include "lib/traverse/ray_queue.h"
 
-/// The t of rays after a length in metres.
+/// The t at which rays have travelled a length in metres.
 static inline lane_float t_after(lane_float metres, Vector direction, float4 edge) {
     const lane_float per_t = metres_per_t(edge, direction);
     return exact_divide(metres, LANES_SELECT(LANE_MASK(per_t > 0.0f), per_t, (lane_float)1.0f));
@@ -21,16 +21,16 @@ static inline lane_float t_after(lane_float metres, Vector direction, float4 edg
         global uint *restrict sent_paths, global float *restrict sent_starts,          \
         global uint *restrict sent_inside, uint sent_stride
 
-/// The value of that RayQueue in a kernel with these parameters.
+/// The queue for rays to emitters. `bind` of a RayQueue sets it like VXL_QUEUE_PARAMETERS.
 #define VXL_SENT_QUEUE \
     { sent_rays, sent_paths, sent_starts, sent_inside, sent_stride }
 
-/// The number of surfaces met, in the states of rays that go on from one more.
+/// The number of surfaces met, as it is in the states of rays that continue from one more.
 static inline lane_uint met_after(lane_uint state) {
     return min((state & VXL_STATE_MET) + 1u, (lane_uint)VXL_STATE_MET);
 }
 
-/// Puts rays to emitters, which end where they are scattered, into their queue.
+/// Puts rays to emitters into their queue. They scatter no further.
 static inline void send_to_emitters(const RayQueue* sent, lane_int wanted, lane_uint target,
                                     lane_uint state, uint bounces, NewRays* r,
                                     global uint* counters) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The normals by which light falls on what rays have met, where these aren't those of the surface.
+// The normals used for the light on surfaces that rays have met, where these differ from the
+// geometric normals.
 #ifndef VXL_SHADING_POINT_H
 #define VXL_SHADING_POINT_H
 
@@ -7,7 +8,7 @@
 #include "lib/traverse/shaded_hit.h"
 #include "lib/traverse/world.h"
 
-/// What only scenes with resampled cubes need.
+/// The parameter that only scenes with resampled cubes need.
 #if VXL_RESAMPLED_CUBES
 #define VXL_CUBE_STEPS_PARAMETER global const float* restrict cube_steps,
 #define VXL_CUBE_STEPS cube_steps
@@ -16,15 +17,16 @@
 #define VXL_CUBE_STEPS 0
 #endif
 
-/// A gradient in the voxels of the hits, in metric space.
+/// Converts a gradient in the voxels of the hits to metric space.
 static inline Vector metric_gradient(const WorldView* world, const ShadedHit* h, Vector g) {
     if (VXL_INSTANCES) g = world_gradient(&h->ray, g, h->of_instance);
     return scaled(g, world->shape.inverse_edge);
 }
 
-/// Triangles: the mean of their corners' normals, turned over where the surface is met from
-/// `behind`. Rays to lights begin as if each corner were a round surface's, at the height of the
-/// tangent planes (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4).
+/// Sets the normals of triangles: the mean of their corners' normals, flipped where the surface is
+/// met from `behind`. Rays to lights begin as if the surface around each corner were round, at the
+/// height of the tangent planes (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II,
+/// chapter 4).
 static inline void light_triangles(const WorldView* world, const ShadedHit* h, Vector normal,
                                    lane_int behind, ShadingPoint* s) {
     const lane_float zero = (lane_float)0.0f;
@@ -59,8 +61,8 @@ static inline void light_triangles(const WorldView* world, const ShadedHit* h, V
         select_vector(curved & LANE_MASK(dot_product(offset, normal) > 0.0f), offset, s->offset);
 }
 
-/// How far a gradient of the world's voxels goes up from side to side of the voxels of an object
-/// whose cubes were resampled into the world's; 0 for others. `cube_steps` are those of
+/// How far a gradient in the world's voxels rises across one voxel of the hit's object, for objects
+/// whose cubes were resampled into the world's voxels; 0 for others. `cube_steps` are those of
 /// runtime/analysis/cube_steps.hpp.
 static inline lane_float rise_in_own_voxel(global const float* restrict cube_steps,
                                            const ShadedHit* h, lane_int cubes, Vector g) {
@@ -73,19 +75,19 @@ static inline lane_float rise_in_own_voxel(global const float* restrict cube_ste
     return rise;
 }
 
-/// Cubes: the normals of the surface that they stand for, turned over where both the face, whose
-/// normal is `normal`, and the ray are behind it.
+/// Sets the normals of cubes: those of the surface that they stand for, flipped where both the
+/// face, whose normal is `normal`, and the ray are behind that surface.
 ///
-/// Rays to lights begin above the steps that the cubes of a flat surface make, so that these cast
-/// no shadows. With the gradient g of the surface, a set of voxels around it reaches up to |g|_1
-/// (of a supercover; less of others) above it. The voxel in front of a face across axis a holds
-/// nothing, so the surface lies so low that no step is higher than |g_a| + |g|_1 / 2 above the
+/// Rays to lights begin above the steps that the cubes of a flat surface form, so that the steps
+/// cast no shadows. With the gradient g of the surface, a set of voxels around it reaches up to
+/// |g|_1 above it (for a supercover; less for others). The voxel in front of a face across axis a
+/// is empty, so the surface lies so low that no step is higher than |g_a| + |g|_1 / 2 above the
 /// voxel's centre.
 ///
-/// Cubes that were resampled have the steps of their object's voxels, too, of which a voxel of the
-/// world takes one that its centre lies in, or near: with the gradient h in those, its centre lies
-/// up to |h|_1 higher above the surface than an empty voxel's centre does at least. Some of their
-/// faces look down from steps that overhang, and are lit as the others.
+/// Resampled cubes also have the steps of their object's voxels. A voxel of the world takes on an
+/// object voxel that its centre lies in or near: with the gradient h in the object's voxels, a
+/// filled voxel's centre lies at most |h|_1 higher above the surface than the lowest centre of an
+/// empty voxel. Some of their faces look down from overhanging steps, and are lit like the others.
 static inline void light_cubes(const WorldView* world, const ShadedHit* h,
                                global const float* restrict cube_steps, Vector place, Vector normal,
                                ShadingPoint* s) {
@@ -121,7 +123,7 @@ static inline void light_cubes(const WorldView* world, const ShadedHit* h,
     s->offset = select_vector(curved & begins_above, offset, s->offset);
 }
 
-/// The normals by which light falls on points whose geometric normals are `normal`, at `place` in
+/// The normals used for the light on points whose geometric normals are `normal`, at `place` in
 /// their voxels, and how far above the surface rays to lights begin.
 static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h,
                                          global const float* restrict cube_steps, Vector place,

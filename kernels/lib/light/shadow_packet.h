@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packets of shadow rays on their way to their light.
 //
-// Where rays are incoherent, lanes take on further rays as theirs end: a ray that has met a
-// transmitting surface goes on behind it while others walk, and lanes whose rays have ended wait
-// until several have. Otherwise a packet would wait for the ray that meets most surfaces.
+// Where rays are incoherent, lanes take further rays as theirs end: a ray that has met a
+// transmitting surface continues behind it while others walk, and lanes whose rays have ended wait
+// until several have ended. Otherwise a packet would wait for the ray that meets the most surfaces.
 #ifndef VXL_SHADOW_PACKET_H
 #define VXL_SHADOW_PACKET_H
 
@@ -28,7 +28,7 @@ typedef struct {
     Filter filter;
 } ShadowPacket;
 
-/// Sets the rays that the lanes hold on their way; `fresh` lanes hold new ones.
+/// Starts the rays that the lanes hold; `fresh` lanes hold new ones.
 static inline void send_shadows(const WorldView* world, const Surroundings* around,
                                 const ShadowRays* s, lane_int fresh, ShadowPacket* f) {
     const ShadowQueue* q = &s->queue;
@@ -67,14 +67,14 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
     }
     packet->found = no_hit_yet();
     if (!VXL_FILTER) return;
-    // The paths are those of the rays that met the surface: light arrives on the side they came
-    // from.
+    // The medium sets are those of the rays that met the surface: light arrives on the side that
+    // these rays came from.
     ray_state->media = gather_medium_set(batch->paths, stride, target, fresh);
     if (VXL_CUBE_BODIES) find_body(ray_state, around->materials);
     f->filter = begin_filter(world->shape, w, packet->t_end);
 }
 
-/// Puts lanes that are not `fresh` back to the state that their rays had reached.
+/// Restores the state that the rays of lanes which are not `fresh` had reached.
 static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPacket* f) {
     const RayState* was = &before->packet.ray_state;
     RayState* ray_state = &f->packet.ray_state;
@@ -106,7 +106,7 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
 }
 
 /// Adds the light of the `arrived` rays among those `held` to the radiance of the rays that they
-/// were sent for; all at once where these are neighbours in memory.
+/// were sent for. Neighbours in memory are added all at once.
 static inline void bring_light(const ShadowRays* s, const ShadowPacket* f, lane_int held,
                                lane_int arrived) {
     const uint stride = s->batch.stride;
@@ -136,7 +136,7 @@ static inline void bring_light(const ShadowRays* s, const ShadowPacket* f, lane_
 }
 
 #if VXL_REFILLS_SHADOWS
-/// Traces the queue's rays `next` .. `end` - 1, at least one.
+/// Traces the queue's rays `next` .. `end` - 1, of which there is at least one.
 static inline void trace_refilled_shadows(const WorldView* world, const Surroundings* around,
                                           const ShadowRays* q, uint next, uint end) {
     const PyramidView* p = &world->pyramid;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The radiance of the sky along directions, which are unit vectors in metres' space.
+// The radiance of the sky along directions, which are unit vectors in metric space.
 #ifndef VXL_SKY_H
 #define VXL_SKY_H
 
@@ -26,8 +26,8 @@ static inline lane_float angle_of_cosine(lane_float x) {
     return LANES_SELECT(LANE_MASK(x < 0.0f), 3.14159265f - angle, angle);
 }
 
-/// Perez' formula of 1993: how bright a direction is at `height`, its cosine with the zenith, and
-/// at an angle from the sun of this cosine.
+/// Perez' formula of 1993: the brightness of a direction at `height`, its cosine with the zenith,
+/// and at an angle from the sun with this cosine.
 static inline lane_float perez(float4 abcd, float e, lane_float height, lane_float angle,
                                lane_float cosine) {
     const lane_float dim = exact_exp(exact_divide((lane_float)abcd.y, height));
@@ -41,7 +41,7 @@ static inline void daylight(global const SkyRecord* sky, Vector way, lane_float*
     const float4 sun = sky->sun_direction, last = sky->last, base = sky->base;
     const lane_float cosine = fma(way.x, sun.x, fma(way.y, sun.y, way.z * sun.z));
     const lane_float angle = angle_of_cosine(cosine);
-    const lane_float height = fmax(way.y, 0.0009765625f);  // at the horizon the formula has a pole
+    const lane_float height = fmax(way.y, 0.0009765625f);  // the formula has a pole at the horizon
     const lane_float luminance = base.x * perez(sky->luminance, last.x, height, angle, cosine);
     const lane_float x = base.y * perez(sky->chromaticity_x, last.y, height, angle, cosine);
     const lane_float y = base.z * perez(sky->chromaticity_y, last.z, height, angle, cosine);
@@ -57,13 +57,13 @@ static inline void daylight(global const SkyRecord* sky, Vector way, lane_float*
 /// The parameters that `bind` of a SkyView sets, in its order. A comma ends them.
 #define VXL_SKY_PARAMETERS global const SkyRecord *restrict sky, VXL_SKY_MAP_PARAMETERS
 
-/// A sky; `map` is empty unless it is one.
+/// A sky; `map` is empty unless the sky is one.
 typedef struct {
     global const SkyRecord* restrict record;
     SkyMap map;
 } SkyView;
 
-/// The parameter that says, for hidden skies, whether rays come from an observer, and a comma.
+/// The parameter that says, for hidden skies, whether rays come from an observer. A comma ends it.
 #if VXL_SKY_HIDDEN
 #define VXL_SKY_DEPTH_PARAMETER uint from_observer,
 #define VXL_FROM_OBSERVER from_observer
@@ -95,8 +95,7 @@ static inline void sky_light(const SkyView* view, Vector way, lane_float* light)
     }
 }
 
-/// Adds the sun's disc, whose light is even over a disk in front of the viewer, to the `seeing`
-/// lanes.
+/// Adds the sun's disc to the `seeing` lanes. Its light is even over a disk in front of the viewer.
 static inline void add_sun_disc(global const SkyRecord* sky, Vector way, lane_int seeing,
                                 lane_float* light) {
     const float4 sun = sky->sun_direction;
@@ -109,8 +108,8 @@ static inline void add_sun_disc(global const SkyRecord* sky, Vector way, lane_in
     for (int c = 0; c < 3; ++c) light[c] = fma((lane_float)radiance[c], scale, light[c]);
 }
 
-/// Multiplies the light of a map by the share that rays count for which ran into it, where other
-/// rays are sent to it: the two ways to find it share it (Veach & Guibas 1995).
+/// Multiplies the light of a map by the weight of rays that ran into it, where other rays are sent
+/// to it: the two ways to find it share it (Veach & Guibas 1995).
 static inline void share_sky_light(const SkyMap* map, Vector way, const RayBatch* batch, uint first,
                                    lane_float* light) {
     const uint stride = batch->stride;
@@ -130,15 +129,16 @@ static inline void share_sky_light(const SkyMap* map, Vector way, const RayBatch
     for (int c = 0; c < 3; ++c) light[c] *= share;
 }
 
-/// Mask: rays whose observer doesn't see the sky.
+/// Mask: rays that see the background instead of a hidden sky: those that an observer sends and
+/// nothing has scattered.
 static inline lane_int sees_background(const RayBatch* batch, uint first, uint from_observer) {
     if (!VXL_GLOBAL) return (lane_int)(from_observer ? -1 : 0);
     const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first);
     return LANE_MASK(((state >> VXL_STATE_BOUNCE_SHIFT) & VXL_STATE_BOUNCES) == 0u);
 }
 
-/// The radiance that rays along `way`, in voxels with this edge, see of the sky. The sun's disc is
-/// seen by those that no matt surface has scattered, which samples it as a light.
+/// The radiance of the sky along `way`, in voxels with this edge. The sun's disc is seen by rays
+/// that no matt surface has scattered last; matt surfaces sample it as a light.
 static inline void see_sky(lane_int hit, Vector way, float4 edge, const SkyView* sky,
                            const RayBatch* batch, uint first, uint from_observer,
                            lane_float* light) {

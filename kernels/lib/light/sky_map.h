@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sky that is a picture of everything around: its radiance along directions, and directions
-// chosen by how much light comes from them.
+// A sky that is a picture of all surroundings: its radiance along directions, and directions chosen
+// by the light that comes from them.
 //
-// Places on the picture are u from left to right and v from the top down, both 0 to 1. The angle
-// from the zenith is pi v; the middle column is seen along +Z, and +X lies left of it, where an
-// observer who looks along +Z has it.
+// Positions on the picture are u from left to right and v from the top down, both 0 to 1. The angle
+// from the zenith is pi v. The middle column is seen along +Z, and +X lies left of it, as for an
+// observer who looks along +Z.
 #ifndef VXL_SKY_MAP_H
 #define VXL_SKY_MAP_H
 
@@ -14,8 +14,8 @@
 #include "lib/sampling/sobol.h"
 #include "shared/sky.h"
 
-/// The parameters that `bind` of a SkyMap sets, in its order: none for other skies. A comma ends
-/// them.
+/// The parameters that `bind` of a SkyMap sets, in its order; there are none for other skies. A
+/// comma ends them.
 #if VXL_SKY == VXL_SKY_MAP
 #define VXL_SKY_MAP_PARAMETERS                                         \
     SkyMapRecord sky_map, global const float *restrict sky_map_texels, \
@@ -40,19 +40,19 @@ typedef struct {
     { {0, 0, 0, 0, 0, 0, 0, 0}, 0, 0 }
 #endif
 
-/// Directions' places on the picture, and the sine of their angle from the zenith.
+/// Directions' positions on the picture, and the sine of their angle from the zenith.
 typedef struct {
     lane_float u, v, sine;
 } SkyPlace;
 
-/// The part of a number behind its point, in [0, 1), of numbers in [-1, 2).
+/// The fractional part, in [0, 1), of a number in [-1, 2).
 static inline lane_float turned_into_unit(lane_float x) {
     x = LANES_SELECT(LANE_MASK(x < 0.0f), x + 1.0f, x);
     x = LANES_SELECT(LANE_MASK(x >= 1.0f), x - 1.0f, x);
     return clamp(x, 0.0f, 0.99999994f);
 }
 
-/// The places of unit vectors.
+/// The positions of unit vectors.
 static inline SkyPlace sky_place(const SkyMap* m, Vector way) {
     SkyPlace p;
     p.sine = exact_sqrt(fma(way.x, way.x, way.z * way.z));
@@ -87,12 +87,13 @@ static inline void sky_map_light(const SkyMap* m, Vector way, lane_float* light)
     }
 }
 
-/// The density, per solid angle, of the place in a cell whose density on the picture is `of_cell`.
+/// The density, per solid angle, of a direction in a cell whose density on the picture is
+/// `of_cell`.
 static inline lane_float density_in_cell(lane_float of_cell, lane_float sine) {
     return exact_divide(of_cell, fmax(sine, 9.5367431640625e-7f));
 }
 
-/// How probable `choose_sky_direction` makes unit vectors, per solid angle.
+/// The probability, per solid angle, with which `choose_sky_direction` chooses unit vectors.
 static inline lane_float sky_map_density(const SkyMap* m, Vector way) {
     const SkyPlace p = sky_place(m, way);
     const uint rows = (uint)m->of.rows, columns = (uint)m->of.columns;
@@ -103,8 +104,8 @@ static inline lane_float sky_map_density(const SkyMap* m, Vector way) {
     return density_in_cell(of_cell, p.sine);
 }
 
-/// Which of `count` parts, whose first 32-bit fractions are in the table from `base` on, holds a
-/// fraction. Sets how far into the part it lies, 0 to 1.
+/// The number of the part, of `count`, that holds a fraction. The table has the parts' first 32-bit
+/// fractions from `base` on. Sets `share` to how far into the part the fraction lies, 0 to 1.
 static inline lane_uint part_that_holds(global const uint* restrict table, lane_uint base,
                                         uint count, lane_uint fraction, lane_float* share) {
     lane_uint part = (lane_uint)0;
@@ -117,7 +118,7 @@ static inline lane_uint part_that_holds(global const uint* restrict table, lane_
     }
     const lane_uint start = LANES_GATHER_UINT(table, base + part);
     const lane_uint behind = min(part + 1u, (lane_uint)(count - 1u));
-    // The last part ends at 2^32, which is 0 here.
+    // The last part ends at 2^32, which wraps to 0.
     const lane_uint end = LANES_SELECT(LANE_MASK(part + 1u < count),
                                        LANES_GATHER_UINT(table, base + behind), (lane_uint)0);
     const lane_uint width = end - start;
@@ -127,7 +128,8 @@ static inline lane_uint part_that_holds(global const uint* restrict table, lane_
     return part;
 }
 
-/// A unit vector chosen by how much light comes from around it, and its `density` per solid angle.
+/// A unit vector chosen in proportion to the light that comes from around it, and its `density` per
+/// solid angle.
 static inline Vector choose_sky_direction(const SkyMap* m, SquareBits choice, lane_float* density) {
     const uint rows = (uint)m->of.rows, columns = (uint)m->of.columns;
     lane_float in_row, in_column;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far light comes in a medium that scatters it.
+// How far light travels in a medium that scatters it.
 //
 // The length is sampled exactly: the sum of density times length is inverted voxel by voxel,
-// without rejections ("regular tracking"). Where the three colours are scattered differently one of
-// them chooses the length, and all share it by the balance heuristic (Veach & Guibas 1995).
+// without rejections ("regular tracking"). Where the three colours are scattered differently, one
+// of them chooses the length, and all are weighted by the balance heuristic (Veach & Guibas 1995).
 #ifndef VXL_FREE_PATH_H
 #define VXL_FREE_PATH_H
 
@@ -19,7 +19,7 @@ typedef struct {
     lane_int ends;     // mask: the medium scatters them there
 } FreePath;
 
-/// Follows the segments through the voxels up to where density times t sums up to `sought`.
+/// Follows the segments through the voxels until density times t sums up to `sought`.
 static inline FreePath travel_through_grid(PyramidShape shape, const DensityView* density,
                                            const Segment* s, lane_float sought, lane_int active) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
@@ -46,7 +46,7 @@ static inline FreePath travel_through_grid(PyramidShape shape, const DensityView
     return f;
 }
 
-/// Follows the segments of the `active` lanes up to where density times t sums up to `sought`.
+/// Follows the segments of the `active` lanes until density times t sums up to `sought`.
 static inline FreePath travel_until(PyramidShape shape, const DensityView* density,
                                     const Segment* s, lane_float sought, lane_int active) {
     if (VXL_MEDIUM_GRID) return travel_through_grid(shape, density, s, sought, active);
@@ -59,8 +59,8 @@ static inline FreePath travel_until(PyramidShape shape, const DensityView* densi
     return f;
 }
 
-/// The optical depth at which light of one of the colours is scattered, over its rate: a sum of
-/// density times metres. Infinite for a colour that isn't scattered.
+/// The optical depth at which light of one of the colours is scattered, divided by its rate: a sum
+/// of density times metres. It is infinite for a colour that isn't scattered.
 static inline lane_float sought_depth(const MediumScattering* m, SquarePoint p) {
     const lane_float third = p.y * 3.0f;
     const lane_float rate =
@@ -73,8 +73,8 @@ static inline lane_float sought_depth(const MediumScattering* m, SquarePoint p) 
     return LANES_SELECT(some, fmax(depth, 0.0f), (lane_float)INFINITY);
 }
 
-/// The density of the medium on the segments at `t`; 1 without a lattice. Rounding may put a point
-/// of the world's border beyond it, where there is no voxel.
+/// The density of the medium on the segments at `t`; 1 without a lattice. Rounding may move a point
+/// on the world's border outside, where there is no voxel.
 static inline lane_float density_at(PyramidShape shape, const DensityView* density,
                                     const Segment* s, lane_float t, lane_int active) {
     if (!VXL_MEDIUM_GRID) return (lane_float)1.0f;
@@ -87,7 +87,7 @@ static inline lane_float density_at(PyramidShape shape, const DensityView* densi
     return LANES_SELECT(active, cell.density, (lane_float)0.0f);
 }
 
-/// How probable it is per metre that a path is scattered behind `depth` of the medium, at a place
+/// The probability, per metre, that a path is scattered behind `depth` of the medium, at a position
 /// where the medium has this `density`.
 static inline lane_float chance_density(const MediumScattering* m, lane_float depth,
                                         lane_float density) {
@@ -96,8 +96,9 @@ static inline lane_float chance_density(const MediumScattering* m, lane_float de
     return sum * density * 0.333333333f;
 }
 
-/// Multiplies the throughput of paths by what each colour has of those that come through `depth`,
-/// and are scattered there in the `ends` lanes, over what their sampling has of all colours.
+/// Multiplies the throughput of each colour by the probability with which that colour comes through
+/// `depth` (and, in the `ends` lanes, is scattered there), divided by the mean of this probability
+/// over all colours, by which the length was sampled.
 static inline void weigh_colors(const MediumScattering* m, lane_float depth, lane_int ends,
                                 lane_int active, lane_float* throughput) {
     const float* rates = m->per_metre;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points in a medium that light comes from: as rays of a queue that begin there.
+// Points in a medium that light comes from, stored as rays of a queue that begin there.
 #ifndef VXL_MEDIUM_POINT_H
 #define VXL_MEDIUM_POINT_H
 
@@ -8,7 +8,7 @@
 #include "lib/medium/near_light.h"
 #include "lib/traverse/segment.h"
 
-/// Mask: those of the rays first .. count-1 that there are, and that no object is around.
+/// Mask: those of the rays first .. count-1 that exist and are not inside an object.
 static inline lane_int in_the_open(const RayBatch* batch, uint first, uint count) {
     const lane_float end = LANES_LOAD(batch->rays, VXL_RAY_END * batch->stride + first);
     lane_int open = below(first, count) & LANE_MASK(end >= 0.0f);
@@ -16,13 +16,14 @@ static inline lane_int in_the_open(const RayBatch* batch, uint first, uint count
     return open;
 }
 
-/// What a point in the medium begins with: the way on which the path came, with no surface around.
+/// The state in which a point in the medium begins: with the direction in which the path came, and
+/// no surface.
 static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float t, lane_uint target,
                                lane_uint state) {
     const float one = shape.fixed_point;
     const lane_float zero = (lane_float)0.0f;
     NewRays r;
-    // Rounded back along the way, so that no point comes to lie in what is ahead.
+    // Points are rounded back along the way, so that none comes to lie in what is ahead.
     const Vector at = add_scaled(s->origin, s->direction, t), d = s->direction;
     r.origin.x = clamp(snap_position(at.x, -d.x, one), 0.0f, (float)shape.size_x);
     r.origin.y = clamp(snap_position(at.y, -d.y, one), 0.0f, (float)shape.size_y);
@@ -44,7 +45,7 @@ static inline NewRays point_of(PyramidShape shape, const Segment* s, lane_float 
     VXL_COUNTED_QUEUE_PARAMETERS, global uint *restrict point_hits, \
         global float *restrict point_radiance
 
-/// Puts points into a queue, with the throughput of the light from there.
+/// Puts points into a queue, with the throughput of their light.
 static inline void put_points(const RayQueue* points, const NewRays* point, const Slots* slots,
                               global uint* restrict hits, global float* restrict radiance) {
     put_rays(points, point, slots);
@@ -54,9 +55,9 @@ static inline void put_points(const RayQueue* points, const NewRays* point, cons
     for (uint c = 0; c < 3; ++c) put_float(radiance + c * points->stride, (lane_float)0.0f, slots);
 }
 
-// What points have in place of a hit where lights that aren't far away matter: how far the path
-// came to the point in the medium, and how far it would have gone on there, in metres, and the
-// density per metre of its being scattered there. All are 0 where a light needs no other density.
+// What points store in place of a hit where lights near by matter: how far the path came to the
+// point in the medium, and how far it would have continued from there, in metres, and the density
+// per metre of being scattered there. All are 0 where a light needs no other density.
 #define VXL_POINT_CAME VXL_HIT_T
 #define VXL_POINT_AHEAD VXL_HIT_CELL
 #define VXL_POINT_DENSITY VXL_HIT_FACE
@@ -68,7 +69,8 @@ static inline void put_ways(global uint* restrict hits, uint stride, lane_float 
     put_uint(hits + VXL_POINT_DENSITY * stride, LANES_AS_UINT(density), slots);
 }
 
-/// The part that a point found by chance has of a light's estimate: the other points have the rest.
+/// The weight in a light's estimate of a point found by chance; points chosen near the light have
+/// the rest.
 static inline lane_float share_of_chance(LightRecord light, float4 edge, Vector to_light,
                                          Vector way, global const uint* restrict hits, uint stride,
                                          uint first, lane_int valid) {

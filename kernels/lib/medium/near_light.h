@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where along a ray's way through a medium a light that isn't far away shines most.
+// Where along a ray's way through a medium a light near by shines most.
 //
 // Points are spread evenly over the angle at which the light sees the way (Kulla & Fajardo 2012,
-// "Importance sampling techniques for path tracing in participating media"), of a spot light over
+// "Importance sampling techniques for path tracing in participating media"); for a spot light, over
 // the part of the way in its cone. Paths that the medium scatters find the same light by chance;
 // both are weighted by the balance heuristic (Veach & Guibas 1995).
 #ifndef VXL_NEAR_LIGHT_H
@@ -12,21 +12,23 @@
 #include "lib/sampling/directions.h"
 #include "shared/scene.h"
 
-/// What of a ray's way a light shines on: metres along it from the point next to the light.
+/// The part of a ray's way that a light shines on, in metres along it from the point closest to the
+/// light.
 typedef struct {
     lane_float begin, end;
-    lane_float height;  // of the light above that point, metres
-    lane_float angle;   // at which the light sees the part
+    lane_float height;  // distance of the light from that point, metres
+    lane_float angle;   // the angle at which the light sees the part
     lane_int some;      // mask: there is such a part
 } NearPart;
 
-/// Cuts off what isn't in the cone of a spot light, which sees the point next to it at `next`.
+/// Cuts off what isn't in the cone of a spot light. The point closest to the light is at `next`
+/// from it.
 static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearPart* p) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const Vector axis = {(lane_float)light.direction.x, (lane_float)light.direction.y,
                          (lane_float)light.direction.z};
     const float squared_cosine = light.outer_cosine * light.outer_cosine;
-    // Points x on the way with (next + x way) axis = outer_cosine |next + x way|.
+    // The solutions are points x on the way with (next + x way) axis = outer_cosine |next + x way|.
     const lane_float ahead = dot_product(next, axis), along = dot_product(way, axis);
     const lane_float a = fma(along, along, -squared_cosine), b = ahead * along;
     const lane_float c = fma(ahead, ahead, -squared_cosine * dot_product(next, next));
@@ -36,7 +38,8 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
     const lane_float safe = LANES_SELECT(meets, a, one);
     const lane_float p0 = exact_divide(-b - root, safe), p1 = exact_divide(root - b, safe);
     const lane_float low = fmin(p0, p1), high = fmax(p0, p1);
-    // Across the cone, the way is in it between both points, unless they lie behind the light.
+    // If the way runs across the cone, it is inside between the two points, unless these lie behind
+    // the light.
     const lane_int across = LANE_MASK(a < 0.0f);
     const lane_int before = LANE_MASK(fma(along, 0.5f * (low + high), ahead) > 0.0f);
     const lane_int towards = LANE_MASK(along > 0.0f);
@@ -47,12 +50,13 @@ static inline void cut_to_cone(LightRecord light, Vector next, Vector way, NearP
     p->some &= (across & meets & before) | (~across & LANE_MASK(along != 0.0f));
 }
 
-/// The part of the ways along the unit vectors `way` that the light shines on: the light's middle
-/// lies at `to_light` from their origins, and they reach from `begin` to `end`, all in metres.
+/// The part of the ways along the unit vectors `way` that the light shines on. The light's middle
+/// lies at `to_light` from the ways' origins, and the ways reach from `begin` to `end`, all in
+/// metres.
 ///
-/// If the rays begin at a light, as for an observer who carries one, the medium scatters an
-/// infinite amount of its light. Within a voxel of it, chance alone finds that, so that pictures
-/// show more.
+/// If a ray begins at a light, for example because the observer carries one, the medium scatters an
+/// infinite amount of its light towards the observer. Within one voxel of the light only chance
+/// finds that light, so pictures become brighter with more samples.
 static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light, Vector way,
                                  lane_float begin, lane_float end, lane_int valid) {
     const lane_float one = (lane_float)1.0f;
@@ -63,7 +67,7 @@ static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light
     NearPart p;
     p.begin = begin - nearest;
     p.end = end - nearest;
-    // Where the light is on the way, no density of points would be finite.
+    // If the light lay on the way itself, the density of points would not be finite.
     p.height = fmax(exact_sqrt(dot_product(across, across)), 1e-6f);
     const float voxel = fmax(edge.x, fmax(edge.y, edge.z));
     const lane_int at_light = LANE_MASK(fma(p.height, p.height, p.begin * p.begin) < voxel * voxel);
@@ -78,7 +82,7 @@ static inline NearPart near_part(LightRecord light, float4 edge, Vector to_light
     return p;
 }
 
-/// The density per metre of the points at `x` metres from the point next to the light.
+/// The density, per metre, of points at `x` metres from the point closest to the light.
 static inline lane_float near_density(const NearPart* p, lane_float x) {
     const lane_int inside = p->some & LANE_MASK(x >= p->begin) & LANE_MASK(x <= p->end);
     const lane_float all = p->angle * fma(p->height, p->height, x * x);
@@ -87,7 +91,7 @@ static inline lane_float near_density(const NearPart* p, lane_float x) {
                         (lane_float)0.0f);
 }
 
-/// The point of this fraction of the angle, in metres from the point next to the light.
+/// The point at this fraction of the angle, in metres from the point closest to the light.
 static inline lane_float near_point(const NearPart* p, lane_float fraction) {
     lane_float sine, cosine;
     exact_sincos(fraction * p->angle, &sine, &cosine);

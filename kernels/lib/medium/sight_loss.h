@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the medium of S, and the objects that rays go through, take from light along a part of a
+// The light that the medium of S, and the objects that rays go through, remove along a part of a
 // ray.
 #ifndef VXL_SIGHT_LOSS_H
 #define VXL_SIGHT_LOSS_H
@@ -8,8 +8,8 @@
 #include "lib/traverse/surroundings.h"
 #include "shared/scene.h"
 
-/// The density of the medium of S times metres along each segment in the `open` lanes, and metres
-/// alone in those in objects.
+/// In the `open` lanes, the density of the medium of S times metres along each segment; in lanes in
+/// objects, metres alone.
 static inline lane_float sight_depth(PyramidShape shape, const DensityView* density,
                                      const Segment* segment, lane_int open, lane_int in_object) {
     lane_float depth = (lane_float)0.0f;
@@ -20,7 +20,7 @@ static inline lane_float sight_depth(PyramidShape shape, const DensityView* dens
                         (lane_float)0.0f);
 }
 
-/// What a material absorbs of a channel per metre.
+/// The absorption of a material in a channel, per metre.
 static inline lane_float material_absorption(global const float* materials, lane_uint material,
                                              lane_int in_object, int channel) {
     const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
@@ -28,8 +28,9 @@ static inline lane_float material_absorption(global const float* materials, lane
         materials, (record + (uint)(VXL_MATERIAL_ABSORPTION + channel)) & LANES_AS_UINT(in_object));
 }
 
-/// Sets the share of light that is left behind the segments of the `active` lanes, whose rays are
-/// inside of the `material` of an object, or in the medium, where they lose what it scatters, too.
+/// Sets the share of light that is left behind the segments of the `active` lanes. Their rays are
+/// inside the `material` of an object, or in the medium, where they also lose the light that it
+/// scatters.
 static inline void let_through(PyramidShape shape, const Surroundings* around,
                                const Segment* segment, lane_uint material, lane_int active,
                                lane_float* share) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the medium of S takes from light along a part of a ray, and adds to it.
+// The light that the medium of S removes and adds along a part of a ray.
 #ifndef VXL_VEIL_H
 #define VXL_VEIL_H
 
@@ -16,14 +16,14 @@ static inline lane_float density_along(PyramidShape shape, const DensityView* de
     return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
 }
 
-/// What a medium whose colour differs from voxel to voxel does to light, channel by channel.
+/// The effect on light of a medium whose colour varies from voxel to voxel, channel by channel.
 typedef struct {
-    lane_float depth, lost;       // sum of density times metres, as add_exactly has it
+    lane_float depth, lost;       // sum of density times metres, as in add_exactly
     lane_float transmittance[3];  // share of the light behind that comes through
     lane_float emitted[3];        // radiance that the medium adds
 } Veil;
 
-/// Adds a stretch of a voxel, whose density and colour are the means over it, behind all others.
+/// Adds a stretch of a voxel, with its mean density and colour, behind all earlier stretches.
 static inline void add_stretch(const DensityCell* cell, global const float* restrict colors,
                                const float* absorption, lane_float depth, lane_int adding,
                                Veil* veil) {
@@ -66,8 +66,8 @@ static inline Veil veil_of(PyramidShape shape, const DensityView* density,
     return veil;
 }
 
-/// What the medium from the start of the `active` rays to the surfaces that they met does to
-/// light, of whatever kind it is.
+/// The effect on light of any kind of medium, from the start of the `active` rays to the surfaces
+/// that they met.
 static inline Veil veil_before(PyramidShape shape, Environment environment,
                                const DensityView* density, global const float* restrict colors,
                                const Segment* s, lane_int active) {

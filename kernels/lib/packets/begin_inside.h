@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The objects without a formula in which rays begin: smooth ones and meshes.
+// The objects without a formula inside which rays begin: smooth ones and meshes.
 #ifndef VXL_BEGIN_INSIDE_H
 #define VXL_BEGIN_INSIDE_H
 
@@ -10,7 +10,7 @@
 #include "lib/traverse/instance_hit.h"
 #include "lib/traverse/surroundings.h"
 
-/// Mask: rays have met their surfaces from behind, as each kind of surface tells.
+/// Mask: rays that have met their surfaces from behind, judged by the kind of each surface.
 static inline lane_int meets_from_behind(const WorldView* world, const Walk* w,
                                          const SurfaceHit* found, lane_int smooth, lane_int hit) {
     const SurfaceView* s = &world->surface;
@@ -42,9 +42,10 @@ static inline lane_int meets_from_behind(const WorldView* world, const Walk* w,
     return behind;
 }
 
-/// The packed attributes of those objects of `hollow` in which the `active` rays of a packet begin.
-/// A ray begins in an object if the first surface of that object on its way is met from behind,
-/// whatever else it meets. Surfaces of `hollow` objects that don't transmit light tell nothing.
+/// The packed attributes of those objects of `hollow` inside which the `active` rays of a packet
+/// begin. A ray begins inside an object if the first surface of that object on its way is met from
+/// behind, whatever else the ray meets. Surfaces of `hollow` objects that don't transmit light are
+/// ignored.
 static inline MediumSet find_beginnings(const WorldView* world, const Surroundings* around, Walk* w,
                                         lane_int active, RayState* ray_state,
                                         global const uint* restrict hollow, uint maximum) {
@@ -82,7 +83,8 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
         count -= first;
         searching &= LANE_MASK(count < (int)maximum);
 
-        // A field's own sign tells where the ray is: sets have room for transmitting objects alone.
+        // A field's own sign tells on which side the ray is, because sets have room only for
+        // transmitting objects.
         ray_state->unsure = ray_state->guesses = (lane_int)-1;
         ray_state->goes_on = ray_state->on_surface = (lane_int)-1;
         ray_state->source = source_of_hit(found.primitive, found.voxel, packed);

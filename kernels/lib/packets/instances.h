@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest surface of a packet's rays among the world's and those of instances.
+// The nearest surface that a packet's rays meet, in the world or in instances.
 //
-// The packet goes through a tree over the instances' boxes, the nearer child first, as far as the
-// best hit. At an instance, the rays that meet its own box are transformed into its space and walk
-// there by the same code as in the world. A hit replaces another if its t is smaller, or if the t
-// are equal and its instance's number is smaller (the world's counts as the smallest). So the
-// result depends neither on the order of visits nor on which rays share a packet.
+// The packet traverses a tree over the instances' boxes, the nearer child first, up to the best
+// hit. At an instance, the rays that meet its own box are transformed into its space and walk there
+// by the same code as in the world. A hit replaces another if its t is smaller, or if both t are
+// equal and its instance's number is smaller (the world counts as the smallest). So the result
+// depends neither on the order of visits nor on which rays share a packet.
 #ifndef VXL_INSTANCES_H
 #define VXL_INSTANCES_H
 
@@ -13,7 +13,7 @@
 #include "lib/traverse/bounds_slack.h"
 #include "lib/traverse/transformed_ray.h"
 
-/// A ray as slab tests read it.
+/// A ray in the form that slab tests use.
 typedef struct {
     lane_float ix, iy, iz;  // 1 / d
     lane_float sx, sy, sz;  // -o / d
@@ -27,8 +27,8 @@ static inline SlabRay slab_ray(const Walk* w) {
     return r;
 }
 
-/// Mask: lanes that meet a child's box before t_last; *t is when. The boxes are large enough for
-/// all rounding (runtime/stages/instance/instance_tree.hpp).
+/// Mask: lanes that meet a child's box before t_last. Sets *t to where they enter it. The boxes are
+/// large enough for all rounding (runtime/stages/instance/instance_tree.hpp).
 static inline lane_int meets_child(const SlabRay* r, global const InstanceNode* node, int child,
                                    lane_float t_last, lane_float* t) {
     global const float* low = node->low[child];
@@ -51,8 +51,8 @@ static inline lane_int cell_before(lane_int nearest, lane_float o, lane_float in
     return LANES_SELECT(moves, cell_beside(nearest, crossed, positive), still);
 }
 
-/// Brings walks whose origins lie outside of an aligned instance's box to the first cell in it, and
-/// walks that go on at t_first to the cell that they are in just before, so that surfaces at
+/// Moves walks whose origins lie outside an aligned instance's box to the first cell in the box,
+/// and walks that continue at t_first to the cell that they are in just before, so that surfaces at
 /// t_first itself are ahead of them.
 static inline void enter_box(const PyramidView* p, global const InstanceRecord* r,
                              lane_float t_first, Walk* w) {
@@ -100,14 +100,15 @@ static inline PyramidView instance_pyramid(const PyramidView* world,
     return p;
 }
 
-// The object of instances' surfaces, in their own attributes.
+// The object of instances' surfaces in their own packed attributes.
 #define VXL_OWN_OBJECT (VXL_KIND_SMOOTH << VXL_KIND_SHIFT)
 
-/// The state with which rays begin in the space of instance `number`, of `object`, or of the world.
+/// The state with which rays begin in the space of instance `number`, which shows `object`, or of
+/// the world.
 ///
-/// A ray that goes on from a surface at t_first has yet to meet surfaces at this very t in the
-/// spaces that come after that surface's: the world's is the first, then those of instances by
-/// number. In an instance's space it is inside of the instance's object or of nothing.
+/// A ray that continues from a surface at t_first has yet to meet the surfaces at this same t in
+/// the spaces that come after that surface's space: the world comes first, then the instances by
+/// number. In an instance's space, it is inside the instance's object or inside nothing.
 static inline RayState ray_state_in(const RayState* ray_state, lane_uint number, uint object,
                                     lane_int begins) {
     RayState t = *ray_state;
@@ -134,7 +135,7 @@ static inline RayState ray_state_in(const RayState* ray_state, lane_uint number,
     return t;
 }
 
-/// The axis of an aligned instance's space that lies along one of the world's; 3 for none.
+/// The axis of an aligned instance's space that is parallel to an axis of the world; 3 for none.
 static inline lane_int object_axis(global const InstanceRecord* r, lane_int world_axis) {
     lane_int axis = (lane_int)3;
     for (int row = 0; row < 3; ++row)
@@ -177,7 +178,7 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
                           &transformed, asked);
         }
     }
-    // The walk ends later than t_last by more than the rounding of its t; hits are compared by
+    // The walk ends behind t_last by more than the rounding of its t, because hits are compared by
     // their t in the world.
     const lane_float t_end = transformed_t(&c, fma(t_last, 0x1p-20f, t_last));
     const SurfaceHit found = find_first(&p, s, &w, t_end, active, &inside);
@@ -202,8 +203,8 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
     return closer;
 }
 
-/// Replaces what lanes have found by closer hits on instances. Lanes that look for `any` are done
-/// with the first.
+/// Replaces what lanes have found by closer hits on instances. Lanes that look for `any` hit are
+/// done after the first.
 static INLINED void meet_instances(const PyramidView* world, const SurfaceView* s,
                                    const InstanceView* v, const Walk* ray, lane_int active,
                                    bool any, const BoundsSlack* slack, const RayState* ray_state,
@@ -253,8 +254,7 @@ static INLINED void meet_instances(const PyramidView* world, const SurfaceView* 
     }
 }
 
-/// Makes the walks of rays that go on from an instance's surface at t, those `restarted`, begin
-/// there.
+/// Restarts the walks of the `restarted` rays, which continue from an instance's surface at t.
 static inline void restart_walks(const PyramidView* p, Walk* w, lane_float t, lane_int restarted) {
     const lane_float zero = (lane_float)0.0f, at = LANES_SELECT(restarted, t, zero);
     const float one = p->fixed_point;
@@ -273,8 +273,8 @@ static inline void restart_walks(const PyramidView* p, Walk* w, lane_float t, la
     w->axis = LANES_SELECT(restarted, from.axis, w->axis);
 }
 
-/// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.
-/// The walk ends in the cell of the surface, in the instance's voxels if it is one's.
+/// Walks the `active` lanes to their first surface before t_end, in the world or in an instance. It
+/// ends in the surface's cell, which for an instance's surface is in the instance's voxels.
 static INLINED SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_float t_end,
                                        lane_int active, bool any, const RayState* ray_state) {
     const PyramidView* p = &world->pyramid;
@@ -285,7 +285,7 @@ static INLINED SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_flo
     const Walk ray = *w;
     SurfaceHit found = find_first(p, s, w, t_end, active, &in_world);
     found.instance = (lane_uint)VXL_NO_INSTANCE;
-    // Beyond the world's bounds there is nothing.
+    // There is nothing beyond the world's bounds.
     lane_float t_in = (lane_float)0.0f, t_out = t_end;
     const Vector o = {ray.ox, ray.oy, ray.oz}, d = {ray.dx, ray.dy, ray.dz};
     clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of incoherent rays, whose lanes take on further rays as theirs end.
+// Packets of incoherent rays, whose lanes take further rays as theirs end.
 #ifndef VXL_LANE_REFILL_H
 #define VXL_LANE_REFILL_H
 
 #include "lib/packets/sight_rays.h"
 #include "lib/traverse/ray_queue.h"
 
-/// Stores what the rays of the `landing` lanes have met.
+/// Stores the hits of the `landing` lanes' rays.
 static inline void store_hits(const Packet* f, lane_int landing, const RayBatch* batch) {
     const Hit hit = hit_of(f, is_hit(&f->found, f->t_end));
     const Slots stored = slots_from(0, landing);
@@ -19,13 +19,13 @@ static inline void store_hits(const Packet* f, lane_int landing, const RayBatch*
     }
 }
 
-/// Incoherent rays; those from `next` to `end` - 1 are still to be taken on.
+/// Incoherent rays. Those from `next` to `end` - 1 still wait for a lane.
 typedef struct {
     SightRays rays;
     uint next, end;
 } ScatteredRays;
 
-/// A packet whose lanes take on further rays as theirs end.
+/// A packet whose lanes take further rays as theirs end.
 typedef struct {
     Packet packet;
     lane_int held, walking, waiting;
@@ -36,7 +36,7 @@ static inline int min_walking(const ScatteredRays* q) {
     return q->next < q->end ? VXL_LANES - VXL_REFILL : 0;
 }
 
-/// Lanes walk while more of them can than wait in occupied voxels.
+/// True while more lanes can take a step than wait in occupied voxels.
 static inline bool walks(const LaneRefill* r, int minimum) {
     const int steps = lanes_count(r->walking), tests = lanes_count(r->waiting);
     return steps > tests && steps + tests > minimum;
@@ -71,7 +71,7 @@ static inline LaneRefill begin_refill(const WorldView* world, ScatteredRays* q) 
     return r;
 }
 
-/// Tests the surfaces that lanes wait at. If too few lanes walk on, stores what the others have met
+/// Tests the surfaces at which lanes wait. If too few lanes walk on, stores the hits of the others
 /// and gives them further rays.
 static inline void serve(const WorldView* world, ScatteredRays* q, LaneRefill* r) {
     Packet* f = &r->packet;

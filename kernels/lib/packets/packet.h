@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packets of rays on their way to the first surface: their beginning, steps and end.
 //
-// A packet carries VXL_LANES rays. Lanes that reach an occupied voxel wait for others; then the
+// A packet has VXL_LANES rays. Lanes that reach an occupied voxel wait for others; then the
 // surfaces inside those voxels are tested together, and lanes that missed them walk on.
 #ifndef VXL_PACKET_H
 #define VXL_PACKET_H
@@ -10,17 +10,17 @@
 #include "lib/surface/surfaces.h"
 #include "lib/traverse/ray_batch.h"
 
-// The number of idle lanes from which on a packet takes on further rays.
+// The number of idle lanes at which a packet takes further rays.
 #define VXL_REFILL ((VXL_LANES + 3) / 4)
 
-// Values of the rays that a packet's lanes hold: neighbours in memory, unless the lanes were given
-// their rays one by one.
+// Loads values of the rays that a packet's lanes hold. These are neighbours in memory, unless the
+// lanes were given their rays one by one.
 #define VXL_RAY_FLOATS(p, ray, one_by_one) \
     ((one_by_one) ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 #define VXL_RAY_UINTS(p, ray, one_by_one) \
     ((one_by_one) ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 
-/// What a packet has found before its walk.
+/// The hit of a packet before its walk.
 static inline SurfaceHit no_hit_yet(void) {
     SurfaceHit found;
     found.hit = (lane_int)0;
@@ -36,8 +36,8 @@ static inline SurfaceHit no_hit_yet(void) {
     return found;
 }
 
-/// Moves the `walking` lanes one step: out of the empty block around them, or, where their cell is
-/// occupied, to the `waiting` ones. Lanes that leave the world or come to t_end are in neither.
+/// Moves the `walking` lanes one step: out of the empty block around them or, where their cell is
+/// occupied, to the `waiting` lanes. Lanes that leave the world or reach t_end are in neither mask.
 static inline void walk_on(const PyramidView* p, Walk* w, lane_float t_end, SurfaceHit* found,
                            lane_int* walking, lane_int* waiting) {
     lane_int moving = *walking;
@@ -137,7 +137,7 @@ static inline lane_int has_flag(lane_uint flags, uint flag) {
     return LANE_MASK((flags & flag) != 0u);
 }
 
-/// The state of the paths numbered `ray` among the batch's first `count`, which have these flags.
+/// The state of the paths numbered `ray`, among the batch's first `count`, with these flags.
 static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_uint ray,
                                       lane_uint flags) {
     global const uint* paths = batch->paths;
@@ -172,7 +172,7 @@ static inline lane_float entry_time(const Walk* w) {
                 fmax(LANES_SELECT(w->my, ty, none), LANES_SELECT(w->mz, tz, none)));
 }
 
-/// Moves the walks of the lanes `on` to the cell where their rays begin or go on.
+/// Moves the walks of the lanes `on` to the cell where their rays begin or continue.
 static inline void resume_walk(Walk* w, const RayState* ray_state, lane_uint cell_xy,
                                lane_uint cell_z, lane_int on) {
     w->x = LANES_SELECT(on, LANES_AS_INT(cell_xy & 0xFFFFu), w->x);
@@ -197,7 +197,7 @@ typedef struct {
     lane_float t_end;
 } Packet;
 
-/// Gives the `idle` lanes the next of the rays up to `end`; the mask of those that got one.
+/// Gives the `idle` lanes the next of the rays up to `end`. Returns the mask of lanes that got one.
 static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint* ray) {
     const lane_uint number = *next + lanes_ranks(idle);
     const lane_int taken = idle & LANE_MASK(number < end);
@@ -206,7 +206,7 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
     return taken;
 }
 
-/// Sets the rays that the lanes hold, of the batch's first `count`, on their way.
+/// Starts the rays that the lanes hold, which are among the batch's first `count`.
 static inline void set_out(const WorldView* world, const RayBatch* batch, uint count, Packet* f) {
     global const uint* paths = batch->paths;
     const uint stride = batch->stride;
@@ -286,14 +286,14 @@ static inline void take_hit(const SurfaceHit* other, lane_int taken, SurfaceHit*
     if (VXL_SHARED_CUBES) replace_cubes(&found->behind, &other->behind, taken);
 }
 
-/// Puts lanes that are not `fresh` back to where their walks had been.
+/// Restores the walks of lanes that are not `fresh`.
 static inline void keep_progress(const Progress* before, lane_int fresh, Packet* f) {
     f->walk.x = LANES_SELECT(fresh, f->walk.x, before->x);
     f->walk.y = LANES_SELECT(fresh, f->walk.y, before->y);
     f->walk.z = LANES_SELECT(fresh, f->walk.z, before->z);
     f->walk.t = LANES_SELECT(fresh, f->walk.t, before->t);
     f->walk.axis = LANES_SELECT(fresh, f->walk.axis, before->axis);
-    f->walk.last = before->last;  // holds for fresh rays, too
+    f->walk.last = before->last;  // this is right for fresh rays, too
     take_hit(&before->found, ~fresh, &f->found);
 }
 

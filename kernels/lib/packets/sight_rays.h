@@ -44,8 +44,8 @@ static inline bool beam_is_clear(const RayBatch* batch, uint first) {
     return batch->beams[VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch->stride) + beam] == VXL_BEAM_CLEAR;
 }
 
-/// Brings walks to where the beam of their rays ended, since all space before that is empty. The
-/// cell may be wrong by rounding; the next one is again the walk's own.
+/// Moves walks to where the beam of their rays ended, since all space before that is empty.
+/// Rounding may make the cell wrong; the next one is the walk's own again.
 static inline void ride_beam(const RayBatch* batch, uint first, Walk* w) {
     global const uint* beams = batch->beams;
     const uint beam = first / VXL_BEAM_RAYS, places = VXL_BEAM_SLOTS(batch->stride);
@@ -67,14 +67,14 @@ static inline void ride_beam(const RayBatch* batch, uint first, Walk* w) {
     w->t = LANES_SELECT(later, t, w->t);
 }
 
-/// The first `count` rays of a batch, which may have no beams.
+/// The first `count` rays of a batch; the batch may have no beams.
 typedef struct {
     RayBatch batch;
     uint count;
 } SightRays;
 
 /// Begins the packet of rays from `first` on. Returns false if there is none, or if its beam is
-/// clear; then its misses are stored.
+/// clear; in the latter case its misses are stored.
 static inline bool send_packet(const WorldView* world, const SightRays* q, uint first, Packet* f) {
     if (first >= q->count) return false;
     if (q->batch.beams && beam_is_clear(&q->batch, first)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of the unit square as points of disks and as directions.
+// Maps from points of the unit square to points of disks and to directions.
 #ifndef VXL_DIRECTIONS_H
 #define VXL_DIRECTIONS_H
 
@@ -7,7 +7,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/sampling/sobol.h"
 
-/// A point of the unit disk, all of which are equally probable.
+/// A point of the unit disk. All points are equally probable.
 static inline SquarePoint disk_point(SquarePoint p) {
     const lane_float radius = exact_sqrt(p.x);
     lane_float sine, cosine;
@@ -29,8 +29,8 @@ static inline Vector around_normal(Vector n, lane_float a, lane_float b, lane_fl
     return result;
 }
 
-/// A direction above a surface, whose density is its cosine with the unit normal n, over pi. The
-/// point's 24 bits keep that cosine from falling below 2^-12.
+/// A direction above a surface. Its density is its cosine with the unit normal n, divided by pi.
+/// The point's 24 bits keep that cosine from falling below 2^-12.
 static inline Vector cosine_direction(Vector n, SquarePoint p) {
     const SquarePoint d = disk_point(p);
     return around_normal(n, d.x, d.y, exact_sqrt(1.0f - p.x));

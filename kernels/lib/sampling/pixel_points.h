@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of the unit square for the decisions of an image's pixels, whose errors cancel in the
-// picture: what one pixel has too much, its neighbours have too little, as in blue noise. Each
-// pixel alone has a scrambled sequence of sobol.h, so none is noisier than without.
+// Points of the unit square for the decisions of an image's pixels. Their errors cancel in the
+// picture: where one pixel has too much, its neighbours have too little, as in blue noise. Each
+// pixel alone has a scrambled sequence of sobol.h, so none is noisier than without this.
 //
 // The first 2^k samples of all pixels of a square of 2 x 2 or 4 x 4 fall one each into boxes that
-// divide the unit square evenly, whatever their shape. For that, take a sample's number as a
+// divide the unit square evenly, whatever their shape. To see this, read a sample's number as a
 // polynomial N(z) over two elements. The digits of Sobol's x are its coefficients, those of his y
-// the coefficients at 1 + z. A pixel whose place in squares of 2^j x 2^j has the bits u_j and v_j
-// adds the sum of (u_j + v_j z) / (1 + z + z^2)^j to it. For the m sizes up to a square's own, the
-// sum times (1 + z + z^2)^m is a polynomial of less than k + 2m coefficients, and any k + 2m
+// the coefficients at 1 + z. A pixel whose position in squares of 2^j x 2^j has the bits u_j and
+// v_j adds the sum of (u_j + v_j z) / (1 + z + z^2)^j to it. For the m sizes up to a square's own,
+// the sum times (1 + z + z^2)^m is a polynomial of less than k + 2m coefficients, and any k + 2m
 // digits, the first of x and the first of y, tell which, as polynomials with so many zeroes at 0
 // and 1 are zero. (The poles are places of a rational function field: Niederreiter & Xing 1996,
 // "Low-discrepancy sequences and global function fields with many rational places". That errors of
@@ -20,19 +20,20 @@
 
 #include "lib/sampling/sobol.h"
 
-/// Pixels are numbered by column + 65536 * row. These bits tell those of a square of 4 x 4 apart,
-/// and these those of a square of 2 x 2.
+/// Pixels are numbered by column + 65536 * row. The first of these masks selects the bits that
+/// distinguish the pixels of a square of 4 x 4, the second those of a square of 2 x 2.
 #define VXL_PIXELS_OF_SQUARE 0x00030003u
 #define VXL_PIXELS_OF_QUARTER 0x00010001u
 
-/// Two bits of a pixel's place, rearranged.
+/// Two bits of a pixel's position, rearranged.
 typedef struct {
     lane_uint u, v;
 } PlaceDigit;
 
-/// Which quarter of a square of 2^(j + 1) x 2^(j + 1) a pixel lies in, rearranged by 16 random bits
-/// of the square: each two quarters become each two others with almost the same probability. For
-/// that, the bits of the place and their sum are turned, any two of which tell the third.
+/// The quarter of a square of 2^(j + 1) x 2^(j + 1) that a pixel lies in, rearranged by 16 random
+/// bits of the square: any two quarters become any two others with almost the same probability. To
+/// this end, the bits of the position and their sum are rotated; any two of these determine the
+/// third.
 static inline PlaceDigit rearranged_digit(lane_uint pixel, uint j, lane_uint random) {
     const lane_uint u = pixel >> j, v = pixel >> (16 + j), sum = u ^ v;
     const lane_uint turns = (((random >> 8) & 0xFFu) * 3u) >> 8;
@@ -43,10 +44,10 @@ static inline PlaceDigit rearranged_digit(lane_uint pixel, uint j, lane_uint ran
     return digit;
 }
 
-/// Samples of pixels, with what all decisions need of them.
+/// Samples of pixels, and values of theirs that all decisions share.
 typedef struct {
     lane_uint pixel, sample;
-    lane_uint before;                // ones up to below the sample's highest one
+    lane_uint before;                // all bits below the sample's highest set bit
     lane_uint own, quarter, square;  // mixed numbers of the pixel and of its squares
 } SampledPixels;
 
@@ -65,12 +66,13 @@ static inline SampledPixels sampled_pixels(lane_uint pixel, lane_uint sample) {
     return s;
 }
 
-/// 16 bits for a decision about what has this mixed number.
+/// 16 random bits for a decision about whatever has this mixed number.
 static inline lane_uint random_for(lane_uint mixed, lane_uint seed) {
     return (mixed * (seed | 1u)) >> 16;
 }
 
-/// What pixels add to the digits of Sobol's points, the first digit of each coordinate lowest.
+/// The values that pixels add to the digits of Sobol's points. The first digit of each coordinate
+/// is the lowest bit.
 static inline SquareBits digits_of_pixel(const SampledPixels* s, lane_uint seed) {
     const PlaceDigit fine = rearranged_digit(s->pixel, 0u, random_for(s->quarter, seed));
     const PlaceDigit coarse = rearranged_digit(s->pixel, 1u, seed >> 16);
@@ -85,8 +87,8 @@ static inline SquareBits digits_of_pixel(const SampledPixels* s, lane_uint seed)
 
 /// The points for a decision, as 32-bit fractions.
 ///
-/// Each pixel exchanges samples 2^k to 2^(k + 1) - 1 with each other, for each k, so that the
-/// pixels of a square pair the points of different decisions differently.
+/// For each k, each pixel permutes samples 2^k to 2^(k + 1) - 1 in its own way, so that the pixels
+/// of a square pair the points of different decisions differently.
 static inline SquareBits pixel_bits(const SampledPixels* s, lane_uint decision) {
     const lane_uint seed = decision_seed(s->square, decision);
     const SquareBits added = digits_of_pixel(s, seed);

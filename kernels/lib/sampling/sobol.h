@@ -3,7 +3,7 @@
 // Owen 1995 describes, by hashes (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)).
 //
 // 2^k successive samples fall one each into 2^k boxes that divide the square evenly, whatever their
-// shape: the points are a (0,2)-sequence. Points of different seeds are independent. All is
+// shape: the points are a (0,2)-sequence. Points of different seeds are independent. Everything is
 // computed in integers, so all devices have the same points.
 #ifndef VXL_SOBOL_H
 #define VXL_SOBOL_H
@@ -28,8 +28,8 @@ static inline lane_uint reversed_bits(lane_uint v) {
     return ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
 }
 
-/// A bijection of 32-bit numbers whose every output bit depends on every input bit; the finalizer
-/// of MurmurHash3 (Appleby 2011).
+/// A bijection of 32-bit numbers in which every output bit depends on every input bit: the
+/// finalizer of MurmurHash3 (Appleby 2011).
 static inline lane_uint mixed_bits(lane_uint v) {
     v = (v ^ (v >> 16)) * 0x85EBCA6Bu;
     v = (v ^ (v >> 13)) * 0xC2B2AE35u;
@@ -48,9 +48,9 @@ static inline lane_uint flipped_from_below(lane_uint v, lane_uint seed) {
 
 /// The second Sobol coordinate of a number, its bits in reverse order.
 ///
-/// Read as a polynomial over two elements, the number is taken at 1 + x, because the direction
-/// numbers are the rows of Pascal's triangle: (1 + x)^(2^j) = 1 + x^(2^j) adds, for each j, the
-/// terms with bit j in their exponent to those without.
+/// The number is read as a polynomial over two elements and evaluated at 1 + x, because the
+/// direction numbers are the rows of Pascal's triangle: (1 + x)^(2^j) = 1 + x^(2^j) adds, for each
+/// j, the terms with bit j in their exponent to those without.
 static inline lane_uint shifted_polynomial(lane_uint v) {
     v ^= (v & 0xAAAAAAAAu) >> 1;
     v ^= (v & 0xCCCCCCCCu) >> 2;
@@ -64,22 +64,25 @@ static inline lane_float unit_interval(lane_uint v) {
     return LANES_FLOAT(v >> 8) * (1.0f / 16777216.0f);
 }
 
-/// A number whose neighbours have others with no likeness. 0 isn't its own.
+/// A hash of a number; neighbouring numbers have unrelated hashes. Unlike in mixed_bits, 0 is not
+/// mapped to itself.
 static inline lane_uint mixed_number(lane_uint number) {
     return mixed_bits(number + 0x9E3779B9u);
 }
 
-/// The seed of one decision about what has this mixed number.
+/// The seed of one decision about whatever has this mixed number.
 static inline lane_uint decision_seed(lane_uint mixed, lane_uint decision) {
     return mixed_bits(mixed + decision);
 }
 
-/// The sample in whose place another is taken: 2^k successive ones take the places of such.
+/// The number of the sample that replaces `sample`. The first 2^k samples, and each further block
+/// of 2^k, are replaced by such a block.
 static inline lane_uint shuffled_sample(lane_uint sample, lane_uint seed) {
     return reversed_bits(flipped_from_below(reversed_bits(sample), seed));
 }
 
-/// Coordinates of which the first digits are the lowest bits, scrambled, as 32-bit fractions.
+/// Scrambles coordinates whose first digits are their lowest bits. The results are 32-bit
+/// fractions.
 static inline SquareBits scrambled_digits(lane_uint x, lane_uint y, lane_uint seed) {
     const lane_uint seed_x = mixed_bits(seed ^ 0xA511E9B3u);
     // The first 16 digits of each coordinate depend on other bits.
@@ -106,9 +109,9 @@ static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
     return point_of_bits(sobol_bits(sample, seed));
 }
 
-/// Which of `count` equal parts of [0, 1) a 32-bit fraction lies in. If there are 2^20 parts, no
-/// two differ by more than 1 in 4096 fractions; the 24 bits of a float would make some a sixteenth
-/// larger.
+/// The number of the part, of `count` equal parts of [0, 1), in which a 32-bit fraction lies. With
+/// 2^20 parts, their sizes differ by at most 1 in 4096 fractions; the 24 bits of a float would make
+/// some of them a sixteenth larger.
 static inline lane_uint part_of(lane_uint fraction, uint count) {
     return mul_hi(fraction, (lane_uint)count);
 }

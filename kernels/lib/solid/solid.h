@@ -13,7 +13,7 @@ typedef struct {
 
 typedef struct {
     lane_float distance;  // positive outside, in shortest voxel edges
-    lane_float rounding;  // |error| of it
+    lane_float rounding;  // bound on its error
 } SolidDistance;
 
 static inline SolidPoint to_shape(global const float* m, lane_float x, lane_float y, lane_float z) {
@@ -37,7 +37,7 @@ static inline SolidDistance shape_distance_at(global const SolidShape* s, Lattic
 }
 
 /// The distance to the solid that starts at record `number`. It never exceeds the true distance to
-/// a combination's surface, and is exactly 0 on the surface.
+/// a combination's surface, and it is exactly 0 on the surface.
 static inline SolidDistance solid_distance(global const SolidShape* solids, uint number,
                                            LatticePoint at) {
     lane_float stack[VXL_SOLID_STACK];

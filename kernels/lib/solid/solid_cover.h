@@ -9,7 +9,8 @@
 #define VXL_SET_THIN 1u
 #define VXL_SET_SOLID 2u
 
-/// The point at quarters of a voxel, 0..4 along each axis; 2 is the voxel's middle.
+/// The distance at a point of a voxel, given in quarters of the voxel, 0..4 along each axis; 2 is
+/// the voxel's middle.
 static inline SolidDistance distance_in_voxel(global const SolidShape* solids, lane_int x,
                                               lane_int y, lane_int z, float3 quarter) {
     LatticePoint at;
@@ -20,13 +21,14 @@ static inline SolidDistance distance_in_voxel(global const SolidShape* solids, l
     return solid_distance(solids, 0, at);
 }
 
-/// Mask: the point is in the solid; adds to *is_open where rounding could have decided otherwise.
+/// Mask: the point is in the solid. Adds lanes to *is_open where rounding could have decided
+/// otherwise.
 static inline lane_int is_inside(SolidDistance d, lane_int* is_open) {
     *is_open |= LANE_MASK(fabs(d.distance) <= d.rounding);
     return LANE_MASK(d.distance <= 0.0f);
 }
 
-/// THIN: the voxel's middle and one of the middles of its faces are on different sides. A path of
+/// THIN: the voxel's middle and the middle of one of its faces are on different sides. A path of
 /// voxels that share faces crosses such a voxel wherever it passes from outside to inside.
 static inline lane_int thin_voxels(global const SolidShape* solids, lane_int x, lane_int y,
                                    lane_int z, lane_int* is_open) {
@@ -42,10 +44,10 @@ static inline lane_int thin_voxels(global const SolidShape* solids, lane_int x, 
     return differs;
 }
 
-/// SUPERCOVER: corners on both sides, or the surface within half the diagonal of an eighth of the
-/// voxel from that eighth's middle. Leaves out no voxel that the surface touches, since the
-/// distance changes by no more than the way; the surface comes within 0.44 voxel of every voxel in
-/// it.
+/// SUPERCOVER: corners lie on both sides, or the surface comes within half the diagonal of an
+/// eighth of the voxel to that eighth's middle. No voxel that the surface touches is left out,
+/// since the distance changes by at most the distance between two points. The surface comes within
+/// 0.44 voxel of every voxel in the set.
 static inline lane_int surface_voxels(global const SolidShape* solids, float voxel_reach,
                                       lane_int x, lane_int y, lane_int z) {
     const SolidDistance middle = distance_in_voxel(solids, x, y, z, (float3)(2.0f, 2.0f, 2.0f));
@@ -68,7 +70,7 @@ static inline lane_int surface_voxels(global const SolidShape* solids, float vox
     return touched;
 }
 
-/// Mask of the voxels that belong to `set`; adds to *is_open those that float can't decide.
+/// Mask of the voxels that belong to `set`. Adds those that floats cannot decide to *is_open.
 static inline lane_int covered_voxels(global const SolidShape* solids, uint set, float voxel_reach,
                                       lane_int x, lane_int y, lane_int z, lane_int* is_open) {
     if (set == VXL_SET_SOLID)

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signed distances to the analytic shapes of shared/solid.h, over lanes, positive outside.
 //
-// All but the ellipsoid's are closed forms of the exact Euclidean distance; near its surface each
-// is right within the shape's `rounding`.
+// All except the ellipsoid's are closed forms of the exact Euclidean distance. Near the surface,
+// each is right within the shape's `rounding`.
 #ifndef VXL_SOLID_DISTANCE_H
 #define VXL_SOLID_DISTANCE_H
 
 #include "lib/lanes/exact_float.h"
 #include "shared/solid.h"
 
-/// Kinds of shapes, 1 << VXL_SOLID_*: there may be shapes of these alone, and spheres.
+/// The kinds of shapes that may occur, as bits 1 << VXL_SOLID_*. Spheres may always occur.
 #ifndef VXL_SOLID_KINDS
 #define VXL_SOLID_KINDS 0xFFu
 #endif
 
-/// True for a kind that there may be; others' code is left out.
+/// True for a kind that may occur; code for other kinds is left out.
 #define VXL_IS_SOLID(kind, other) ((VXL_SOLID_KINDS >> (other)&1u) != 0u && (kind) == (other))
 
 static inline uint solid_kind(global const SolidShape* s) {
@@ -46,8 +46,8 @@ static inline lane_float cylinder_distance(SolidPoint p, float radius, float hal
     return inside + solid_length2(fmax(x, 0.0f), fmax(y, 0.0f));
 }
 
-/// In the half plane of (distance from the axis, y) the frustum is a quadrangle. Inside, the side's
-/// line or a cap is closest; outside, the side's segment or a cap's.
+/// The distance to a frustum. In the half plane of (distance from the axis, y) it is a quadrangle.
+/// Inside, the line of the side or a cap is closest; outside, the segment of the side or of a cap.
 static inline lane_float cone_distance(SolidPoint p, global const SolidShape* s) {
     const float bottom = s->size[0], half_height = s->size[1], top = s->size[2];
     const lane_float across = solid_length2(p.x, p.z);
@@ -76,8 +76,8 @@ static inline lane_float capsule_distance(SolidPoint p, float radius, float half
 
 #define VXL_ELLIPSOID_STEPS 8
 
-/// One Newton step towards |s(t)| = 1 on 1/|s|, from t; `reach` and `curve` are |s|² and Σ s_i²/(t
-/// + r_i²).
+/// One Newton step from t towards |s(t)| = 1, applied to 1/|s|; `reach` and `curve` are |s|² and Σ
+/// s_i²/(t + r_i²).
 static inline lane_float ellipsoid_step(lane_float t, lane_float reach, lane_float curve) {
     const lane_float next = t + exact_divide((exact_sqrt(reach) - 1.0f) * reach, curve);
     return LANES_SELECT(LANE_MASK(curve > 0.0f), next, t);
@@ -85,11 +85,12 @@ static inline lane_float ellipsoid_step(lane_float t, lane_float reach, lane_flo
 
 /// The closest point of the ellipsoid with half axes r_i is r_i² p_i / (t + r_i²), with t the
 /// largest root of |s(t)| = 1, s_i = r_i p_i / (t + r_i²); so the distance is t |p_i / (t + r_i²)|,
-/// without cancellation. 1/|s| is concave and nearly linear in t (Hebden 1973): Newton rises to the
-/// root from below, and a step from t = 0 or where one |s_i| alone is 1 are both below. Deep
-/// inside, where the term of the shortest axis is 0/0 on the plane across it, that term is taken
-/// from |s| = 1 instead. Measured in roundings of the longest half axis: 4 within 3 voxels of the
-/// surface for axes up to 1:5, 15 elsewhere (163 at the centre); 500 within 3 voxels at 1:300.
+/// without cancellation. 1/|s| is concave and nearly linear in t (Hebden 1973): Newton's method
+/// rises to the root from below. Both starts are below the root: a step from t = 0, and the t at
+/// which one |s_i| alone is 1. Deep inside, the term of the shortest axis is 0/0 on the plane
+/// across it, so that term is taken from |s| = 1 instead. Measured errors, in roundings of the
+/// longest half axis: 4 within 3 voxels of the surface for axes up to 1:5, 15 elsewhere (163 at the
+/// centre); 500 within 3 voxels at 1:300.
 static inline lane_float ellipsoid_distance(SolidPoint p, global const SolidShape* s) {
     // in units of the shortest half axis, so that r >= 1 and a = r² >= 1
     const float rx = s->derived[0], ry = s->derived[1], rz = s->derived[2];

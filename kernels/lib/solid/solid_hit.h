@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray meets the surface of an analytic solid, over lanes; rays are those of shared/trace.h.
+// Where a ray meets the surface of an analytic solid, over lanes; rays are as in shared/trace.h.
 //
 // Every shape gives the intervals of t in which the ray is inside it. The operations are evaluated
-// on them just before and just after each end in order of t: an end belongs to the surface if the
-// result changes there. Which side of its own surface a point is on is never asked of its
-// coordinates, and ends at the same t change at once, so that solids which share a face have no
-// seam.
+// just before and just after each end of an interval, in order of t: an end belongs to the surface
+// if the result changes there. Coordinates never decide on which side of its own surface a point
+// is, and ends at equal t change at once, so solids that share a face have no seam.
 //
-// A ray is known to travel inside or outside of the solid, and meets the surface only where that
-// changes. The end that a ray leaves from, wherever rounding puts it, is thus never met again: no
-// offset of the origin is needed.
+// A ray is known to travel inside or outside the solid, and meets the surface only where that
+// changes. Thus the end that a ray starts from is never met again, wherever rounding puts it: the
+// origin needs no offset.
 #ifndef VXL_SOLID_HIT_H
 #define VXL_SOLID_HIT_H
 
@@ -27,7 +26,7 @@ typedef struct {
     lane_float from;
 } ShapePath;
 
-/// The ray in the shape's space, starting where it passes the shape's centre closest.
+/// The ray in the shape's space, starting at its point closest to the shape's centre.
 static inline ShapePath shape_path(global const SolidShape* s, const SolidRay* ray) {
     const lane_float x = (ray->ox - (float)s->cell[0]) - s->fraction[0];
     const lane_float y = (ray->oy - (float)s->cell[1]) - s->fraction[1];
@@ -41,7 +40,7 @@ static inline ShapePath shape_path(global const SolidShape* s, const SolidRay* r
     return path;
 }
 
-/// The intervals of t in which the ray is inside the shape, not regarding complements.
+/// The intervals of t in which the ray is inside the shape; complements are ignored.
 static inline TorusSpans shape_spans(global const SolidShape* s, const ShapePath* path) {
     const ShapeRay r = path->ray;
     TorusSpans spans;
@@ -68,10 +67,10 @@ static inline TorusSpans shape_spans(global const SolidShape* s, const ShapePath
     return spans;
 }
 
-/// The ends of a solid's shapes as the ray passes t.
+/// What happens as the ray passes t.
 typedef struct {
     lane_int before, after;  // masks: inside the solid just before t, just after it
-    lane_float next;         // the first end behind t, infinity when there is none
+    lane_float next;         // the first end behind t; infinity if there is none
 } SolidEvent;
 
 static inline void add_end(SolidEvent* e, lane_float t, lane_float end) {
@@ -86,7 +85,7 @@ static inline void add_span(SolidEvent* e, lane_float t, ShapeSpan s) {
     add_end(e, t, LANES_SELECT(is_some, s.leave, (lane_float)INFINITY));
 }
 
-/// Takes one of the values on top of a stack of bits: the lowest bit of each lane is the top.
+/// Combines the two values on top of a stack of bits. The lowest bit of each lane is the top.
 static inline lane_int combine_top(lane_int stack, uint operation) {
     const lane_int top = stack & 1, below = stack >> 1;
     return operation == VXL_SOLID_UNION ? below | top : below & (top | ~1);
@@ -118,7 +117,7 @@ static INLINED SolidEvent event_at(global const SolidShape* solids, uint number,
     return event;
 }
 
-/// The solid of one shape: its ends in order, without asking for events.
+/// For a solid of one shape: examines its ends in order, without events.
 static INLINED lane_float first_end_of_shape(global const SolidShape* s, const SolidRay* ray,
                                              lane_float t_first, lane_float t_clear, lane_int known,
                                              lane_int inside) {
@@ -136,13 +135,13 @@ static INLINED lane_float first_end_of_shape(global const SolidShape* s, const S
                 LANES_SELECT(LANE_MASK(b0 < b1) & LANE_MASK(b > t_first), b, far));
 }
 
-/// The least t > t_first at which the ray crosses the solid's surface; infinity when it doesn't,
-/// and in lanes that are not `tested`.
+/// The smallest t > t_first at which the ray crosses the solid's surface; infinity if there is
+/// none, and in lanes that are not `tested`.
 ///
-/// In the lanes of `known` the ray is known to travel `inside` (mask) of the solid or outside of it
-/// from t_first on, see goes_inside; in the others the point at t_first itself tells. But a ray
-/// that would leave the solid by t_clear, which is t_first or later, began on that surface, not
-/// inside.
+/// In the lanes of `known`, the ray is known to travel `inside` (mask) the solid or outside it from
+/// t_first on, see goes_inside; in the others, the point at t_first itself decides. However, a ray
+/// that would leave the solid by t_clear, which is t_first or later, began on the surface there and
+/// not inside.
 static INLINED lane_float solid_crossing(global const SolidShape* solids, uint number,
                                          const SolidRay* ray, lane_float t_first,
                                          lane_float t_clear, lane_int known, lane_int inside,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray is inside a convex analytic shape: one interval, from the intervals of its surfaces.
+// The interval in which a ray is inside a convex analytic shape, from the intervals of its
+// surfaces.
 //
-// A finite cylinder is a tube and a slab, a box three slabs: the ray is in the shape where it is in
-// all of them, so a ray through the edge between side and cap can't pass between two separate
-// tests. Before anything is squared, the ray's origin is moved to where it passes closest, so that
-// a far origin costs no digits: s counts from there, and the caller adds the way back.
+// A finite cylinder is a tube and a slab, a box is three slabs: the ray is in the shape where it is
+// in all of them, so a ray through the edge between side and cap cannot pass between two separate
+// tests. Before anything is squared, the ray's origin is moved to its point closest to the shape,
+// so that a far origin costs no digits: s counts from there, and the caller adds the distance
+// moved.
 #ifndef VXL_SOLID_RAY_H
 #define VXL_SOLID_RAY_H
 
@@ -15,7 +17,7 @@ typedef struct {
     SolidPoint p, v;
 } ShapeRay;
 
-/// The ray is inside for s in [enter, leave]; nowhere unless enter < leave.
+/// The ray is inside for s in [enter, leave], and nowhere unless enter < leave.
 typedef struct {
     lane_float enter, leave;
 } ShapeSpan;
@@ -25,7 +27,7 @@ static inline ShapeSpan span(lane_float enter, lane_float leave) {
     return s;
 }
 
-/// Everywhere in the lanes of `mask`, nowhere in the others.
+/// A span that is everywhere in the lanes of `mask`, and nowhere in the others.
 static inline ShapeSpan span_where(lane_int mask) {
     return span(LANES_SELECT(mask, (lane_float)-INFINITY, (lane_float)INFINITY),
                 LANES_SELECT(mask, (lane_float)INFINITY, (lane_float)-INFINITY));
@@ -35,13 +37,13 @@ static inline ShapeSpan select_span(lane_int mask, ShapeSpan yes, ShapeSpan no) 
     return span(LANES_SELECT(mask, yes.enter, no.enter), LANES_SELECT(mask, yes.leave, no.leave));
 }
 
-/// Inside both.
+/// The span inside both.
 static inline ShapeSpan common_span(ShapeSpan a, ShapeSpan b) {
     return span(fmax(a.enter, b.enter), fmin(a.leave, b.leave));
 }
 
-/// From where the ray enters the first of two to where it leaves the last; both in one convex
-/// shape.
+/// The span from where the ray enters the first of two spans to where it leaves the last. Both lie
+/// in one convex shape.
 static inline ShapeSpan hull_span(ShapeSpan a, ShapeSpan b) {
     const ShapeSpan both = span(fmin(a.enter, b.enter), fmax(a.leave, b.leave));
     const ShapeSpan some = select_span(LANE_MASK(a.enter < a.leave), a, b);
@@ -62,8 +64,8 @@ static inline ShapeSpan slab_span(lane_float p, lane_float v, float extent) {
                        span_where(LANE_MASK(fabs(p) <= extent)));
 }
 
-/// Where p + s v is within `radius` of the origin. p must be where the ray passes it closest, but
-/// for rounding: p·v is then small, and neither root loses digits.
+/// Where p + s v is within `radius` of the origin. Except for rounding, p must be the ray's point
+/// closest to the origin: p·v is then small, and neither root loses digits.
 static inline ShapeSpan ball_span_from_closest(lane_float aa, lane_float pv, lane_float pp,
                                                lane_float radius) {
     const lane_float c = fma(-radius, radius, pp);
@@ -85,7 +87,7 @@ static inline ShapeSpan ball_span(ShapeRay r, float radius) {
                       closest);
 }
 
-/// The part of a ray in the endless cylinder around the Y axis.
+/// The part of a ray in the infinite cylinder around the Y axis.
 static inline ShapeSpan tube_span(ShapeRay r, float radius) {
     const lane_float aa = fma(r.v.x, r.v.x, r.v.z * r.v.z);
     const lane_int moves = LANE_MASK(aa > 0.0f);
@@ -130,9 +132,9 @@ static inline ShapeSpan capsule_span(ShapeRay r, float radius, float half_height
 }
 
 /// The double cone x² + z² <= radius(y)², radius(y) = mean + growth * y, along the ray from a point
-/// of it: a s² + 2 b s + c <= 0. Steeper than the side (a < 0), the ray is in one half of the
-/// double cone before its lower root and in the other after its upper; the half that is ours widens
-/// along the ray.
+/// of it: a s² + 2 b s + c <= 0. If the ray is steeper than the side (a < 0), it is in one half of
+/// the double cone before the lower root and in the other half after the upper root; the half that
+/// belongs to the shape is the one that widens along the ray.
 static inline ShapeSpan double_cone_span(ShapeRay r, float mean, float growth) {
     const lane_float radius = fma((lane_float)growth, r.p.y, (lane_float)mean);
     const lane_float widening = growth * r.v.y;
@@ -161,8 +163,9 @@ static inline ShapeSpan double_cone_span(ShapeRay r, float mean, float growth) {
     return select_span(LANE_MASK(a > 0.0f), closed, select_span(has_a, open, parallel));
 }
 
-/// A frustum: its double cone and its slab. The cone's equation is taken from the point of the slab
-/// that is closest to the axis, where squares are no larger than the solid.
+/// The span in a frustum: in its double cone and its slab. The cone's equation is set up at the
+/// point of the ray in the slab that is closest to the axis, where squares are no larger than the
+/// solid.
 static inline ShapeSpan cone_span(ShapeRay r, global const SolidShape* s) {
     const float half_height = s->size[1];
     const ShapeSpan caps = slab_span(r.p.y, r.v.y, half_height);

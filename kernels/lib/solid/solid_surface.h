@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of analytic solids for the tracer: closest hits and normals of packets whose lanes
-// may concern different solids.
+// The surface of analytic solids for the tracer: closest hits and normals for packets whose lanes
+// may test different solids.
 #ifndef VXL_SOLID_SURFACE_H
 #define VXL_SOLID_SURFACE_H
 
 #include "lib/solid/solid_hit.h"
 
-/// The outward gradient of a shape's distance at p, near its surface, not of unit length.
+/// The outward gradient of a shape's distance at p, near its surface; it is not of unit length.
 static inline SolidPoint shape_gradient(global const SolidShape* s, SolidPoint p) {
     SolidPoint n = p;
     const lane_float none = (lane_float)0.0f, up = copysign((lane_float)1.0f, p.y);
@@ -76,7 +76,7 @@ static inline SolidSlope shape_slope(global const SolidShape* s, const SolidRay*
 
 /// The outward normal of the solid's surface where the ray meets it at `t`: the gradient along the
 /// grid's axes in voxels, not of unit length; each component divided by the voxel's edge there
-/// gives the normal in metres. On an edge it is one of those that meet there.
+/// gives the normal in metres. On an edge it is the normal of one of the faces that meet there.
 static inline SolidPoint solid_normal(global const SolidShape* solids, uint number,
                                       const SolidRay* ray, lane_float t) {
     SolidSlope top = shape_slope(solids + number, ray, t), stack[VXL_SOLID_STACK];
@@ -99,7 +99,7 @@ static inline SolidPoint solid_normal(global const SolidShape* solids, uint numb
     return top.gradient;
 }
 
-/// Mask: a ray that starts on the solid's surface goes into it.
+/// Mask: a ray that starts on the solid's surface enters it.
 static inline lane_int goes_inside(global const SolidShape* solids, uint number,
                                    const SolidRay* ray) {
     const SolidPoint n = solid_normal(solids, number, ray, (lane_float)0.0f);
@@ -110,9 +110,9 @@ static inline lane_int goes_inside(global const SolidShape* solids, uint number,
 /// kSolidPrimitive); hits closer than *t, beyond t_first, replace it. Returns the mask of those
 /// lanes.
 ///
-/// The hit is the first of the whole ray, wherever the voxel that lists the solid lies. A ray that
-/// is known to travel inside or outside of the solid from t_first on says so in `known` and
-/// `inside`; then a surface point at t_first is not met again. See solid_crossing for t_clear.
+/// The hit is the first of the whole ray, wherever the voxel that lists the solid lies. `known` and
+/// `inside` describe rays that are known to travel inside or outside the solid from t_first on;
+/// these don't meet a surface point at t_first again. See solid_crossing for t_clear.
 static INLINED lane_int hit_solids(global const SolidShape* solids, lane_uint number,
                                    const SolidRay* ray, lane_float t_first, lane_float t_clear,
                                    lane_int known, lane_int inside, lane_int tested,
@@ -131,7 +131,7 @@ static INLINED lane_int hit_solids(global const SolidShape* solids, lane_uint nu
     return closer;
 }
 
-/// goes_inside for the solid of each lane in `asked`; 0 in the others.
+/// goes_inside for the solid of each lane in `asked`; 0 in other lanes.
 static inline lane_int go_inside(global const SolidShape* solids, lane_uint number,
                                  const SolidRay* ray, lane_int asked) {
     lane_int inside = (lane_int)0, left = asked;
@@ -144,7 +144,7 @@ static inline lane_int go_inside(global const SolidShape* solids, lane_uint numb
     return inside;
 }
 
-/// solid_normal for the solid of each lane in `wanted`; 0 in the others.
+/// solid_normal for the solid of each lane in `wanted`; 0 in other lanes.
 static inline SolidPoint solid_normals(global const SolidShape* solids, lane_uint number,
                                        const SolidRay* ray, lane_float t, lane_int wanted) {
     SolidPoint normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a ray is inside a torus: up to two intervals.
 //
-// Along the ray the torus is a quartic, which between its extrema is monotone. They are the roots
-// of a cubic, and that is monotone between its own; so every root is found in a bracket, and none
-// is lost to the cancellation of a closed form. The quartic only says where to split: signs and
+// Along the ray the torus is a quartic, which is monotone between its extrema. These are the roots
+// of a cubic, which is monotone between its own extrema. So every root is found in a bracket, and
+// none is lost to cancellation in a closed form. The quartic only says where to split: signs and
 // roots are those of the distance itself, whose value near its zero is right to a rounding of the
 // torus' size.
 #ifndef VXL_SOLID_TORUS_H
@@ -12,7 +12,7 @@
 #include "lib/solid/solid_ray.h"
 
 #define VXL_TORUS_STEPS \
-    40  // Newton ends after 4 to 8 but where roots nearly meet; halving takes 30
+    40  // Newton ends after 4 to 8 steps unless roots nearly meet; halving takes 30
 
 typedef struct {
     ShapeSpan first, second;
@@ -34,12 +34,13 @@ static inline TorusValue torus_value(ShapeRay r, float ring, float tube, lane_fl
     return f;
 }
 
-/// The root of s³ + e s + g in [low, high], where it is monotone; an end when there is none.
+/// The root of s³ + e s + g in [low, high], where the cubic is monotone; an end if there is no
+/// root.
 static inline lane_float cubic_root(lane_float e, lane_float g, lane_float low, lane_float high) {
     const lane_int falls =
         LANE_MASK(fma(fma(low, low, e), low, g) > fma(fma(high, high, e), high, g));
     lane_float s = 0.5f * (low + high);
-    for (int step = 0; step < 12; ++step) {  // a split point: a few digits are enough
+    for (int step = 0; step < 12; ++step) {  // only splits an interval, so a few digits are enough
         const lane_float value = fma(fma(s, s, e), s, g);
         const lane_int goes_up = LANE_MASK(value < 0.0f) ^ falls;
         low = LANES_SELECT(goes_up, s, low);
@@ -54,9 +55,9 @@ static inline lane_float cubic_root(lane_float e, lane_float g, lane_float low, 
     return s;
 }
 
-/// The crossing of the surface in [low, high] for the lanes of `searched`: Newton, halving the
-/// bracket where a step leaves it or does not halve the one before. Lanes stop one by one, so that
-/// a lane's result does not depend on its neighbours.
+/// The crossing of the surface in [low, high], for the `searched` lanes, by Newton's method. The
+/// bracket is halved where a step leaves it or is more than half of the step before. Lanes stop one
+/// by one, so that a lane's result does not depend on its neighbours.
 static inline lane_float torus_root(ShapeRay r, float ring, float tube, lane_float low,
                                     lane_float high, lane_int falls, lane_int searched) {
     lane_float s = 0.5f * (low + high), last = high - low;
@@ -83,7 +84,7 @@ static inline lane_float torus_root(ShapeRay r, float ring, float tube, lane_flo
 static inline TorusSpans torus_spans(ShapeRay ray, float ring, float tube) {
     TorusSpans found;
     found.first = found.second = span_where((lane_int)0);
-    // Unit speed, and s from where the ray passes the centre closest.
+    // The ray gets unit speed, and s counts from its point closest to the centre.
     const lane_float speed = solid_length3(ray.v.x, ray.v.y, ray.v.z);
     ShapeRay r;
     r.v.x = exact_divide(ray.v.x, speed);
@@ -99,8 +100,7 @@ static inline TorusSpans torus_spans(ShapeRay ray, float ring, float tube) {
     const lane_float low = LANES_SELECT(searched, around.enter, (lane_float)0.0f);
     const lane_float high = LANES_SELECT(searched, around.leave, (lane_float)0.0f);
 
-    // A quarter of the quartic's slope is s³ + e s + g, since p·v = 0; e s has its extrema at
-    // ±turn.
+    // A quarter of the quartic's slope is s³ + e s + g, since p·v = 0. Its extrema are at ±turn.
     const lane_float pp = fma(r.p.x, r.p.x, fma(r.p.y, r.p.y, r.p.z * r.p.z));
     const lane_float vv = fma(r.v.x, r.v.x, r.v.z * r.v.z);
     const float ring_squared = ring * ring;
@@ -116,7 +116,8 @@ static inline TorusSpans torus_spans(ShapeRay ray, float ring, float tube) {
     ends[3] = cubic_root(e, g, turn_high, high);
     ends[4] = high;
 
-    // Outside at both ends of the box around it; each change of side is a crossing.
+    // The ray is outside at both ends of the box around the torus; each change of side is a
+    // crossing.
     lane_int inside = (lane_int)0, count = (lane_int)0;
     for (int part = 0; part < 4; ++part) {
         lane_int next = (lane_int)0;

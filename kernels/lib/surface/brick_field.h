@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells of a brick's distance field whose half-Taylor interpolant can be 0, and their records.
-// Works on nodes gathered by lib/surface/brick_nodes.h.
+// The functions work on nodes gathered by lib/surface/brick_nodes.h.
 #ifndef VXL_BRICK_FIELD_H
 #define VXL_BRICK_FIELD_H
 
 #include "lib/surface/brick_nodes.h"
 
 // A cell is kept when min f - m <= 0 <= max f + m, with m = 129/128 1/8 Σ_a max|D_a| + 1 over the
-// three axes and each axis' four edges. That misses no zero of the interpolant F in voxel.h:
+// three axes and each axis' four edges. This test misses no zero of the interpolant F in voxel.h:
 //   min f <= Σ w_i f_i <= max f, since the weights are positive and sum to 1; ½ x(1-x) <= 1/8 on
 //   [0,1]; |Σ w_yz D_x| <= max|D_x|; so |F - Σ w_i f_i| <= 1/8 Σ_a max|D_a|.
-// Records hold D to within |D|/128 + 1/2, or a smaller one; the 1 covers three eighths of that half
-// unit, and the rounding of F.
+// Records hold D to within |D|/128 + 1/2, or a smaller value; the 1 in m covers three eighths of
+// that half unit, and the rounding of F.
 
-// The minimum and maximum of vectors of shorts. PoCL's min, max and abs_diff of these go lane by
+// The minimum and maximum of vectors of shorts. PoCL's min, max and abs_diff for these work lane by
 // lane (107 against 39 ms of CPU time for the bunny at 512 voxels).
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
 
-// Twice D of the edge from `node` to node[step]; 0 where a node in it is saturated.
+// Twice D of the edge from `node` to node[step]; 0 where one of its nodes is saturated.
 static inline int twice_curvature(const short* node, int step) {
     const int before = node[-step], first = node[0], second = node[step], after = node[2 * step];
     const int high = max(max(before, first), max(second, after));
@@ -74,13 +74,13 @@ static inline ushort16 larger_step(ushort16 largest, short16 a, short16 b) {
 // The largest difference of two neighbouring nodes, over all gathered nodes.
 static inline int largest_step(const short* nodes) {
     ushort16 largest = 0;
-    // Compilers for GPUs would unroll this 361 times.
+    // Without this, compilers for GPUs would unroll the loop 361 times.
 #pragma unroll 1
     for (int z = 0; z < VXL_NODES; ++z)
 #pragma unroll 1
         for (int y = 0; y < VXL_NODES; ++y) {
             const short* row = nodes + y * VXL_NODE_ROW + z * VXL_NODE_LAYER;
-            for (int x = 0; x <= 3; x += 3) {  // two overlapping sixteens cover nineteen
+            for (int x = 0; x <= 3; x += 3) {  // two overlapping vectors of sixteen cover nineteen
                 const short16 here = vload16(0, row + x);
                 if (y + 1 < VXL_NODES)
                     largest = larger_step(largest, here, vload16(0, row + x + VXL_NODE_ROW));
@@ -93,8 +93,8 @@ static inline int largest_step(const short* nodes) {
     return (int)largest_lane(largest);
 }
 
-// The bits of the cells to keep among sixteen along x from the one at `node`. `reach` bounds m in
-// the brick.
+// The bits of the cells to keep, among the sixteen along x from the one at `node`. `reach` bounds m
+// in the brick.
 static inline uint keep_row(const short* node, short reach) {
     short16 low = VXL_SATURATED, high = -VXL_SATURATED;
     for (int corner = 0; corner < 8; ++corner) {
@@ -115,7 +115,7 @@ static inline uint keep_row(const short* node, short reach) {
     const int16 y = largest_of_edges(node, VXL_NODE_ROW, 1, VXL_NODE_LAYER);
     const int16 z = largest_of_edges(node, VXL_NODE_LAYER, 1, VXL_NODE_ROW);
     const int16 twice = x + y + z;
-    const int16 reach16 = twice + (twice >> 7) + 16;  // 16 m, less than 1 below
+    const int16 reach16 = twice + (twice >> 7) + 16;  // 16 m, less than 1 too small
     const int16 kept = convert_int16(low) * 16 <= reach16 & convert_int16(high) * 16 >= -reach16 &
                        convert_int16(nearest) < VXL_SATURATED;
     return lanes_to_bits(kept);
@@ -123,7 +123,7 @@ static inline uint keep_row(const short* node, short reach) {
 
 // Adds the cells that the interpolant can cross to the 64 leaf masks.
 static inline void keep_smooth_cells(const short* nodes, ulong* kept) {
-    // |2D| is at most two steps, so m - 1 at most 3/8 of 129/128 of the largest step.
+    // |2D| is at most two steps, so m - 1 is at most 3/8 of 129/128 of the largest step.
     const short reach = (short)(largest_step(nodes) * 97 / 256 + 2);
 #pragma unroll 1
     for (int z = 0; z < 16; ++z)
@@ -137,8 +137,8 @@ static inline void keep_smooth_cells(const short* nodes, ulong* kept) {
         }
 }
 
-// The ten bits of an edge in shared/voxel.h from twice D, rounded to the nearest code, ties to
-// even.
+// Encodes an edge's curvature in ten bits as in shared/voxel.h, from twice D. Rounds to the nearest
+// code, ties to even.
 static inline uint curvature_bits(int twice) {
     const int shifted = abs(twice) + 128;  // 2 (|D| + 64), at least 2^7
     const int shift = 25 - clz(shifted);   // e + 1

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of two objects that coincide: of glass that stands on a table, of boxes with one top.
+// Surfaces of two objects that coincide, such as a glass and the table that it stands on, or boxes
+// with equal tops.
 //
-// Rounding puts the points where a ray meets them a little before or behind each other, here so and
-// there so. So of hits that rounding may have exchanged, one counts by its object: opaque ones
-// first, then those that the ray enters, then those that it leaves, each by their priorities. And a
-// ray that begins on one of the surfaces has passed the back of the other.
+// Rounding puts the points where a ray meets such surfaces slightly before or behind each other,
+// differently from ray to ray. So among hits that rounding may have exchanged, the object decides
+// which one counts: opaque ones come first, then those that the ray enters, then those that it
+// leaves, each by their priorities. Also, a ray that begins on one of the surfaces has already
+// passed the back of the other.
 #ifndef VXL_COINCIDENT_H
 #define VXL_COINCIDENT_H
 
@@ -13,27 +15,27 @@
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/world.h"
 
-// Objects that a ray leaves come after all that it enters.
+// Added to the order of objects that a ray leaves: they come after all that it enters.
 #define VXL_ORDER_LEAVING 0x40000000u
 
-/// True if a world's exact surfaces may coincide: they are of several objects.
+/// True if a world's exact surfaces may coincide, which takes several objects.
 static inline bool may_coincide(const SurfaceView* s) {
     return VXL_ATTRIBUTES && s->order != 0;
 }
 
-/// The distance in t up to which surfaces are taken to coincide. Points of a ray are right within
-/// plane_bound, and 1 / sin(7 degrees) is 8: where rays graze surfaces at less than that, rounding
-/// may set coinciding ones further apart.
+/// The distance in t up to which surfaces count as coincident. Points of a ray are right within
+/// plane_bound, and 1 / sin(7 degrees) is 8: where a ray grazes surfaces at less than 7 degrees,
+/// rounding may separate coincident ones farther.
 static inline lane_float coincidence(const PyramidView* p, const Walk* w) {
     return fmin(fabs(w->ix), fmin(fabs(w->iy), fabs(w->iz))) * (8.0f * p->plane_bound);
 }
 
-/// Mask: a source, or what was hit, is a triangle or solid.
+/// Mask: sources or hits that are a triangle or solid.
 static inline lane_int is_primitive(lane_uint number) {
     return LANE_MASK(number != VXL_NO_PRIMITIVE) & LANE_MASK((number >> 30) != 1u);
 }
 
-/// The index of a primitive's object in the order of coinciding surfaces.
+/// The rank of a primitive's object in the order of coincident surfaces.
 static inline lane_uint place_in_order(const SurfaceView* s, const RayState* ray_state,
                                        lane_uint primitive, lane_int some) {
     const lane_uint packed = attributes_of_hit(s, (lane_uint)0, primitive, some);
@@ -44,8 +46,8 @@ static inline lane_uint place_in_order(const SurfaceView* s, const RayState* ray
     return place;
 }
 
-/// Mask: of the lanes that `met` a primitive at `at`, those that take it instead of what they have
-/// found.
+/// Mask: among the lanes that `met` a primitive at `at`, those that take it instead of what they
+/// have already found.
 static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_state,
                                    lane_uint primitive, lane_float at, lane_float slack,
                                    lane_int met, const SurfaceHit* found) {
@@ -59,10 +61,10 @@ static inline lane_int comes_first(const SurfaceView* s, const RayState* ray_sta
     return LANES_SELECT(both & LANE_MASK(own != other), LANE_MASK(own < other), closer);
 }
 
-/// Mask: of the lanes that met a triangle close to where they begin, those for which it is ahead.
-/// One of the source's own object is ahead by its t. A ray meets the `front` of others, and their
-/// back where it is `within` them, or where it `goes_on` and their object comes after the source's:
-/// that is the back of a sheet, which nothing is within.
+/// Mask: among the lanes that met a triangle close to where they begin, those for which it lies
+/// ahead. For a triangle of the source's own object, t decides. For others, a ray meets the
+/// `front`; it meets the back only if it is `within` the object, or if it `goes_on` and the object
+/// comes after the source's: that is the back of a sheet, which has no inside.
 static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
                                 lane_uint primitive, lane_float at, lane_int at_least,
                                 lane_int front, lane_int within, lane_int goes_on, lane_int near) {
@@ -78,15 +80,16 @@ static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
     return near & LANES_SELECT(LANE_MASK(own == source), later, ahead);
 }
 
-/// Where rays that begin on surfaces meet others: those that coincide with theirs may seem to lie
+/// How rays that begin on surfaces meet others: surfaces that coincide with theirs may seem to lie
 /// `slack` before or behind them.
 typedef struct {
-    lane_int begins;   // mask: others' backs by the ray's beginning were passed
-    lane_int goes_on;  // mask: others' faces there are ahead, even if they seem to lie behind
+    lane_int begins;   // mask: backs of other objects near the ray's origin were already passed
+    lane_int goes_on;  // mask: faces of other objects there are ahead, even if they seem to lie
+                       // behind
     lane_float slack;
 } RayBeginning;
 
-/// What a packet's rays begin on in the world's exact surfaces.
+/// What a packet's rays begin on among the world's exact surfaces.
 static inline RayBeginning beginning_of(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                         const RayState* ray_state) {
     RayBeginning from = {(lane_int)0, (lane_int)0, (lane_float)0.0f};
@@ -97,7 +100,7 @@ static inline RayBeginning beginning_of(const PyramidView* p, const SurfaceView*
     return from;
 }
 
-/// hit_triangle, where surfaces may coincide with the one that the ray begins on.
+/// hit_triangle, for surfaces that may coincide with the one on which the ray begins.
 static inline lane_int hit_triangle_ahead(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                           lane_uint number, const RayShear* shear,
                                           const RayState* ray_state, const RayBeginning* from,

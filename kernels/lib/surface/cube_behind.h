@@ -6,13 +6,13 @@
 #include "lib/traverse/voxel_kinds.h"
 #include "lib/traverse/walk.h"
 
-/// The cube of a voxel whose surfaces a ray has missed. A surface lies in many such voxels side by
-/// side, and the ray may meet it in the next: so the ray meets the cube only when it comes to a
-/// cell of another kind, or leaves the world, without having met a surface.
+/// The cube of a voxel whose surfaces a ray has missed. A surface passes through many such voxels
+/// side by side, and the ray may meet it in the next one. So the ray meets the cube only when it
+/// reaches a cell of another kind, or leaves the world, without having met a surface.
 typedef struct {
-    lane_int kept;  // mask: there is one; the first of several
+    lane_int kept;  // mask: there is such a cube; the first of several
     lane_float t;
-    lane_int passes;  // mask: the ray has been in such voxels alone since it left a surface in one
+    lane_int passes;  // mask: the ray has been only in such voxels since it left a surface in one
     lane_uint voxel, cell_xy, cell_z;  // x | y << 16, z | axis << 16: where the walk was
 } CubeBehind;
 
@@ -24,7 +24,7 @@ static inline CubeBehind no_cube_behind(void) {
     return b;
 }
 
-/// Replaces the `taken` lanes' by `other`.
+/// Replaces the cubes of the `taken` lanes by those of `other`.
 static inline void replace_cubes(CubeBehind* b, const CubeBehind* other, lane_int taken) {
     b->kept = LANES_SELECT(taken, other->kept, b->kept);
     b->passes = LANES_SELECT(taken, other->passes, b->passes);
@@ -34,13 +34,14 @@ static inline void replace_cubes(CubeBehind* b, const CubeBehind* other, lane_in
     b->cell_z = LANES_SELECT(taken, other->cell_z, b->cell_z);
 }
 
-/// Lets rays of the `tested` lanes pass the cubes of the voxels that are `behind` surfaces, if they
-/// are `leaving` a surface in one to the side where light comes from, as rays do that come to it.
+/// Lets rays of the `tested` lanes pass the cubes of voxels that lie `behind` surfaces. This begins
+/// with rays that are `leaving` a surface in such a voxel to the side that light comes from, and
+/// matches rays that arrive there.
 static inline void pass_cubes(CubeBehind* b, lane_int tested, lane_int behind, lane_int leaving) {
     b->passes = LANES_SELECT(tested, (b->passes | leaving) & behind, b->passes);
 }
 
-/// The axis across whose planes a line comes into the walk's cell.
+/// The axis across whose plane a line enters the walk's cell.
 static inline lane_int entry_axis(const Walk* w) {
     const lane_float none = (lane_float)-INFINITY;
     const lane_float tx =
@@ -53,8 +54,8 @@ static inline lane_int entry_axis(const Walk* w) {
     return LANES_SELECT(LANE_MASK(tz >= fmax(tx, ty)), (lane_int)2, y);
 }
 
-/// Keeps the cubes that walks are in, in the `missed` lanes that have none yet. Rays that have come
-/// `through` a surface in the voxel meet the cube behind it, and see the face that faces them.
+/// Keeps the cubes that walks are in, for the `missed` lanes that have none yet. Rays that have
+/// come `through` a surface in the voxel meet the cube behind it, and see the face that faces them.
 static inline void keep_cube(CubeBehind* b, const Walk* w, lane_uint voxel, lane_int missed,
                              lane_int through) {
     const lane_int fresh = missed & ~(b->kept | b->passes);
@@ -66,7 +67,7 @@ static inline void keep_cube(CubeBehind* b, const Walk* w, lane_uint voxel, lane
     b->cell_z = LANES_SELECT(fresh, LANES_AS_UINT(w->z | axis << 16), b->cell_z);
 }
 
-/// Moves the walks of `lanes` back to their cubes, which are kept no longer.
+/// Moves the walks of `lanes` back to their cubes, which are then no longer kept.
 static inline void put_back(CubeBehind* b, Walk* w, lane_int lanes) {
     b->kept &= ~lanes;
     w->t = LANES_SELECT(lanes, b->t, w->t);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cubes of one object that a ray is inside of, as one body.
+// The cubes of one object that a ray is inside of, treated as one body.
 //
 // The ray's medium set changes when the ray enters the first voxel of the body, and when it leaves
-// the last one to a cell that isn't the object's; voxels between don't change it. If the material
-// refracts, the body is of this material alone, and these two faces are all of its surface. Else
-// every voxel entered covers what lies behind by its opacity, and the face where the ray leaves
-// does nothing.
+// the last one to a cell that isn't the object's; voxels between don't change the set. If the
+// material refracts, the body consists of this material alone, and these two faces are its whole
+// surface. Otherwise every voxel entered covers what lies behind it by its opacity, and the face
+// where the ray leaves does nothing.
 #ifndef VXL_CUBE_BODY_H
 #define VXL_CUBE_BODY_H
 
@@ -19,7 +19,7 @@ static inline lane_int is_cube(lane_uint packed, lane_uint primitive) {
            LANE_MASK(primitive == VXL_NO_PRIMITIVE);
 }
 
-/// The packed attributes of the body that a ray is inside of, VXL_NO_MEDIUM for none. A voxel shows
+/// The packed attributes of the body that a ray is inside of; VXL_NO_MEDIUM for none. A voxel shows
 /// one object, so there is at most one body.
 static inline lane_uint body_inside(const MediumSet* in) {
     const lane_uint kind = (lane_uint)VXL_KIND_CUBES;
@@ -30,7 +30,7 @@ static inline lane_uint body_inside(const MediumSet* in) {
     return body;
 }
 
-/// Mask: the faces between the voxels of a body are no surfaces.
+/// Mask: bodies of which the faces between voxels are no surfaces.
 static inline lane_int is_joined(lane_uint body, global const float* restrict materials) {
     const lane_int some = LANE_MASK(body != VXL_NO_MEDIUM);
     const lane_uint material = material_offset(body) & LANES_AS_UINT(some);
@@ -38,7 +38,7 @@ static inline lane_int is_joined(lane_uint body, global const float* restrict ma
            LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
 }
 
-/// Mask: the cubes of `packed` belong to the body that a ray is inside of. Other materials of the
+/// Mask: cubes of `packed` that belong to the body that a ray is inside of. Other materials of the
 /// object aren't part of a body that is `joined`.
 static inline lane_int is_of_body(lane_uint body, lane_uint packed, lane_int joined) {
     const uint material = VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT;
@@ -65,8 +65,8 @@ static inline lane_int crossed_upwards(const Walk* w) {
                         LANES_SELECT(LANE_MASK(w->axis == 1), w->py, w->pz));
 }
 
-/// The cell's coordinates and face of a hit, as VXL_HIT_CELL and VXL_HIT_FACE have them. Where a
-/// walk left a body, the cell is the body's last.
+/// The face of a hit as in VXL_HIT_FACE. Where a walk left a body, this moves the walk back to the
+/// body's last cell, for VXL_HIT_CELL.
 static inline lane_uint hit_face(Walk* w, lane_int exit) {
     lane_uint flags = (lane_uint)0;
     if (VXL_CUBE_BODIES) {

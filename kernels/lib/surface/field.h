@@ -2,7 +2,7 @@
 // The sub-voxel surface of a smooth voxel: half-Taylor interpolation of its corners' distances.
 //
 // shared/voxel.h has the record and the formula. Values are in distance units (1/8192 voxel),
-// positive outside. Neighbouring voxels hold the same bits for the nodes and edges they share.
+// positive outside. Neighbouring voxels hold equal bits for the nodes and edges that they share.
 #ifndef VXL_FIELD_H
 #define VXL_FIELD_H
 
@@ -25,7 +25,8 @@ static inline lane_float high_half(lane_uint word) {
 }
 /// ½ D of the edge whose bits begin at bit `first`.
 static inline lane_float half_curvature(lane_uint word, int first) {
-    // The nine bits of |D| as exponent and first bits of a float from 32 on: (32 + m/2) 2^e.
+    // The nine bits of |D| become the exponent and first mantissa bits of a float of at least 32:
+    // (32 + m/2) 2^e.
     const lane_uint size = (first > 17 ? word >> (first - 17) : word << (17 - first)) & 0x3FE0000u;
     const lane_float half_size = LANES_AS_FLOAT(size + 0x42000000u) - 32.0f;
     return LANES_AS_FLOAT(LANES_AS_UINT(half_size) ^ (word << (22 - first) & 0x80000000u));
@@ -59,7 +60,7 @@ static inline Field read_field(global const uint* restrict fields, lane_uint vox
 }
 
 /// The linear interpolation from a at s = 0 to b at s = 1, exact at both ends, so that neighbours
-/// give the same bits on the face they share.
+/// give equal bits on the face that they share.
 static inline lane_float blend(lane_float a, lane_float b, lane_float s) {
     return fma(s, b, fma(-s, a, a));
 }

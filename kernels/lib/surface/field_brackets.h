@@ -5,12 +5,12 @@
 
 #include "shared/field_place.h"
 
-/// How many brackets there are around a field.
+/// The number of brackets around a field.
 static inline int bracket_depth(uint path) {
     return (path != 0) + (path >> VXL_BRACKET_BITS != 0) + (path >> 2 * VXL_BRACKET_BITS != 0);
 }
 
-/// How many brackets two fields are both in.
+/// The number of brackets that two fields are both in.
 static inline int shared_brackets(uint a, uint b) {
     const int max_depth = min(bracket_depth(a), bracket_depth(b));
     int shared = 0;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a solid's parts that pass one voxel: several fields, of which each point has the
-// least or the largest, by a formula with or without brackets (shared/voxel.h), so that edges
-// between parts stay sharp.
+// The surface of a solid's parts that pass through one voxel: several fields, whose minimum or
+// maximum counts at each point by a formula with or without brackets (shared/voxel.h), so that
+// edges between parts stay sharp.
 #ifndef VXL_FIELD_CHAIN_H
 #define VXL_FIELD_CHAIN_H
 
 #include "lib/surface/smooth.h"
 
-// The maximum number of zeros of a chain's records that a ray goes through in search of the chain's
-// own.
+// The maximum number of zeros of a chain's records that a ray passes in search of the chain's own
+// zero.
 #define VXL_CHAIN_ZEROS 64
 
 #define VXL_NO_RECORD 0xFFFFFFFFu
 
-/// A voxel's chain of records, for each lane: those from `begin` to before `end`.
+/// A voxel's chain of records, for each lane: records `begin` to `end` - 1.
 typedef struct {
     global const uint* restrict fields;
     lane_uint begin, end;
 } FieldChain;
 
-/// Records `begin` of lists that end at `list_end`, with those that are linked to them.
+/// Chains that begin with record `begin` of lists that end at `list_end`: it and the records linked
+/// to it.
 static inline FieldChain chain_from(global const uint* restrict fields, lane_uint begin,
                                     lane_uint list_end, lane_int tested) {
     FieldChain c = {fields, begin, begin + 1u};
@@ -33,19 +34,20 @@ static inline FieldChain chain_from(global const uint* restrict fields, lane_uin
     return c;
 }
 
-/// A chain's value at a point, and the record that it is the value of.
+/// A chain's value at a point, and the record that the value belongs to.
 typedef struct {
     lane_float value;
     lane_uint record;
 } ChainValue;
 
-/// Records that are joined to one another, and how they will be to those before them.
+/// Records that have been joined to one another, and the link that will join them to those before
+/// them.
 typedef struct {
     ChainValue sum;
     lane_uint link;
 } JoinedRecords;
 
-/// The brackets of a chain that are open, the outermost first; the chain itself is number 0.
+/// The open brackets of a chain, the outermost first; the chain itself is number 0.
 typedef struct {
     JoinedRecords open[VXL_CHAIN_DEPTH + 1];
     lane_int depth;  // the number of the innermost
@@ -70,8 +72,8 @@ static inline void close_brackets(OpenBrackets* b, lane_int depth, lane_int lane
     b->depth = LANES_SELECT(lanes, depth, b->depth);
 }
 
-/// Closes and opens the brackets in front of a record, of which the outermost that opens takes over
-/// its link.
+/// Closes and opens the brackets in front of a record. The outermost bracket that opens takes over
+/// the record's link.
 static inline void pass_brackets(const FieldChain* c, OpenBrackets* b, lane_uint record,
                                  lane_uint* link, lane_int lanes) {
     const lane_uint word = (record & LANES_AS_UINT(lanes)) * VXL_FIELD_WORDS;
@@ -89,10 +91,10 @@ static inline void pass_brackets(const FieldChain* c, OpenBrackets* b, lane_uint
     }
 }
 
-/// A way along a ray through a chain's fields, from one record's zero to the next.
+/// A position on a ray's way through a chain's fields, from one record's zero to the next.
 typedef struct {
-    lane_float u;       // where it is
-    lane_uint record;   // whose zero lies there; VXL_NO_RECORD at the start
+    lane_float u;       // the position along the ray
+    lane_uint record;   // the record whose zero lies there; VXL_NO_RECORD at the start
     lane_float beyond;  // that record's sign from there on
 } ChainWay;
 
@@ -101,7 +103,7 @@ static inline ChainWay chain_way(void) {
     return way;
 }
 
-/// The value just behind a point of a way, where all records have `shift` added to them.
+/// The chain's value just behind a position, with `shift` added to all records.
 static INLINED ChainValue chain_behind(const FieldChain* c, const LocalRay* ray,
                                        const ChainWay* way, lane_float shift, lane_int tested) {
     OpenBrackets b;
@@ -130,8 +132,8 @@ static INLINED ChainValue chain_behind(const FieldChain* c, const LocalRay* ray,
     return b.open[0].sum;
 }
 
-/// Goes on to the next zero of any record plus `shift`, up to `u_exit`: the mask of lanes that have
-/// one.
+/// Moves to the next zero of any record plus `shift`, up to `u_exit`. Returns the mask of lanes
+/// that have one.
 static INLINED lane_int next_zero(const FieldChain* c, const LocalRay* ray, lane_float shift,
                                   lane_float u_exit, lane_int tested, ChainWay* way) {
     const lane_float start = way->u, beyond = way->beyond;
@@ -157,7 +159,7 @@ static INLINED lane_int next_zero(const FieldChain* c, const LocalRay* ray, lane
     return found;
 }
 
-/// What hit_smooth does, for chains: `record` gets the records that are hit.
+/// What hit_smooth does, for chains. Sets `record` to the records that are hit.
 static INLINED lane_int hit_chain(const FieldChain* c, const Walk* w, float plane_bound,
                                   lane_int tested, FieldApproach* from, lane_float* level,
                                   lane_float* t_hit, lane_uint* record) {
@@ -170,7 +172,7 @@ static INLINED lane_int hit_chain(const FieldChain* c, const Walk* w, float plan
     *t_hit = LANES_SELECT(met, w->t, *t_hit);
     *record = LANES_SELECT(met, entry.record, *record);
     const lane_float shift = e.side * *level;
-    // Where surfaces of parts coincide, rounding doesn't decide which of them is met first.
+    // Where surfaces of parts coincide, rounding must not decide which of them is met first.
     const lane_float met_at_once = shift - e.side * (2.0f * VXL_FIELD_ROUNDING);
     lane_int searching = tested & ~met;
     for (int zero = 0; zero < VXL_CHAIN_ZEROS && lanes_any(searching); ++zero) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faces at which cubes of glass touch glass cubes of another object or material.
 //
-// No gap lies between the two, so such a face is one surface. A ray meets it twice: it leaves the
-// one body and enters the other. Where it enters, the face is hidden. Where it leaves, the face
-// bends light from the one index of refraction to the other, and is hidden if they are equal.
+// There is no gap between the two, so such a face is one surface. A ray meets it twice: it leaves
+// one body and enters the other. Where the ray enters, the face is hidden. Where it leaves, the
+// face bends light from one index of refraction to the other, and is hidden if they are equal.
 #ifndef VXL_GLASS_FACES_H
 #define VXL_GLASS_FACES_H
 
@@ -25,7 +25,7 @@ static inline FaceCell neighbor_of(FaceCell cell, lane_uint axis, lane_int up) {
     return cell;
 }
 
-/// The packed attributes of the glass cubes in the `asked` lanes' cells, VXL_NO_MEDIUM where there
+/// The packed attributes of the glass cubes in the `asked` lanes' cells; VXL_NO_MEDIUM where there
 /// are none.
 static inline lane_uint glass_in(const PyramidView* p, const SurfaceView* s, FaceCell c,
                                  global const float* restrict materials, lane_int asked) {
@@ -33,7 +33,7 @@ static inline lane_uint glass_in(const PyramidView* p, const SurfaceView* s, Fac
     asked &= LANE_MASK(c.x >= 0) & LANE_MASK(c.y >= 0) & LANE_MASK(c.z >= 0) &
              LANE_MASK(c.x < p->size_x) & LANE_MASK(c.y < p->size_y) & LANE_MASK(c.z < p->size_z);
     if (!VXL_ATTRIBUTES || !lanes_any(asked))
-        return none;  // a single object has no glass beside it
+        return none;  // a single object has no other glass next to it
     const lane_int x = c.x & asked, y = c.y & asked, z = c.z & asked;
     LastSector last = no_sector();
     const CellState cell = look_up(p, x, y, z, asked, &last);
@@ -46,9 +46,9 @@ static inline lane_uint glass_in(const PyramidView* p, const SurfaceView* s, Fac
     return LANES_SELECT(glass, packed, none);
 }
 
-/// Mask: rays whose sets are `in` cross faces between the glass of `packed` and that `beyond`, and
-/// no other object that they are inside of counts on either side. `exit` tells those that leave
-/// the glass of `packed`; the others enter it.
+/// Mask: rays with the sets `in` that cross faces between the glass `packed` and the glass
+/// `beyond`, while no other object that they are inside of counts on either side. Rays in `exit`
+/// leave the glass `packed`; the others enter it.
 static inline lane_int are_between_glass(const MediumSet* in, lane_uint packed, lane_uint beyond,
                                          lane_int exit, global const uint* restrict ranks) {
     const MediumSet others = cross_medium(*in, packed, (lane_int)-1, exit);
@@ -57,7 +57,7 @@ static inline lane_int are_between_glass(const MediumSet* in, lane_uint packed, 
            LANE_MASK(last < rank_of(ranks, effective_medium(&others, ranks)));
 }
 
-/// Mask: two sorts of glass have one index of refraction.
+/// Mask: pairs of glass with equal indices of refraction.
 static inline lane_int bend_alike(lane_uint packed, lane_uint other,
                                   global const float* restrict materials) {
     const lane_int some = LANE_MASK(packed != VXL_NO_MEDIUM) & LANE_MASK(other != VXL_NO_MEDIUM);

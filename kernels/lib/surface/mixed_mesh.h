@@ -4,10 +4,10 @@
 // The field and the triangles of such a mesh overlap, and one lies up to a tenth of a voxel above
 // the other. A ray that begins on the lower one, and leaves the body, would end at the back of the
 // upper one. The mesh is closed and opaque and is lit and seen from outside, so such a ray passes
-// the backs of the other kind of surface of its own object. All other rays meet backs: those that
-// come in by an edge of the overlap don't leave on the far side of the body.
+// the backs of the other kind of surface of its own object. All other rays meet backs, so rays that
+// enter at an edge of the overlap don't leave on the far side of the body.
 //
-// No other object has both fields and triangles, so these rays are known by what they begin on.
+// No other object has both fields and triangles, so what a ray begins on identifies these rays.
 #ifndef VXL_MIXED_MESH_H
 #define VXL_MIXED_MESH_H
 
@@ -47,8 +47,8 @@ static inline void find_mixed_mesh(const WorldView* world, lane_int sent, RaySta
     ray_state->triangle_of = LANES_SELECT(on_triangle, object, (lane_uint)VXL_NO_OBJECT);
 }
 
-/// Turns the objects to those that surfaces have in the space of instance `number`, which shows
-/// `object`: there all are of object 0. In the world they stay.
+/// Converts the objects to those that surfaces have in the space of instance `number`, which shows
+/// `object`: there, all surfaces belong to object 0. In the world they stay as they are.
 static inline void enter_mixed_mesh(RayState* ray_state, lane_uint number, uint object) {
     const lane_int of_instance = LANE_MASK(number != VXL_NO_INSTANCE);
     const lane_uint none = (lane_uint)VXL_NO_OBJECT, own = (lane_uint)0;
@@ -63,9 +63,9 @@ static inline lane_int is_of_object(lane_uint object, lane_uint packed) {
     return LANE_MASK((packed & VXL_OBJECT_MASK) == object);
 }
 
-/// Keeps the level of rays that began below the field of their own mesh from the fields of other
-/// objects, whose packed attributes are given: for these it is what rounding may ask of any ray.
-/// The mask of such lanes, whose level stays what it was.
+/// For the fields of objects other than a ray's own mixed mesh, limits the level of rays that began
+/// below the field of that mesh to what rounding alone requires. `packed` are the fields'
+/// attributes. Returns the mask of the limited lanes, so that the caller can restore their level.
 static inline lane_int hide_level(const RayState* ray_state, lane_uint packed, float plane_bound,
                                   lane_float* level) {
     const float bound = rounding_of_origins(plane_bound);

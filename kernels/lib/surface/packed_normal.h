@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packed normals of shared/normal.h: from three components, and back.
+// Packs normals as in shared/normal.h from three components, and unpacks them.
 #ifndef VXL_PACKED_NORMAL_H
 #define VXL_PACKED_NORMAL_H
 
@@ -18,7 +18,7 @@ static inline void unpack_components(lane_uint packed, lane_float* x, lane_float
     *y = v - LANES_SELECT(LANE_MASK(v >= 0.0f), fold, -fold);
 }
 
-/// A coordinate of the octahedron's lower half, folded over its edge: `by` with the sign of `to`.
+/// A coordinate of the octahedron's lower half, folded over its edge: `by`, with the sign of `to`.
 static inline lane_float folded_over(lane_float by, lane_float to) {
     return LANES_SELECT(LANE_MASK(to < 0.0f), -by, by);
 }
@@ -27,8 +27,8 @@ static inline lane_uint normal_units(lane_float coordinate) {
     return LANES_AS_UINT(LANES_INT(rint(coordinate * (float)VXL_NORMAL_UNITS))) & 0xFFFFu;
 }
 
-/// The codes of vectors whose components' sum of sizes is within 2^-24 .. 2^24; VXL_NO_NORMAL for
-/// those that are shorter.
+/// Packs vectors whose components have absolute values that sum up to 2^-24 .. 2^24; shorter ones
+/// become VXL_NO_NORMAL.
 static inline lane_uint pack_components(lane_float x, lane_float y, lane_float z) {
     const lane_float size = fabs(x) + fabs(y) + fabs(z);
     const lane_int some = LANE_MASK(size >= 0x1p-24f);
@@ -42,13 +42,13 @@ static inline lane_uint pack_components(lane_float x, lane_float y, lane_float z
     return LANES_SELECT(some, code, (lane_uint)VXL_NO_NORMAL);
 }
 
-/// pack_components of one vector.
+/// pack_components for one vector.
 static inline uint pack_normal(float3 n) {
     const lane_uint code = pack_components((lane_float)n.x, (lane_float)n.y, (lane_float)n.z);
     return ((const uint*)&code)[0];
 }
 
-/// unpack_components of one code.
+/// unpack_components for one code.
 static inline float3 unpack_one_normal(uint packed) {
     lane_float x, y, z;
     unpack_components((lane_uint)packed, &x, &y, &z);

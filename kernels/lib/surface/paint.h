@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of the surfaces that rays have met, where some wear textures: what a sample's part of
-// a pixel shows of each.
+// The colours of the surfaces that rays have met, where some wear textures, averaged over the part
+// of the surface that a sample covers.
 #ifndef VXL_PAINT_H
 #define VXL_PAINT_H
 
@@ -15,19 +15,20 @@
 #include "shared/footprint.h"
 #include "shared/paths.h"
 
-/// The smallest cosine that footprints on textures are found for, which would have no end below.
+/// The minimum cosine for which footprints on textures are computed; below it they would be
+/// unbounded.
 #define VXL_LEAST_SEEN 0.015625f
 
-/// What packets of rays span where they met surfaces: two vectors across the rays, in metres.
+/// What rays span where they met surfaces: two vectors across the rays, in metres.
 typedef struct {
     Vector side[2];
     lane_float lean[2];  // of TextureArea
-    lane_float off[2];   // how far the middle of what they span lies off the rays, in these vectors
-    lane_float width;    // of a square of the same area
+    lane_float off[2];   // offset of the span's middle from the ray, in these vectors
+    lane_float width;    // edge of a square of equal area
 } RaySpan;
 
-/// Two vectors of a length across the unit vectors `way`, one of them along the surface of this
-/// normal.
+/// Two vectors of length `width` across the unit vectors `way`, one of them along the surface with
+/// this normal.
 static inline void span_square(Vector way, Vector normal, lane_float width, RaySpan* s) {
     Vector flat = cross_of(normal, way);
     const lane_int straight = LANE_MASK(dot_product(flat, flat) < 1e-6f);
@@ -45,8 +46,8 @@ static inline void span_square(Vector way, Vector normal, lane_float width, RayS
     s->width = width;
 }
 
-/// How far the middle of the cell in which `from`, the way from the observer, lies is off it along
-/// `step`, in cells. `half_cells` lie on each side of the view's middle.
+/// The offset, in cells, between `from`, the vector from the observer, and the middle of the cell
+/// that it lies in, along `step`. `half_cells` lie on each side of the view's middle.
 static inline lane_float off_middle(Vector from, float4 step, lane_float depth, float half_cells) {
     const lane_float along = dot_product(from, vector_of(step)) * step.w;
     const lane_float cells = exact_divide(along, depth) + half_cells;
@@ -54,8 +55,8 @@ static inline lane_float off_middle(Vector from, float4 step, lane_float depth, 
                         (lane_float)0.0f);
 }
 
-/// The vectors that rays span, in metres, at the points `position`, in voxels. Rays from other
-/// surfaces were `before` wide there; rays from the observer were 0 wide.
+/// The span of rays, in metres, at the points `position`, in voxels. Rays from other surfaces had
+/// the width `before` there; rays from the observer had the width 0.
 static inline RaySpan span_of(const Footprint* f, float4 edge, Vector position, Vector normal,
                               Vector way, lane_float before, lane_float travelled) {
     const Vector middle = vector_of(f->middle);
@@ -87,14 +88,14 @@ static inline RaySpan span_of(const Footprint* f, float4 edge, Vector position, 
     return s;
 }
 
-/// The vector moved along the unit vectors `way` onto the surface of this normal, which `way` runs
-/// against.
+/// The vector moved along the unit vectors `way` onto the surface with this normal; `way` points
+/// against the normal.
 static inline Vector on_surface(Vector v, Vector normal, Vector way) {
     const lane_float seen = fmin(dot_product(normal, way), (lane_float)-VXL_LEAST_SEEN);
     return add_scaled(v, way, -exact_divide(dot_product(v, normal), seen));
 }
 
-/// A vector in metres in the voxels of the hits.
+/// Converts a vector in metres to the voxels of the hits.
 static inline Vector in_hit_voxels(const ShadedHit* h, Vector v, float4 inverse_edge) {
     v = scaled(v, inverse_edge);
     if (!VXL_INSTANCES) return v;
@@ -105,19 +106,20 @@ static inline Vector in_hit_voxels(const ShadedHit* h, Vector v, float4 inverse_
     return select_vector(h->of_instance, own, v);
 }
 
-/// The triangles whose textures a packet's surfaces show, and where.
+/// The triangles whose textures a packet's surfaces show, and the points on them.
 typedef struct {
-    lane_int wears;            // mask: there is one, with a texture
+    lane_int wears;            // mask: there is one with a texture
     lane_uint worn;            // where the record of what it wears begins
     lane_uint texture;         // where its texture begins
     Vector ab, ac;             // its sides from the first corner
-    lane_float share[3];       // of each corner in the place
-    const Vector* sides;       // what a ray spans on the surface, in the space of `ab` and `ac`
+    lane_float share[3];       // weights of the corners at the point
+    const Vector* sides;       // the ray's span on the surface, in the space of `ab` and `ac`
     global const uint* words;  // the records
     global const uint* textures;
 } WornTriangle;
 
-/// Where triangles are met, and how far their places on textures move along the sides of the span.
+/// The area on a texture that a ray sees: its middle, and how far positions on the texture move
+/// along the sides of the span.
 static inline TextureArea area_of(const WornTriangle* w, const RaySpan* span) {
     const Vector n = cross_of(w->ab, w->ac);
     const lane_float squared = dot_product(n, n);
@@ -145,9 +147,9 @@ static inline TextureArea area_of(const WornTriangle* w, const RaySpan* span) {
     return area;
 }
 
-/// Replaces the colours of surfaces that wear a texture by its mean over what the rays span, times
-/// the colour that lies between the corners', and sets the values of its maps. Returns the mean of
-/// its alpha.
+/// Replaces the colours of surfaces that wear a texture by the texture's mean over the rays' spans,
+/// times the interpolated colour of the corners. Sets the values of its maps. Returns the mean
+/// alpha.
 static inline lane_float paint_triangles(const WornTriangle* w, const RaySpan* span,
                                          lane_float* color, MapValues* maps) {
     lane_float mean[4];
@@ -194,8 +196,8 @@ static inline void paint_exact(const WorldView* world, const ShadedHit* h, const
         color[VXL_PAINT_OPACITY] = LANES_SELECT(w.wears, alpha, color[VXL_PAINT_OPACITY]);
 }
 
-/// Paints the points `at` of smooth objects by the closest points of their meshes, where lanes
-/// `ask`. Alpha counts for nothing there: a smooth object is a body.
+/// Paints the points `at` of smooth objects by the closest points of their meshes, in the lanes
+/// that `ask`. Alpha is ignored there, because a smooth object is a body.
 static inline void paint_smooth(const SourceMeshes* sources, Vector at, lane_uint object,
                                 lane_int ask, const RaySpan* span, const Vector* sides,
                                 lane_float* color, MapValues* maps) {
@@ -213,8 +215,8 @@ static inline void paint_smooth(const SourceMeshes* sources, Vector at, lane_uin
     paint_triangles(&w, span, color, maps);
 }
 
-/// The colours of the surfaces in `color`, and their opacity: their voxels', or those of textures
-/// that they wear. Where textures have maps, sets their values.
+/// Sets `color` to the surfaces' colours and opacity: those of their voxels, or of textures that
+/// they wear. Where textures have maps, sets their values.
 static inline void paint_of_hits(const WorldView* world, const SourceMeshes* sources,
                                  const ShadedHit* h, const RaySpan* span, Vector normal, Vector way,
                                  lane_float* color, MapValues* maps) {
@@ -242,8 +244,8 @@ static inline void store_paint(const lane_float* all, global float* restrict pai
             paint[(first + lane) * count + c] = values[c * VXL_LANES + lane];
 }
 
-/// Finds and writes the paint of hits at `position`, of these materials; `all` has room for it.
-/// Where textures have maps, sets what they multiply emission by.
+/// Finds and writes the paint of hits at `position` with these materials; `all` has room for it.
+/// Where textures have maps, sets their factors of emission.
 static inline void paint_hits(const WorldView* world, const SourceMeshes* sources,
                               const ShadedHit* h, const Footprint* f, Vector position,
                               Vector normal, global const float* restrict materials,

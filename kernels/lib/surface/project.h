@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points near a surface -> the points of it that are closest.
+// Points near a surface -> the closest points on the surface.
 #ifndef VXL_PROJECT_H
 #define VXL_PROJECT_H
 
@@ -12,8 +12,8 @@
 
 #define VXL_PROJECT_STEPS 6
 
-/// Brings the points p, within voxels, onto the fields' surfaces by Newton's steps. `g` becomes the
-/// gradient there, `left` the distance that remains, in voxels.
+/// Moves the points p, within voxels, onto the fields' surfaces by Newton's method. `g` becomes the
+/// gradient there, `left` the remaining distance in voxels.
 static inline void project_on_field(const Field* f, Vector* p, Vector* g, lane_float* left) {
     for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
         const lane_float value = field_value(f, p->x, p->y, p->z);
@@ -32,7 +32,7 @@ static inline void project_on_field(const Field* f, Vector* p, Vector* g, lane_f
     }
 }
 
-/// Brings the points p onto the surface of solid `number` by steps along its normal; `g` and `left`
+/// Moves the points p onto the surface of solid `number` by steps along its normal; `g` and `left`
 /// are as in project_on_field.
 static inline void project_on_solid(PyramidShape shape, global const SolidShape* solids,
                                     uint number, lane_int x, lane_int y, lane_int z, Vector* p,
@@ -41,7 +41,8 @@ static inline void project_on_solid(PyramidShape shape, global const SolidShape*
     for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
         const LatticePoint at = {x, y, z, p->x, p->y, p->z};
         const SolidDistance distance = solid_distance(solids, number, at);
-        // With t = 0, solid_normal takes the origin of the ray, so the direction doesn't matter.
+        // With t = 0, solid_normal evaluates the origin of the ray, so the direction doesn't
+        // matter.
         const SolidRay ray = {LANES_FLOAT(x) + p->x, LANES_FLOAT(y) + p->y, LANES_FLOAT(z) + p->z,
                               (lane_float)1.0f,      (lane_float)0.0f,      (lane_float)0.0f};
         const SolidPoint gradient = solid_normal(solids, number, &ray, (lane_float)0.0f);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normals for light: those of a triangle's corners, interpolated where rays meet it, and those that
-// cubes have from the surface that they stand for.
+// Shading normals: those of a triangle's corners, interpolated where rays meet the triangle, and
+// those of the surface that cubes stand for.
 //
-// Visibility, sides and the medium behind a surface go by the triangle's or the face's own normal.
+// Visibility, sides and the medium behind a surface depend on the triangle's or the face's own
+// normal.
 #ifndef VXL_SHADING_NORMAL_H
 #define VXL_SHADING_NORMAL_H
 
 #include "lib/lanes/vector.h"
 #include "lib/surface/packed_normal.h"
 
-/// The packed normals as vectors in the voxels of their grid, not of unit length.
+/// Unpacks normals to vectors in the voxels of their grid, not of unit length.
 static inline Vector unpack_normal(lane_uint packed) {
     Vector n;
     unpack_components(packed, &n.x, &n.y, &n.z);
@@ -32,8 +33,8 @@ static inline Vector cross_of(Vector a, Vector b) {
     return result;
 }
 
-/// The shares of a triangle's corners in a point of it, each at least 0; their sum is 1. `from` is
-/// the point seen from each corner.
+/// The weights of a triangle's corners at a point on it; each is at least 0, and their sum is 1.
+/// `from` is the point relative to each corner.
 static inline void corner_shares(const Vector* from, lane_float* share) {
     const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
     const Vector n = cross_of(ab, ac);
@@ -54,17 +55,18 @@ static inline void corner_shares(const Vector* from, lane_float* share) {
 
 /// How a surface point is lit.
 typedef struct {
-    Vector normal;  // a unit vector in metres' space
-    Vector offset;  // metres: how far from the point rays to lights begin; not 0 if they begin off
-                    // a triangle, on the side of the geometric normal, or above a cube's steps
+    Vector normal;  // a unit vector in metric space
+    Vector offset;  // metres: from the point to where rays to lights begin; not 0 if they begin
+                    // above a triangle, on the side of its geometric normal, or above a cube's
+                    // steps
 } ShadingPoint;
 
-// The batch's `shading` holds six values for each ray, those of ShadingPoint: from 0 on the normal,
-// from here on the offset.
+// The batch's `shading` holds six values for each ray, those of ShadingPoint: the normal from 0 on,
+// and the offset from this index on.
 #define VXL_SHADING_OFFSET 3u
 
-/// The least cosine with their surfaces of ways on which those with smoothed normals scatter light
-/// in all directions: ways that come closer to the surface are moved up to there.
+/// The minimum cosine with surfaces that have smoothed normals of directions in which these scatter
+/// light: directions that come closer to the surface are moved up to this cosine.
 #define VXL_MIN_COSINE (1.0f / 4096.0f)
 
 /// Mask: lanes whose vectors differ.
@@ -77,16 +79,17 @@ static inline lane_int has_length(Vector v) {
     return LANE_MASK(v.x != 0.0f) | LANE_MASK(v.y != 0.0f) | LANE_MASK(v.z != 0.0f);
 }
 
-/// The direction v, moved along the unit normal n so far that v . n is `least` at least.
+/// The direction v, moved along the unit normal n so far that v . n is at least `lowest`. The
+/// result is not scaled to unit length.
 static inline Vector keep_on_side(Vector v, Vector n, lane_float lowest) {
     const lane_float below = fmax(lowest - dot_product(v, n), 0.0f);
     return add_scaled(v, n, below);
 }
 
-/// The normal by which light that comes along the unit vector `way` is reflected and refracted: the
-/// shading normal, bent towards the geometric one `n` as far as it takes for the reflected ray to
-/// stay above the surface; that itself where the shading normal points behind it. As Keller et al.
-/// 2017 ("The Iray Light Transport Simulation and Rendering System", A.3), it is the half vector of
+/// The normal by which light along the unit vector `way` is reflected and refracted: the shading
+/// normal, bent towards the geometric normal `n` until the reflected ray stays above the surface;
+/// or `n` itself where the shading normal points behind the surface. As in Keller et al. 2017 ("The
+/// Iray Light Transport Simulation and Rendering System", A.3), a bent normal is the half vector of
 /// the corrected reflected ray.
 static inline Vector reflecting_normal(Vector way, Vector n, Vector shading) {
     const lane_float above = -dot_product(way, n);

@@ -6,15 +6,16 @@
 #include "lib/surface/field.h"
 #include "lib/traverse/walk.h"
 
-// Secant steps after the bracket is found. F is nearly linear over half a cell: each step squares
-// the error, and three from a bracket of half a voxel reach the rounding of t.
+// The number of secant steps after the bracket is found. F is nearly linear over half a cell: each
+// step squares the error, and three steps from a bracket of half a voxel reach the rounding of t.
 #define VXL_SECANT_STEPS 3
 
-// A bound on the rounding of field_value, in distance units: |F| < 2^15 and some sixteen roundings
-// of half a unit in the last place each, 2^-10 (1.2e-7 voxel).
+// A bound on the rounding of field_value, in distance units: |F| < 2^15, and about sixteen
+// roundings of half a unit in the last place each, 2^-10 (1.2e-7 voxel).
 #define VXL_FIELD_ROUNDING 0.015625f
 
-/// A ray inside one voxel: local position s(u) = s0 + d u, u counted from where the ray entered.
+/// A ray inside one voxel: local position s(u) = s0 + d u, where u counts from where the ray
+/// entered.
 typedef struct {
     lane_float sx, sy, sz, dx, dy, dz;
 } LocalRay;
@@ -28,8 +29,8 @@ static inline LocalRay local_ray(const Walk* w) {
     return r;
 }
 
-/// The field along the ray, with the sign that it has on the ray's side: `side` is -1 for rays that
-/// come from the inside.
+/// The field along the ray, with the sign that it has on the ray's side: `side` is -1 for rays
+/// inside.
 static inline lane_float field_along(const Field* f, const LocalRay* r, lane_float side,
                                      lane_float u) {
     return side * field_value(f, clamp(fma(r->dx, u, r->sx), 0.0f, 1.0f),
@@ -37,43 +38,43 @@ static inline lane_float field_along(const Field* f, const LocalRay* r, lane_flo
                               clamp(fma(r->dz, u, r->sz), 0.0f, 1.0f));
 }
 
-/// How a ray comes to a field, in masks.
+/// How a ray comes to a field, as masks.
 typedef struct {
-    lane_int within;     // it is known to be inside of the surface
-    lane_int unsure;     // it may be there unbeknown
+    lane_int within;     // it is known to be inside the surface
+    lane_int unsure;     // it may be inside without knowing
     lane_int beginning;  // it begins on the surface, in this very voxel
     lane_int here;       // it begins on another surface in this voxel
 } FieldApproach;
 
-/// How fields look to a ray that enters their voxel.
+/// A field as seen by a ray that enters its voxel.
 typedef struct {
-    lane_float side;     // what they are multiplied by for it
-    lane_float value;    // their value at the entry, so multiplied
+    lane_float side;     // the factor of the field for this ray
+    lane_float value;    // the field's value at the entry, times `side`
     lane_int beginning;  // mask: the ray begins on a surface, and sees the `level` of its origin
 } FieldEntry;
 
-/// A bound on what the rounding of a point does to a field there, in distance units: the point is
-/// off by at most `plane_bound` along each axis, and F grows by less than two voxels a voxel.
+/// A bound on the effect of a point's rounding on a field there, in distance units: the point is
+/// off by at most `plane_bound` along each axis, and F grows by less than two voxels per voxel.
 static inline float rounding_of_origins(float plane_bound) {
     return 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
 }
 
-/// Finds how fields whose value at the entry is `outside`, as seen from outside, look to a ray.
+/// Finds how a ray sees fields whose value at the entry is `outside`, as seen from outside.
 ///
-/// For a ray that is unsure of its side, that value decides: from outside it isn't negative there,
-/// but for the rounding of the point. A ray that began on the surface in this very voxel sees the
-/// level of its own origin instead: `level` is set so that F + level is not negative there, and
-/// stays with the ray.
+/// For a ray that is unsure of its side, this value decides: outside it isn't negative, except for
+/// the rounding of the point. A ray that began on the surface in this very voxel sees the level of
+/// its own origin instead: `level` is set so that F + level is not negative there, and stays with
+/// the ray.
 static inline FieldEntry enter_field(lane_float outside, float plane_bound, lane_int tested,
                                      FieldApproach* from, lane_float* level) {
     from->within |= from->unsure & LANE_MASK(outside < -rounding_of_origins(plane_bound));
     FieldEntry e;
     e.side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
     e.value = e.side * outside;
-    // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is.
-    // Otherwise the ray would go from one to the other without end.
+    // Where surfaces cross at the ray's origin, rounding must not decide on which side the ray is.
+    // Otherwise the ray could alternate between them without end.
     e.beginning = from->beginning | (from->here & LANE_MASK(e.value < 0.0f));
-    // A ray that has come as far above the field as it began below it has left it.
+    // A ray that has come as far above the field as it began below it has left the field.
     if (VXL_MIXED) {
         const lane_int left = LANE_MASK(e.value >= *level) & tested;
         *level = LANES_SELECT(left, fmin(*level, rounding_of_origins(plane_bound)), *level);
@@ -83,7 +84,8 @@ static inline FieldEntry enter_field(lane_float outside, float plane_bound, lane
 }
 
 /// The first point in u = a .. b at which F + level turns negative, where F is a field times
-/// `side`, and F + level is fa >= 0 at a. The mask of lanes that have one, at `at`.
+/// `side`, and F + level is fa >= 0 at a. Sets `at`, and returns the mask of lanes that have such a
+/// point.
 static inline lane_int first_zero(const Field* f, const LocalRay* ray, lane_float side,
                                   lane_float level, lane_float a, lane_float b, lane_float fa,
                                   lane_int tested, lane_float* at) {
@@ -91,8 +93,8 @@ static inline lane_int first_zero(const Field* f, const LocalRay* ray, lane_floa
     const lane_float middle = 0.5f * (a + b);
     const lane_float fm = field_along(f, ray, side, middle) + level;
 
-    // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest
-    // point.
+    // Both ends are outside, but the ray may still dip below the surface. The parabola's lowest
+    // point is tested.
     const lane_float bend = fa - 2.0f * fm + fb, slope = fb - fa;
     const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
                           LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
@@ -109,9 +111,9 @@ static inline lane_int first_zero(const Field* f, const LocalRay* ray, lane_floa
     if (!lanes_any(crossed)) return crossed;
     a = LANES_SELECT(before, a, lowest), fa = LANES_SELECT(before, fa, f_lowest);
     b = LANES_SELECT(before, lowest, b), fb = LANES_SELECT(before, f_lowest, fb);
-    // Regula falsi on a bracket with F(a) >= 0 > F(b). The value at an end kept twice is halved
-    // (Illinois), so that both ends close in. Halving it at once would put the estimate as far off
-    // on the other side.
+    // This is regula falsi on a bracket with F(a) >= 0 > F(b). The value at an end that is kept
+    // twice is halved (Illinois), so that both ends close in. Halving it at once would put the
+    // estimate as far off on the other side.
     lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
     for (int step = 0;; ++step) {
         const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
@@ -128,9 +130,11 @@ static inline lane_int first_zero(const Field* f, const LocalRay* ray, lane_floa
     }
 }
 
-/// Tests the fields of the voxels that the `tested` lanes stand in; the mask of those hit, their t
-/// in `t_hit`.
-///
+/// Tests the fields of the voxels that the `tested` lanes are in. Returns the mask of those hit,
+/// and their t in `t_hit`.
+/// A ray comes from outside the surface, or from inside (then F has the opposite sign), and hits
+/// where F turns negative. If F is already negative at the entry point, that is the hit, so that no
+/// ray slips through between two voxels.
 /// A ray comes from outside the surface, or from inside (F is seen with the other sign), and hits
 /// where F turns negative: at the entry point if it is negative there already, so that no ray slips
 /// through between two voxels.

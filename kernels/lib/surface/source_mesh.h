@@ -2,8 +2,8 @@
 // The point of a smooth object's mesh that is closest to a hit on the object, and its triangle.
 //
 // A packet searches the tree of one object at a time, nearer boxes first. Boxes are larger than
-// rounding moves points, so what is left out can't be closest: which point is found doesn't depend
-// on the packet's other rays.
+// rounding moves points, so what is left out cannot be closest: the point that is found doesn't
+// depend on the packet's other rays.
 #ifndef VXL_SOURCE_MESH_H
 #define VXL_SOURCE_MESH_H
 
@@ -19,17 +19,16 @@ typedef struct {
     global const uint* words;
 } SourceMeshes;
 
-// Where squares of distances are equal, computed ones differ by less than this factor, which is 256
-// roundings.
+// Computed squares of equal distances differ by less than this factor, which is 256 roundings.
 #define VXL_SQUARE_ROUNDING 0x1.0001p0f
 
-/// The square of the distance from a point to the closest one of a triangle, and the shares of the
-/// corners in that. `from` is the point seen from each corner.
+/// The square of the distance from a point to the closest point of a triangle, and the weights of
+/// the corners there. `from` is the point relative to each corner.
 static inline lane_float closest_on_triangle(const Vector* from, lane_float* share) {
     const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
     const Vector n = cross_of(ab, ac);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    lane_int above = (lane_int)-1;  // the triangle, and not one of its edges
+    lane_int above = (lane_int)-1;  // mask: above the triangle, not beside one of its edges
     for (int i = 0; i < 3; ++i) {
         share[i] = dot_product(cross_of(from[(i + 1) % 3], from[(i + 2) % 3]), n);
         above &= LANE_MASK(share[i] >= 0.0f);
@@ -63,14 +62,14 @@ static inline lane_float closest_on_triangle(const Vector* from, lane_float* sha
     return squared;
 }
 
-/// What a search has found for its points so far: the square of the smallest distance, and the
-/// triangle that it leads to, VXL_NO_PRIMITIVE for none.
+/// The best result of a search so far: the square of the smallest distance, and the triangle at
+/// that distance, VXL_NO_PRIMITIVE for none.
 typedef struct {
     lane_float squared;
     lane_uint triangle;
 } ClosestTriangle;
 
-/// Replaces what is closest by a triangle of these corners that is closer, or as close and has a
+/// Replaces the closest triangle by one with these corners if that is closer, or as close with a
 /// smaller number.
 static inline void meet_triangle(global const float* corners, uint number, Vector p,
                                  lane_int active, ClosestTriangle* best) {
@@ -89,7 +88,7 @@ static inline void meet_triangle(global const float* corners, uint number, Vecto
     best->triangle = LANES_SELECT(closer, (lane_uint)number, best->triangle);
 }
 
-/// A lower bound of the squares of distances from points to what is in a child's box.
+/// A lower bound on the squared distances from points to the contents of a child's box.
 static inline lane_float squared_to_box(global const InstanceNode* node, int child, Vector p) {
     global const float* low = node->low[child];
     global const float* high = node->high[child];
@@ -99,12 +98,12 @@ static inline lane_float squared_to_box(global const InstanceNode* node, int chi
     return dot_product(away, away);
 }
 
-/// Mask: something at so small a distance may replace what is closest.
+/// Mask: points for which something at this distance may replace the closest triangle.
 static inline lane_int may_be_closer(lane_float squared, const ClosestTriangle* best) {
     return LANE_MASK(squared <= best->squared * VXL_SQUARE_ROUNDING);
 }
 
-/// Finds the triangles closest to the points of the `active` lanes, no farther than best->squared.
+/// Finds the triangles closest to the points of the `active` lanes, within best->squared.
 static inline void search_tree(global const InstanceNode* tree, global const float* corners,
                                Vector p, lane_int active, ClosestTriangle* best) {
     uint nodes[VXL_INSTANCE_DEPTH];
@@ -139,17 +138,17 @@ static inline void search_tree(global const InstanceNode* tree, global const flo
     }
 }
 
-/// The triangles of meshes that are closest to where rays met smooth objects, and what was found of
-/// each object on the way there.
+/// The triangles of meshes that are closest to points on smooth objects, and the parts of their
+/// meshes' data that shading needs.
 typedef struct {
-    lane_int found;  // mask: there is one in reach
+    lane_int found;  // mask: there is one within reach
     lane_uint triangle;
-    lane_uint worn, textures;  // where what it wears begins, and the textures of its mesh
-    Vector from[3];            // the hit seen from its corners, in the mesh's space
-    Vector sides[2];           // those that were given, there
+    lane_uint worn, textures;  // where its record of what it wears begins, and its mesh's textures
+    Vector from[3];            // the hit relative to the corners, in the mesh's space
+    Vector sides[2];           // the given vectors, in the mesh's space
 } SourceHit;
 
-/// A vector in the voxels of hits in the mesh's space.
+/// Converts a vector from the voxels of hits to the mesh's space.
 static inline Vector in_mesh(global const SourceRecord* r, Vector v) {
     global const float* m = r->mesh_from_voxels;
     const Vector mapped = {fma(m[0], v.x, fma(m[1], v.y, m[2] * v.z)),
@@ -158,7 +157,7 @@ static inline Vector in_mesh(global const SourceRecord* r, Vector v) {
     return mapped;
 }
 
-/// A place in the voxels of hits in the mesh's space.
+/// Converts a point from the voxels of hits to the mesh's space.
 static inline Vector place_in_mesh(global const SourceRecord* r, Vector v) {
     global const float* m = r->mesh_from_voxels;
     const Vector mapped = {fma(m[0], v.x, fma(m[1], v.y, fma(m[2], v.z, (lane_float)m[3]))),
@@ -167,7 +166,7 @@ static inline Vector place_in_mesh(global const SourceRecord* r, Vector v) {
     return mapped;
 }
 
-/// The closest triangle for each point `at` of the smooth objects with these numbers, of the lanes
+/// The closest triangle for each point `at` on the smooth objects with these numbers, in the lanes
 /// that `ask`, if the object has a mesh. `sides` are two vectors in the voxels of the points.
 static inline SourceHit closest_of_points(const SourceMeshes* sources, Vector at, lane_uint object,
                                           lane_int ask, const Vector* sides) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour of a surface point: its material's, times its voxel's own.
+// The colour of a surface point: its material's colour times its voxel's own.
 #ifndef VXL_SURFACE_COLOR_H
 #define VXL_SURFACE_COLOR_H
 
@@ -15,7 +15,7 @@ static inline lane_float linear_channel(lane_uint color, int shift) {
     return LANES_SELECT(LANE_MASK(s <= 0.04045f), s * 0.0773993808f, curved);
 }
 
-/// The start of a material's record, in floats, for packed attributes.
+/// The index, in floats, of the material's record for packed attributes.
 static inline lane_uint material_offset(lane_uint packed) {
     return ((packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
 }
@@ -30,7 +30,7 @@ static inline lane_int checker_block(global const float* restrict materials, lan
     return LANES_INT(floor(fma(position, scale, shift)));
 }
 
-/// The start of a material's colour at a point, in floats: its own colour or that of its checker.
+/// The index, in floats, of a material's colour at a point: its own colour or that of its checker.
 static inline lane_uint color_offset(global const float* restrict materials, lane_uint material,
                                      lane_float x, lane_float y, lane_float z) {
     if (!VXL_CHECKER) return material;
@@ -40,12 +40,12 @@ static inline lane_uint color_offset(global const float* restrict materials, lan
     return material + LANES_AS_UINT((block & 1) * VXL_MATERIAL_CHECKER_COLOR);
 }
 
-/// Where the own colours of a packet's surfaces are.
+/// Where to find the own colours of a packet's surfaces.
 typedef struct {
     global const uint* voxels;
-    global const float* paint;  // of hits, where surfaces wear textures; else null
-    const lane_float* fresh;    // the paint, in the kernel that finds it; else null
-    lane_uint number;           // of the voxels, or of the first floats of the hits' paint
+    global const float* paint;  // of hits, where surfaces wear textures; otherwise null
+    const lane_float* fresh;    // the paint, in the kernel that computes it; otherwise null
+    lane_uint number;           // index of the voxels, or of the first floats of the hits' paint
 } Colors;
 
 /// The colours of the hits from `first` on, which are in these voxels.
@@ -57,14 +57,14 @@ static inline Colors colors_of_hits(global const uint* voxels, lane_uint voxel,
     return colors;
 }
 
-/// The colours of voxels where what is met in them has no paint.
+/// The colours of voxels, for hits that have no paint.
 static inline Colors colors_of_voxels(global const uint* voxels, lane_uint voxel) {
     const Colors colors = {voxels, 0, 0, voxel};
     return colors;
 }
 
 /// One of the values of paint, VXL_PAINT_*. A driver may read memory before the same kernel has
-/// written it, so that fresh ones are taken from where they were computed.
+/// written it, so fresh values are taken from where they were computed.
 static inline lane_float painted(Colors colors, uint value) {
     if (colors.fresh) return colors.fresh[value];
     return LANES_GATHER_FLOAT(colors.paint, colors.number + value);
@@ -84,8 +84,8 @@ static inline lane_float voxel_opacity(global const uint* restrict colors, lane_
     return exact_divide(LANES_FLOAT(255u - transparency), (lane_float)255.0f);
 }
 
-/// The colour of a surface point: of its material (see color_offset), times its own, of the voxel
-/// or, in scenes with textures, of the hit; Colors has both.
+/// The colour of a surface point: that of its material (see color_offset) times its own, which is
+/// the voxel's or, in scenes with textures, the hit's. Colors has both.
 static inline lane_float surface_color(global const float* restrict materials, lane_uint place,
                                        Colors colors, int channel) {
     lane_float color = LANES_GATHER_FLOAT(materials, place + (uint)channel);
@@ -96,28 +96,28 @@ static inline lane_float surface_color(global const float* restrict materials, l
     return color;
 }
 
-/// A value of the material that maps may change, which the paint of hits holds at `place` then.
+/// A value of the material. Where maps may change it, the paint of hits holds it at index `place`.
 static inline lane_float mapped_value(global const float* restrict materials, lane_uint value,
                                       Colors colors, uint place) {
     if (VXL_TEXTURE_MAPS && colors.paint) return painted(colors, place);
     return LANES_GATHER_FLOAT(materials, value);
 }
 
-/// What a colourless share of light is multiplied by where `tint` of it has the surface's colour.
+/// The factor of a colourless share of light when `tint` of it takes on the surface's colour.
 static inline lane_float tinted(lane_float color, lane_float tint) {
     return fma(tint, color - 1.0f, (lane_float)1.0f);
 }
 
-/// The part of the light that falls on a surface which it returns in all directions; in global
-/// light that of surfaces that aren't physically based.
+/// The part of the incoming light that a surface returns in all directions; in global light, this
+/// is for surfaces that aren't physically based.
 static inline lane_float surface_diffuse(global const float* restrict materials, lane_uint material,
                                          Colors colors) {
     if (VXL_GLOBAL) return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     return mapped_value(materials, material + VXL_MATERIAL_DIFFUSE, colors, VXL_PAINT_DIFFUSE);
 }
 
-/// The share of what lies behind that a surface covers: its material's, times its own. 1 in scenes
-/// without transmitting objects.
+/// The share of what lies behind that a surface covers: its material's opacity times its own. This
+/// is 1 in scenes without transmitting objects.
 static inline lane_float surface_opacity(global const float* restrict materials, lane_uint material,
                                          Colors colors) {
     if (!VXL_TRANSMISSION) return (lane_float)1.0f;
@@ -127,7 +127,7 @@ static inline lane_float surface_opacity(global const float* restrict materials,
     return opacity;
 }
 
-/// Mask: light goes through or past a surface of a material that covers by `opacity`.
+/// Mask: light goes through or past surfaces of a material with this opacity.
 static inline lane_int transmits(global const float* restrict materials, lane_uint material,
                                  lane_float opacity) {
     return LANE_MASK(opacity < 1.0f) |

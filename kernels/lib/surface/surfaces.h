@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tests of a packet's rays against the surfaces inside of voxels.
+// The tests of a packet's rays against the surfaces inside voxels.
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H
 
@@ -15,8 +15,8 @@
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
-/// Ends the walks of the `lanes` whose ray met a cube behind its voxel, at that cube. Returns the
-/// mask of these lanes.
+/// Ends the walks of the `lanes` whose rays met a cube behind its voxel's surfaces, at that cube.
+/// Returns the mask of these lanes.
 static inline lane_int take_cube_behind(SurfaceHit* found, Walk* w, lane_int lanes) {
     const lane_int taken = lanes & found->behind.kept;
     if (!lanes_any(taken)) return taken;
@@ -28,7 +28,8 @@ static inline lane_int take_cube_behind(SurfaceHit* found, Walk* w, lane_int lan
     return taken;
 }
 
-/// Ends walks that leave the body of cubes that their rays are inside of; the voxel is its last.
+/// Ends walks that leave the body of cubes that their rays are inside of. The hit voxel is the
+/// body's last.
 static inline void leave_body(SurfaceHit* found, const Walk* w, lane_int leaving) {
     found->exit |= leaving & LANE_MASK(w->t < found->t);
     take_voxel_hit(found, w->t, leaving);
@@ -42,8 +43,8 @@ static inline lane_float float_before(lane_float t) {
 }
 
 /// Tests solid `number` of each lane in `tested`; hits in the world that are closer than *t replace
-/// it. Hits at t_first itself count only for the lanes of `at_least`. Lanes that are `entering`
-/// begin one unit of t before their origin.
+/// it. Hits at t_first itself count only in the lanes of `at_least`. `entering` lanes begin one
+/// unit of t before their origin.
 static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
                                             const Walk* w, lane_uint number,
                                             const RayState* ray_state, const RayBeginning* from,
@@ -89,20 +90,20 @@ static INLINED lane_int hit_solids_in_world(const PyramidView* p, const SurfaceV
     return closer | met;
 }
 
-/// Mask: of what a ray meets at the very same t, the primitive comes after its source. Fields come
-/// first, then triangles and solids by their numbers.
+/// Mask: among surfaces that a ray meets at the same t, the primitive comes after the ray's source.
+/// Fields come first, then triangles and solids by their numbers.
 static inline lane_int comes_after(lane_uint primitive, lane_uint source) {
     lane_int after = LANE_MASK(primitive > source);
     if (VXL_FIELD_LISTS) after |= LANE_MASK((source >> 30) == 1u);
     return after;
 }
 
-/// Tests the primitives that the `tested` lanes' voxels list. A primitive may be hit outside of the
-/// voxel that lists it: the hit counts once the walk is that far.
+/// Tests the primitives that the `tested` lanes' voxels list. A primitive may be hit outside the
+/// voxel that lists it; the hit counts once the walk has come that far.
 ///
-/// Where a ray comes into the world, a surface on the world's very side may be met just before the
-/// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches. A
-/// ray that goes on meets what lies at the very t of its last surface in the order of numbers.
+/// Where a ray enters the world, a surface exactly on the world's side may be met just before the
+/// ray's rounded origin. There, hits behind the origin count as well, up to the world's end. A ray
+/// that continues meets surfaces at the same t as its last one in the order of their numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                  lane_uint voxel, lane_int tested, const RayState* ray_state,
                                  SurfaceHit* found) {
@@ -155,8 +156,8 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     return tested & LANE_MASK(found->t <= exit_time(w));
 }
 
-/// Tests the field of each lane in `tested`, which is that of records `number` to before `end`;
-/// closer hits than found->t replace it.
+/// Tests the field of each lane in `tested`, which consists of records `number` to `end` - 1. Hits
+/// closer than found->t replace it.
 static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                  lane_uint number, lane_uint end, lane_int tested,
                                  lane_int beginning, const RayState* ray_state, SurfaceHit* found) {
@@ -173,7 +174,7 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
     lane_uint packed = (lane_uint)s->constant_attribute;
     if (VXL_ATTRIBUTES && (any_unsure || VXL_TRANSMISSION || VXL_MIXED))
         packed = LANES_GATHER_UINT(s->attributes, number);
-    if (VXL_MIXED) {  // what is above the ray's origin isn't above the ray's object
+    if (VXL_MIXED) {  // the field of the ray's own mesh may lie above its origin
         const lane_int own = is_of_object(ray_state->triangle_of, packed);
         from.here |= own;
         from.unsure &= ~own;
@@ -201,7 +202,7 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
     found->level = LANES_SELECT(foreign, found->level, level);
     from.unsure = unsure;
     if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
-    // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
+    // A ray that continues straight has its hits beyond this voxel where any other ray has them.
     if (VXL_TRANSMISSION)
         found->level = LANES_SELECT(ray_state->goes_on, (lane_float)0.0f, found->level);
     const lane_int closer = met & LANE_MASK(t < found->t);
@@ -211,8 +212,8 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
     return met;
 }
 
-/// Tests the fields of the `tested` lanes' voxels: one, or, in the lanes of `lists`, those that the
-/// voxel's record lists.
+/// Tests the fields of the `tested` lanes' voxels: one field or, in the lanes of `lists`, those
+/// that the voxel's record lists.
 static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                   lane_uint voxel, lane_int tested, lane_int lists,
                                   lane_int beginning, const RayState* ray_state,
@@ -239,7 +240,8 @@ static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, co
     return met;
 }
 
-/// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
+/// Tests the surface inside each `tested` lane's voxel. Returns the mask of lanes whose ray ends
+/// there.
 static INLINED lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
                                       lane_int tested, const RayState* ray_state,
                                       SurfaceHit* found) {

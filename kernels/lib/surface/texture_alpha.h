@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much triangles with textures cover where shadow rays meet them, and which have a body.
+// The coverage of textured triangles where shadow rays meet them, and which surfaces have a body.
 #ifndef VXL_TEXTURE_ALPHA_H
 #define VXL_TEXTURE_ALPHA_H
 
@@ -10,8 +10,8 @@
 #include "lib/traverse/world.h"
 #include "shared/trace.h"
 
-/// Mask: the surfaces are those of bodies that rays are inside of behind them. What only a
-/// texture's alpha lets light through is a sheet.
+/// Mask: surfaces of bodies, which rays are inside of behind the surface. A surface that lets light
+/// through only because of a texture's alpha is a sheet.
 static inline lane_int have_bodies(global const float* restrict materials, lane_uint packed,
                                    lane_uint primitive, lane_int hit) {
     const lane_int triangle = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) == 0u) & hit;
@@ -20,7 +20,7 @@ static inline lane_int have_bodies(global const float* restrict materials, lane_
                                  LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
 }
 
-/// The alpha of the textures at the hits of rays; 1 where the surface wears none.
+/// The alpha of the textures at rays' hits; 1 where the surface wears none.
 static inline lane_float alpha_of_hits(const WorldView* world, Vector origin, Vector direction,
                                        lane_float t, lane_uint primitive, lane_uint instance,
                                        lane_int hit) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The maps of textures where rays meet triangles: the material's roughness, metalness and emission
-// there.
+// The maps of textures where rays meet triangles: the material's roughness, metalness and emission.
 #ifndef VXL_TEXTURE_MAPS_H
 #define VXL_TEXTURE_MAPS_H
 
@@ -9,7 +8,7 @@
 #include "shared/scene.h"
 #include "shared/texture.h"
 
-/// What maps multiply a material's values by; 1 where there is none.
+/// The factors by which maps multiply a material's values; 1 where there is no map.
 typedef struct {
     lane_float roughness, metallic, emission[3];
 } MapValues;
@@ -20,8 +19,8 @@ static inline MapValues no_map_values(void) {
     return m;
 }
 
-/// Sets `mean` to the mean over `area` of map number `map` of the textures that begin at `place`,
-/// of the lanes that have it, which are returned as a mask.
+/// Sets `mean` to the mean over `area` of map number `map` of the textures that begin at `place`.
+/// Returns the mask of lanes that have this map.
 static inline lane_int map_mean(global const uint* restrict textures, lane_uint place, uint map,
                                 const TextureArea* area, lane_int wears, lane_float* mean) {
     const lane_uint wrap = LANES_GATHER_UINT(textures, (place & LANES_AS_UINT(wears)) + 2u);
@@ -63,8 +62,8 @@ static inline void set_maps(global const uint* restrict textures, lane_uint plac
 /// The number of values behind VXL_PAINT_WIDTH.
 #define VXL_MAPPED_VALUES (VXL_PAINT_FLOATS(1) - VXL_PAINT_WIDTH - 1)
 
-/// The values of materials behind VXL_PAINT_WIDTH, with maps. Local light shows them in Whitted's
-/// model, by the formulas of whitted_material().
+/// The values of materials behind VXL_PAINT_WIDTH, as maps change them. Local light shows them in
+/// Whitted's model, by the formulas of whitted_material().
 static inline void map_material(global const float* restrict materials, lane_uint material,
                                 const MapValues* m, lane_float* values) {
     lane_float metallic = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_METALLIC);

@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mean of a texture over what a sample sees of it: bilinear values on the level of the texture
-// that is fine enough for the area's narrow side.
+// The mean of a texture over the area that a sample sees: bilinear values on the level of the
+// texture that is fine enough for the area's narrow side.
 #ifndef VXL_TEXTURE_MEAN_H
 #define VXL_TEXTURE_MEAN_H
 
 #include "lib/lanes/exact_float.h"
 #include "shared/texture.h"
 
-// The narrow side of an area covers VXL_FINE_TEXELS of its level, to twice as many, and
-// the long side at most VXL_LONG_TEXELS.
+// The narrow side of an area covers VXL_FINE_TEXELS to twice as many texels of its level, and the
+// long side at most VXL_LONG_TEXELS.
 #define VXL_FINE_TEXELS 2.0f
 #define VXL_LONG_TEXELS 16.0f
-// Values lie at most half a texel apart.
+// Samples lie at most half a texel apart.
 #define VXL_SAMPLES_PER_TEXEL 2.0f
 
 /// A level of each lane's texture.
 typedef struct {
     global const uint* restrict textures;
-    lane_uint first;  // its first texel
+    lane_uint first;  // index of its first texel
     lane_int width, height;
     lane_uint wrap_u, wrap_v;
     lane_uint alpha;  // VXL_ALPHA_*
-    bool is_data;     // its channels are numbers from 0 to 1, and no colour in sRGB
+    bool is_data;     // its channels are numbers from 0 to 1 instead of a colour in sRGB
 } TextureLevel;
 
-/// What samples see of textures: around a place, in texture widths, from -1/2 to 1/2 along each of
-/// two sides. The area's middle lies `off` the place, in these sides. Where a surface leans away
-/// from the observer, a point a side_0 + b side_1 is seen at (a, b) times 1 + a lean_0 + b lean_1.
+/// The area of a texture that a sample sees, in texture widths: around a point, from -1/2 to 1/2
+/// along each of two sides. The area's middle lies at `off` from the point, in these sides. Where a
+/// surface leans away from the observer, a point a side_0 + b side_1 is seen at (a, b) times 1 + a
+/// lean_0 + b lean_1.
 typedef struct {
     lane_float u, v;
     lane_float side_u[2], side_v[2];
     lane_float off[2], lean[2];
 } TextureArea;
 
-/// The first level of the textures that begin at `place`; one harmless texel where no surface
-/// `wears` one.
+/// The first level of the textures that begin at `place`; one harmless texel for lanes that `wear`
+/// no texture.
 static inline TextureLevel first_level(global const uint* restrict textures, lane_uint place,
                                        lane_int wears) {
     TextureLevel t;
@@ -54,7 +55,7 @@ static inline TextureLevel first_level(global const uint* restrict textures, lan
     return t;
 }
 
-/// Goes on to a coarser level; a level of one texel is the last.
+/// Moves to a level that is `level` steps coarser; a level of one texel is the last.
 static inline void go_to_level(TextureLevel* t, lane_int level) {
     lane_int on = LANE_MASK(level > 0) & (LANE_MASK(t->width > 1) | LANE_MASK(t->height > 1));
     while (lanes_any(on)) {
@@ -66,8 +67,8 @@ static inline void go_to_level(TextureLevel* t, lane_int level) {
     }
 }
 
-/// A coordinate, in texture widths, brought to where texels are: 0..1, or 0..2 where every other
-/// copy is mirrored.
+/// Maps a coordinate, in texture widths, to where texels are: 0..1, or 0..2 where every other copy
+/// is mirrored.
 static inline lane_float place_of_texels(lane_float at, lane_uint wrap) {
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const lane_int mirrors = LANE_MASK(wrap == VXL_TEXTURE_WRAP_MIRROR);
@@ -76,11 +77,11 @@ static inline lane_float place_of_texels(lane_float at, lane_uint wrap) {
     lane_float place = at - period * floor(at * inverse);
     const lane_int clamps = LANE_MASK(wrap == VXL_TEXTURE_WRAP_CLAMP);
     place = LANES_SELECT(clamps, clamp(at, 0.0f, 1.0f), place);
-    // Rounding may reach the end, and what is no number has no place.
+    // Rounding may reach the end, and NaN has no position.
     return LANES_SELECT(LANE_MASK(place >= 0.0f) & LANE_MASK(place <= period), place, zero);
 }
 
-/// The texel for a number from -1 to `size`, or for mirrored ones to twice the size.
+/// The texel for an index from -1 to `size` or, for mirrored textures, to twice the size.
 static inline lane_int texel_number(lane_int at, lane_int size, lane_uint wrap) {
     const lane_int repeats = LANE_MASK(wrap == VXL_TEXTURE_WRAP_REPEAT);
     const lane_int mirrors = LANE_MASK(wrap == VXL_TEXTURE_WRAP_MIRROR);
@@ -90,8 +91,9 @@ static inline lane_int texel_number(lane_int at, lane_int size, lane_uint wrap) 
     return clamp(at, (lane_int)0, size - 1);
 }
 
-/// Adds a texel's colour in linear light, times `weight`; where alpha counts, times alpha too,
-/// which is added behind it.
+/// Adds a texel's three channels, times `weight`: in linear light for colours, as they are for
+/// data. Where alpha counts, the weight is multiplied by the texel's alpha first, and is added to
+/// sum[3].
 static inline void add_texel(const TextureLevel* t, lane_int x, lane_int y, lane_float weight,
                              lane_float* sum) {
     const lane_uint texel =
@@ -110,8 +112,8 @@ static inline void add_texel(const TextureLevel* t, lane_int x, lane_int y, lane
     }
 }
 
-/// Adds the bilinear value at a place, times `weight`. With a minimum alpha, a texel counts as
-/// fully there or not at all.
+/// Adds the bilinear value at a point, times `weight`. With a minimum alpha, the value counts fully
+/// if its alpha reaches the minimum, and otherwise not at all.
 static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v, lane_float weight,
                                lane_float* sum) {
     const lane_float x = fma(place_of_texels(u, t->wrap_u), LANES_FLOAT(t->width), -0.5f);
@@ -142,14 +144,14 @@ static inline void add_texture(const TextureLevel* t, lane_float u, lane_float v
     for (int c = 0; c < 4; ++c) sum[c] = fma(own[c], scale, sum[c]);
 }
 
-/// The whole part of the logarithm to base 2 of a number of 1 or more, 0 for smaller ones.
+/// The integer part of the logarithm to base 2 of a number of at least 1; 0 for smaller ones.
 static inline lane_int floor_log2(lane_float v) {
     const lane_float from_one = clamp(v, 1.0f, 1048576.0f);
     return (LANES_AS_INT(from_one) >> 23) - 127;
 }
 
 /// Sets `mean` to the mean of the textures that begin at `place` over `area`, as texture_mean does.
-/// With `is_data` its channels are numbers, and no colour in sRGB.
+/// With `is_data`, the channels are numbers instead of a colour in sRGB.
 static inline void mean_over(global const uint* restrict textures, lane_uint place,
                              const TextureArea* area, lane_int wears, bool is_data,
                              lane_float* mean) {
@@ -203,13 +205,13 @@ static inline void mean_over(global const uint* restrict textures, lane_uint pla
     const lane_float whole = exact_reciprocal(LANES_SELECT(covers, mean[3], (lane_float)1.0f));
     for (int c = 0; c < 3; ++c) mean[c] *= whole;
     mean[3] = clamp(mean[3], 0.0f, 1.0f);
-    // All of what covers but for rounding is opaque.
+    // A coverage of 1, except for rounding, is opaque.
     mean[3] = LANES_SELECT(LANE_MASK(mean[3] > 0.99999f), (lane_float)1.0f, mean[3]);
 }
 
-/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`, and where
-/// alpha counts to the share of it that they cover; the colour is then that of what is there.
-/// `wears` are the lanes with a texture.
+/// Sets `mean` to the mean colour of the textures that begin at `place` over `area`. Where alpha
+/// counts, mean[3] is the share of the area that they cover, and the colour is that of the covered
+/// part. `wears` is the mask of lanes with a texture.
 static inline void texture_mean(global const uint* restrict textures, lane_uint place,
                                 const TextureArea* area, lane_int wears, lane_float* mean) {
     mean_over(textures, place, area, wears, false, mean);

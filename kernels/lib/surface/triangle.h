@@ -2,8 +2,8 @@
 // The points where rays meet the source triangles that exact voxels list.
 //
 // The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and
-// the signs of three edge functions decide. Two triangles evaluate a shared edge to opposite
-// signs, so a ray cannot pass between them. Corners are taken from the ray's own origin, whatever
+// the signs of three edge functions decide. Two triangles evaluate a shared edge to opposite signs,
+// so a ray cannot pass between them. Corners are taken relative to the ray's own origin, whichever
 // voxel lists them.
 #ifndef VXL_TRIANGLE_H
 #define VXL_TRIANGLE_H
@@ -11,8 +11,8 @@
 #include "lib/lanes/vector.h"
 #include "lib/traverse/walk.h"
 
-/// The normal of triangles of counter-clockwise corners, not of unit length, in units where a voxel
-/// has `edge`s.
+/// The normal of triangles with counter-clockwise corners, not of unit length, for voxels with the
+/// edges `edge`.
 static inline Vector triangle_normal(global const float* restrict triangles, lane_uint number,
                                      float4 edge) {
     const lane_uint first = number * 9u;
@@ -66,7 +66,7 @@ static inline ShearedCorner shear_corner(global const float* restrict triangles,
     return corner;
 }
 
-/// The edge function of a and b, within 1.5 of its own units in the last place, so that its sign is
+/// The edge function of a and b, within 1.5 of its own units in the last place. So its sign is
 /// right, unless products underflow (Kahan's difference of products: Jeannerod, Louvet and Muller
 /// 2013).
 static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
@@ -75,10 +75,10 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
     return fma(a.x, b.y, -right) + rounded;
 }
 
-/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_min, or at it
-/// where `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's
-/// object meet its back only: the neighbour across an edge that they came in by has its face
-/// towards them. Rays from `outside` meet its face only. `front` is set where they meet its face.
+/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_min, or at it where
+/// `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's object
+/// meet only its back, because the neighbour across an edge at which they entered has its front
+/// towards them. Rays from `outside` meet only its front. `front` is set where they meet its front.
 static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min, lane_int at_least,
                                     global const float* triangles, lane_uint number, const Walk* w,
                                     const RayShear* s, lane_int within, lane_int outside,

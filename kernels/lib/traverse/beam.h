@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Beams: how far groups of 16 neighbouring rays run through empty space together.
+// Beams: how far groups of 16 neighbouring rays run together through empty space.
 //
-// A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
-// at every coordinate s of that axis it is less than 4 voxels from each of them. So the rays'
-// leaves are empty as long as the beam's own leaf and all leaves around it are, which one leaf of
-// the dilated occupancy (runtime/stages/trace/beam.hpp) tells. A dilated occupancy of bricks has
-// voxels four times as long, and so have the beams' coordinates there: `scale` is 1/4. The slack of
-// a quarter voxel covers the step of 1/64 past the planes at which the line is looked at, and all
-// rounding: places are sums of numbers up to 16 times the world's length (VXL_BEAM_MIN_DIRECTION),
-// six roundings of which are 0.1 voxel for 16384 voxels.
+// A beam is the straight line in the middle of its rays, along the axis that they mostly follow: at
+// every coordinate s of that axis, it is less than 4 voxels from each of them. So the rays' leaves
+// are empty as long as the beam's own leaf and all leaves around it are, which one leaf of the
+// dilated occupancy (runtime/stages/trace/beam.hpp) tells. A dilated occupancy of bricks has voxels
+// four times as long, and the beams' coordinates there are scaled by `scale` = 1/4. The slack of a
+// quarter voxel covers two errors: the step of 1/64 beyond the planes at which the line is
+// evaluated, and all rounding, since positions are sums of numbers up to 16 times the world's
+// length (VXL_BEAM_MIN_DIRECTION), and six roundings of these are 0.1 voxel for 16384 voxels.
 #ifndef VXL_BEAM_H
 #define VXL_BEAM_H
 
@@ -18,13 +18,13 @@
 #include "shared/trace.h"
 
 #define VXL_BEAM_STEP 0.015625f
-// A ray that follows the axis less than this has no useful position at s.
+// A ray whose direction along the axis is smaller than this has no useful position at s.
 #define VXL_BEAM_MIN_DIRECTION 0.0625f
 
 typedef struct {
     global const float* restrict rays;
     uint stride;
-    float scale;  // from the rays' coordinates to the dilated occupancy's
+    float scale;  // factor from the rays' coordinates to the dilated occupancy's
 } BeamRays;
 
 /// One component of rays, such as VXL_RAY_OX + axis or VXL_RAY_DX + axis.
@@ -32,18 +32,18 @@ static inline lane_float ray_value(const BeamRays* r, lane_int component, lane_u
     return LANES_GATHER_FLOAT(r->rays, LANES_AS_UINT(component) * r->stride + ray);
 }
 
-/// The origins of rays along an axis, in the dilated occupancy's coordinates.
+/// The coordinates of rays' origins along an axis, in the dilated occupancy.
 static inline lane_float ray_slot(const BeamRays* r, lane_int axis, lane_uint ray) {
     return r->scale * ray_value(r, (lane_int)VXL_RAY_OX + axis, ray);
 }
 
-/// Mask: places that hold a ray.
+/// Mask: slots that hold a ray.
 static inline lane_int is_ray(const BeamRays* r, lane_uint ray) {
     return LANE_MASK(LANES_GATHER_FLOAT(r->rays, VXL_RAY_END * r->stride + ray) >= 0.0f);
 }
 
-/// The axis that a group mostly follows, and the sign of its direction there, from the corners of a
-/// tile of 4 x 4; 0 where none of these places holds a ray.
+/// The axis that a group mostly follows, and the sign of its direction there, found from the
+/// corners of a tile of 4 x 4; 0 where none of these slots holds a ray.
 static inline lane_int main_axis(const BeamRays* r, lane_uint first, lane_float* sign) {
     lane_float dx = (lane_float)0.0f, dy = dx, dz = dx;
     for (uint corner = 0; corner < 4; ++corner) {
@@ -63,7 +63,7 @@ static inline lane_int main_axis(const BeamRays* r, lane_uint first, lane_float*
     return ~is_x & (2 + is_y);
 }
 
-/// The range that a group's rays span on one axis, at the world's near and far side along the main
+/// The range of a group's rays along one axis, at the world's near and far side along the main
 /// axis.
 typedef struct {
     lane_float min_near, max_near, min_far, max_far;
@@ -82,7 +82,7 @@ static inline void widen(lane_float near, lane_float far, lane_int held, Span* s
     span->max_far = LANES_SELECT(held, fmax(span->max_far, far), span->max_far);
 }
 
-/// One axis of beams: their line b0 + m s, from which their rays are at most r0 + e s away.
+/// One axis of beams: their line b0 + m s, whose distance from their rays is at most r0 + e s.
 typedef struct {
     lane_float b0, m, r0, e;
 } BeamAxis;
@@ -106,8 +106,8 @@ static inline BeamAxis beam_axis(const Span* span, lane_float s_near, lane_float
     return axis;
 }
 
-/// The s up to which beams that begin at `s` are narrow enough; -infinity where they are too wide
-/// there already.
+/// The s up to which beams that begin at `s` are narrow enough; -infinity where they are already
+/// too wide there.
 static inline lane_float narrow_until(const BeamAxis* axis, lane_float s) {
     const lane_int grows = LANE_MASK(axis->e > 0.0f);
     const lane_float widest =
@@ -118,7 +118,7 @@ static inline lane_float narrow_until(const BeamAxis* axis, lane_float s) {
 }
 
 /// The s at which a line leaves the block of 1 << log2_size around `cell` across a plane of this
-/// axis. Cells at the world's sides extend beyond it without end, and stand for lines outside.
+/// axis. Cells at the world's sides extend outwards to infinity, and represent lines outside.
 static inline lane_float block_exit(const BeamAxis* axis, lane_int cell, lane_int log2_size,
                                     lane_int size) {
     const lane_int edge = (lane_int)1 << log2_size;
@@ -137,8 +137,8 @@ static inline lane_int cell_inside(lane_float position, lane_int size) {
 }
 
 /// The s up to which the beams of the `active` lanes run from s0 through the dilated occupancy's
-/// empty space: s_last or more where all is empty up to s_last. s counts along `axis`, against it
-/// where `sign` is negative.
+/// empty space; s_last or more where everything up to s_last is empty. s counts along `axis`, or
+/// against it where `sign` is negative.
 static inline lane_float run_beams(const PyramidView* p, lane_int axis, lane_float sign,
                                    const BeamAxis* b, const BeamAxis* c, lane_float s0,
                                    lane_float s_last, lane_int active) {

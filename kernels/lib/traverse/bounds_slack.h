@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faces of instances that lie on the world's very bounds.
+// Faces of instances that lie exactly on the world's bounds.
 //
-// A ray that comes into the world begins on a side of it. In an instance's space, a face on that
-// side may lie behind this point, and a face on the side by which the ray goes out beyond the last
-// one: by no more than rounding moves faces across the side, but along a grazing ray that is far.
-// So rays look for an instance's faces as if the world's bounds lay further out, by as much.
+// A ray that enters the world begins on one of its sides. In an instance's space, a face on that
+// side may lie behind this point, and a face on the side by which the ray leaves may lie beyond its
+// last point. The difference across the side is no more than the rounding of faces, but along a
+// grazing ray that is far. So rays look for an instance's faces as if the world's bounds lay
+// farther out by that rounding.
 #ifndef VXL_BOUNDS_SLACK_H
 #define VXL_BOUNDS_SLACK_H
 
 #include "lib/lanes/vector.h"
 #include "lib/traverse/walk.h"
 
-/// How far the first and the last point of a ray move in t if the bounds move by one voxel; 0 for
-/// rays that begin or end in the world.
+/// How far a ray's first and last point move in t if the bounds move by one voxel; 0 for rays that
+/// begin or end inside the world.
 typedef struct {
     lane_float in, out;
-    lane_float t_out;  // the last point, with the bounds as they are
-    lane_float t_end;  // of the ray
+    lane_float t_out;  // the last point, with the bounds where they are
+    lane_float t_end;  // the ray's end
 } BoundsSlack;
 
-/// The lesser of `slowness` and |1 / d|, of an axis in the lanes of `mask`.
+/// The smaller of `slowness` and an axis's |1 / d|, in the lanes of `mask`.
 static inline lane_float min_slowness(lane_float slowness, lane_float inverse, lane_int mask) {
     return LANES_SELECT(mask, fmin(slowness, fabs(inverse)), slowness);
 }
 
-/// How far the first point of a ray moves in t if the bounds move outwards by one voxel: 0 unless
-/// it lies on a side by which the ray comes in.
+/// How far a ray's first point moves in t if the bounds move outwards by one voxel; 0 unless it
+/// lies on a side through which the ray enters.
 static inline lane_float slack_of_entry(Vector o, Vector d, int size_x, int size_y, int size_z) {
     const lane_float none = (lane_float)INFINITY;
     lane_float in = none;
@@ -35,15 +36,15 @@ static inline lane_float slack_of_entry(Vector o, Vector d, int size_x, int size
     return LANES_SELECT(LANE_MASK(in < none), in, (lane_float)0.0f);
 }
 
-/// Mask: a ray is at the far side of one axis by t_out.
+/// Mask: rays that reach the far side of one axis by t_out.
 static inline lane_int goes_out_by(lane_float t_out, lane_float o, lane_float inverse,
                                    lane_int positive, lane_int moves, int size) {
     const lane_float side = LANES_SELECT(positive, (lane_float)(float)size, (lane_float)0.0f);
     return moves & LANE_MASK((side - o) * inverse <= t_out);
 }
 
-/// The slack of rays that leave the world, or end, at t_out. Those that are not `new` go on from a
-/// surface.
+/// The slack of rays that leave the world, or end, at t_out. Rays that are not `new` continue from
+/// a surface.
 static inline BoundsSlack bounds_slack(const PyramidView* p, const Walk* w, lane_int new,
                                        lane_float t_out, lane_float t_end) {
     const lane_float none = (lane_float)INFINITY;
@@ -61,13 +62,13 @@ static inline BoundsSlack bounds_slack(const PyramidView* p, const Walk* w, lane
     return slack;
 }
 
-/// The first t at which surfaces count, of a ray's `t_first`, where faces are right within
-/// `rounding` voxels.
+/// The first t at which surfaces count, for a ray that begins at `t_first`, where faces are right
+/// within `rounding` voxels.
 static inline lane_float first_of_faces(const BoundsSlack* s, lane_float t_first, float rounding) {
     return fma(s->in, (lane_float)-rounding, t_first);
 }
 
-/// The last t at which they count: t_last, or beyond it if the ray leaves the world there.
+/// The last t at which surfaces count: t_last, or beyond it if the ray leaves the world there.
 static inline lane_float last_of_faces(const BoundsSlack* s, lane_float t_last, float rounding) {
     const lane_float beyond = fmin(fma(s->out, (lane_float)rounding, s->t_out), s->t_end);
     return LANES_SELECT(LANE_MASK(t_last < s->t_out), t_last, beyond);

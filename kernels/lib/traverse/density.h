@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The amount of medium that a ray goes through: the sum of density times length over its voxels.
+// The amount of medium along a ray: the sum of density times length over its voxels.
 //
-// A length is the difference of two crossing times, each held in two floats, so that a thin
-// layer far along the ray counts as exactly as a thick one near its start.
+// A length is the difference of two crossing times, each held in two floats, so that a thin layer
+// far along the ray is measured as exactly as a thick one near its start.
 #ifndef VXL_DENSITY_H
 #define VXL_DENSITY_H
 
@@ -24,7 +24,7 @@ typedef struct {
 #define VXL_DENSITY \
     { density_shape, density_bricks, density_values }
 
-/// What the lattice knows of a voxel.
+/// The lattice's data for a voxel.
 typedef struct {
     lane_float density;
     lane_int log2_size;  // of the aligned cube of cells around it that has one density
@@ -62,7 +62,7 @@ static inline void leave_cells(const PyramidView* p, const DensityView* d, Walk*
                 exit_plane(w->z, w->pz, log2_size + d->shape.shift_z, p->size_z), moving);
 }
 
-/// The exact time at which the walk entered its cell, minus the float that holds it.
+/// The exact time at which the walk entered its cell, minus the float that represents it.
 static inline lane_float time_remainder(const Walk* w) {
     const lane_int x = LANE_MASK(w->axis == 0), y = LANE_MASK(w->axis == 1);
     const lane_float nx = LANES_FLOAT(w->x - ~w->px) - w->ox;
@@ -74,8 +74,8 @@ static inline lane_float time_remainder(const Walk* w) {
     return fma(-w->t, d, n) * inverse;
 }
 
-/// Adds `term` to the `adding` lanes of a sum; `lost` holds what roundings took from it (Kahan
-/// 1965).
+/// Adds `term` to the `adding` lanes of a sum; `lost` holds what rounding has removed from it
+/// (Kahan 1965).
 static inline void add_exactly(lane_float* sum, lane_float* lost, lane_float term,
                                lane_int adding) {
     const lane_float corrected = term - *lost;
@@ -87,12 +87,12 @@ static inline void add_exactly(lane_float* sum, lane_float* lost, lane_float ter
 /// The part of a ray inside one voxel of each lane.
 typedef struct {
     lane_float length;  // t, >= 0
-    lane_int counts;    // whether some of it lies behind t_first
-    lane_int ends;      // whether it is the last
+    lane_int counts;    // mask: some of it lies behind t_first
+    lane_int ends;      // mask: it is the last part
 } Stretch;
 
-/// Leaves the voxels around the walk's own that have one density. `entered` plus `entered_low` is
-/// where the stretch begins, and then where the next one does.
+/// Leaves the voxels around the walk's own that have one density. On entry, `entered` plus
+/// `entered_low` is where the stretch begins; on return, where the next one begins.
 static inline Stretch cross_cell(const PyramidView* p, const DensityView* d, Walk* w,
                                  const DensityCell* cell, lane_float t_first, lane_float t_last,
                                  lane_float* entered, lane_float* entered_low, lane_int walking) {

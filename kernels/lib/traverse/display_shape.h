@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions that depend on a display's shape: its sight rays, its depths, its inside.
-// runtime/scene/parts/display_shape.hpp is the host's side.
+// The functions that depend on a display's shape: its sight rays, its depths, its inside. The
+// host's counterpart is runtime/scene/parts/display_shape.hpp.
 #ifndef VXL_DISPLAY_SHAPE_H
 #define VXL_DISPLAY_SHAPE_H
 
@@ -14,8 +14,8 @@ typedef struct {
     Vector start, direction;
 } SightRay;
 
-/// The ray of the sample at (u, v), each in [-1, 1] with u to the right and v down. Samples that
-/// the shape has no ray for are cleared in `seen`.
+/// The ray of the sample at (u, v), each in [-1, 1] with u to the right and v down. Samples for
+/// which the shape has no ray are cleared in `seen`.
 static inline SightRay sight_ray(const Camera* camera, lane_float u, lane_float v, lane_int* seen) {
     SightRay ray;
     const lane_float zero = (lane_float)0.0f;
@@ -33,7 +33,7 @@ static inline SightRay sight_ray(const Camera* camera, lane_float u, lane_float 
         exact_sincos(x, &sin_x, &cos_x);
         exact_sincos(y, &sin_y, &cos_y);
         ray.direction.x = sin_x * cos_y, ray.direction.y = sin_y, ray.direction.z = cos_x * cos_y;
-    } else {  // sector: the angle from Z_E grows evenly with the distance from the middle
+    } else {  // sector: the angle from Z_E is proportional to the distance from the middle
         const lane_float radius = exact_sqrt(fma(u, u, v * v));
         lane_float sine, cosine;
         exact_sincos(radius * camera->half_x, &sine, &cosine);
@@ -45,7 +45,7 @@ static inline SightRay sight_ray(const Camera* camera, lane_float u, lane_float 
     return ray;
 }
 
-/// True if depths count along Z_E, false if along the sight ray.
+/// True if depths count along Z_E, false if they count along the sight ray.
 static inline bool depth_is_along_z(const Camera* camera) {
     return camera->shape == VXL_SHAPE_PYRAMID || camera->shape == VXL_SHAPE_BOX;
 }
@@ -56,9 +56,9 @@ static inline bool looks_ahead(const Camera* camera) {
     return camera->shape != VXL_SHAPE_BALL;
 }
 
-/// The vector along a sight ray from its start to a point, in voxels. `eye` leads from E's
-/// `lead` to the point, which is `depth` metres along Z_E from there. Where depths count along Z_E,
-/// they take the place of `length`, the point's distance in metres.
+/// The vector along a sight ray from its start to a point, in voxels. `eye` is the vector from the
+/// camera's `origin` to the point, which lies `depth` metres along Z_E from there. Where depths
+/// count along Z_E, `length`, the point's distance in metres, is replaced by the depth.
 static inline Vector sight_way(const Camera* camera, Vector eye, lane_float depth,
                                lane_float* length) {
     const float4 ahead = camera->axis_z;
@@ -78,7 +78,7 @@ static inline Vector sight_way(const Camera* camera, Vector eye, lane_float dept
     return way;
 }
 
-/// True if a point within the lattice, metres in the observer's coordinates, lies in the shape.
+/// True if a point within the lattice, in metres in the observer's coordinates, lies in the shape.
 static inline bool is_in_shape(const DisplayLattice* l, float3 p) {
     if (l->shape == VXL_SHAPE_PYRAMID)
         return fabs(p.x) <= p.z * l->slope_x && fabs(p.y) <= p.z * l->slope_y;
@@ -86,7 +86,8 @@ static inline bool is_in_shape(const DisplayLattice* l, float3 p) {
     const float squared = fma(p.x, p.x, fma(p.y, p.y, p.z * p.z));
     if (squared > l->far_depth * l->far_depth) return false;
     if (l->shape == VXL_SHAPE_BALL) return true;
-    // The angle from Z_E by squares: no root, and the cosine may be negative.
+    // The angle from Z_E is compared by squares: this needs no root, and the cosine may be
+    // negative.
     const float minimum = l->slope_x * fabs(l->slope_x) * squared;
     return squared >= l->near_depth * l->near_depth && p.z * fabs(p.z) >= minimum;
 }

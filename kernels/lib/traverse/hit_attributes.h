@@ -36,21 +36,21 @@ static inline lane_uint attributes_of_hit(const SurfaceView* s, lane_uint voxel,
     return packed;
 }
 
-/// Mask: a hit's surface is that of a smooth object.
+/// Mask: hits on surfaces of smooth objects.
 static inline lane_int is_smooth(lane_uint packed, lane_uint primitive) {
     return LANE_MASK((packed >> VXL_KIND_SHIFT) != VXL_KIND_CUBES) &
            LANE_MASK(primitive == VXL_NO_PRIMITIVE);
 }
 
-/// RayState::source of rays that begin on a surface: its primitive, or, where voxels may hold
-/// several fields or objects fields and triangles, VXL_FIELD_SOURCE with the field's number.
-/// `packed` are the surface's attributes.
+/// RayState::source for rays that begin on a surface: its primitive or, where voxels may hold
+/// several fields or objects may have both fields and triangles, VXL_FIELD_SOURCE with the field's
+/// number. `packed` are the surface's packed attributes.
 static inline lane_uint source_of_hit(lane_uint primitive, lane_uint number, lane_uint packed) {
     if (!(VXL_FIELD_LISTS | VXL_MIXED)) return primitive;
     return LANES_SELECT(is_smooth(packed, primitive), number | VXL_FIELD_SOURCE, primitive);
 }
 
-/// source_of_hit of a batch's hits from `first` on.
+/// source_of_hit for a batch's hits from `first` on.
 static inline lane_uint source_of_hits(global const uint* hits, uint stride, uint first,
                                        lane_uint packed) {
     lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;

@@ -5,17 +5,17 @@
 
 #include "lib/traverse/transformed_ray.h"
 
-/// Rays in the voxels that their hits are in, and the map of gradients from there to the world's
+/// A ray in the voxels that its hit is in, and the map of gradients from there to the world's
 /// voxels.
 typedef struct {
     Vector origin, direction;
     lane_float t;
-    lane_float map[9];  // object_from_world of the instance; 0 for others
+    lane_float map[9];  // object_from_world of the instance; zeros for other hits
 } HitRay;
 
-/// The ray of each lane of `of_instance` in the space of its instance. Other rays are unchanged and
-/// have a map of zeros, since numbers never written may not reach a built-in function, even if
-/// their result is not used.
+/// Transforms the ray of each lane of `of_instance` to the space of its instance. Other rays are
+/// unchanged and get a map of zeros, because uninitialised numbers must not reach a built-in
+/// function, even if its result is not used.
 static inline HitRay transform_hits(global const InstanceRecord* restrict records,
                                     lane_uint instance, lane_int of_instance, HitRay ray) {
     const Vector o = ray.origin, d = ray.direction;
@@ -39,7 +39,8 @@ static inline HitRay transform_hits(global const InstanceRecord* restrict record
     return ray;
 }
 
-/// A gradient in the voxels of a hit, turned to the world's voxels for the lanes of `of_instance`.
+/// Transforms a gradient in the voxels of a hit to the world's voxels, in the lanes of
+/// `of_instance`.
 static inline Vector world_gradient(const HitRay* ray, Vector g, lane_int of_instance) {
     const lane_float* m = ray->map;
     const Vector transformed = {fma(m[0], g.x, fma(m[3], g.y, m[6] * g.z)),

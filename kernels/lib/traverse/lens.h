@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sight rays through a thin lens: they start all over it, and meet where it is focused.
+// Sight rays through a thin lens: they start at points of the lens and meet where it is focused.
 #ifndef VXL_LENS_H
 #define VXL_LENS_H
 
@@ -8,8 +8,8 @@
 #include "lib/traverse/display_shape.h"
 #include "shared/paths.h"
 
-/// A point of the regular polygon of `corners` corners on the unit circle, one of them at the top,
-/// all of which are equally probable: p.y chooses a triangle between two corners and the middle.
+/// A point of the regular polygon of `corners` corners on the unit circle, with one corner at the
+/// top. All points are equally probable: p.y chooses a triangle between two corners and the middle.
 static inline SquarePoint polygon_point(SquarePoint p, int corners) {
     const lane_float at = p.y * (float)corners;
     const lane_float first = floor(at), along = at - first, radius = exact_sqrt(p.x);
@@ -23,7 +23,7 @@ static inline SquarePoint polygon_point(SquarePoint p, int corners) {
 }
 
 /// The points of the lens, within the unit disk, through which sample number `sample` of the pixels
-/// passes. Columns and rows are those of the whole frame, so that parts of a picture agree.
+/// passes. Columns and rows count in the whole frame, so that parts of a picture agree.
 static inline SquarePoint lens_point(const Camera* camera, lane_uint column, lane_uint row,
                                      uint sample) {
     const SampledPixels samples = sampled_pixels(column | (row << 16), (lane_uint)sample);
@@ -32,9 +32,9 @@ static inline SquarePoint lens_point(const Camera* camera, lane_uint column, lan
     return disk_point(p);
 }
 
-/// The rays of a pyramid's samples that start at points p of the lens, which lies around the
-/// observer across Z_E. They come to the same places as the observer's own at the depth where the
-/// lens is focused.
+/// Moves the rays of a pyramid's samples to start at points p of the lens, which lies around the
+/// observer at right angles to Z_E. At the depth where the lens is focused, they reach the same
+/// points as the observer's own rays.
 static inline SightRay through_lens(const Camera* camera, SightRay ray, SquarePoint p) {
     ray.direction.x = fma(p.x, -camera->lens_slope, ray.direction.x);
     ray.direction.y = fma(p.y, -camera->lens_slope, ray.direction.y);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The set of transmitting objects that a ray is inside of.
 //
-// The effective medium is the object that comes first in the order of priorities, so nothing
-// depends on the order in which surfaces were crossed.
+// The effective medium is the object that comes first in the order of priorities, so it doesn't
+// depend on the order in which surfaces were crossed.
 #ifndef VXL_MEDIUM_SET_H
 #define VXL_MEDIUM_SET_H
 
@@ -24,7 +24,7 @@
 #define VXL_PATH_WIDTH (VXL_PATH_DENSITY + (VXL_AREA_SHARES ? 1 : 0))
 #define VXL_WIDENS (VXL_TEXTURES && VXL_PATHS && VXL_RADIANCE)
 
-/// Packed attributes of the objects, VXL_NO_MEDIUM for none.
+/// The objects' packed attributes; VXL_NO_MEDIUM marks a free slot.
 typedef struct {
     lane_uint members[VXL_MEDIUM_SET_SIZE];
 } MediumSet;
@@ -35,8 +35,8 @@ static inline MediumSet empty_medium_set(void) {
     return media;
 }
 
-/// The sets of the paths from `first` on. The sets of lanes outside of `some` are empty, since
-/// memory beyond a queue's end may hold anything.
+/// The sets of the paths from `first` on. Lanes outside `some` get empty sets, since memory beyond
+/// a queue's end may hold anything.
 static inline MediumSet load_medium_set(global const uint* paths, uint stride, uint first,
                                         lane_int some) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
@@ -54,7 +54,7 @@ static inline void store_medium_set(const MediumSet* in, global uint* paths, uin
         LANES_STORE(in->members[i], p, (size_t)i * stride + first);
 }
 
-/// load_medium_set of the paths numbered `path`.
+/// load_medium_set for the paths numbered `path`.
 static inline MediumSet gather_medium_set(global const uint* paths, uint stride, lane_uint path,
                                           lane_int some) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
@@ -70,15 +70,15 @@ static inline lane_int is_medium(lane_uint member, lane_uint packed) {
            LANE_MASK(member != VXL_NO_MEDIUM);
 }
 
-/// Mask: the set holds the object of these packed attributes.
+/// Mask: sets that hold the object with these packed attributes.
 static inline lane_int medium_set_holds(const MediumSet* in, lane_uint packed) {
     lane_int holds = (lane_int)0;
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) holds |= is_medium(in->members[i], packed);
     return holds;
 }
 
-/// Does what cross_medium does; `overflowed` is the mask of lanes whose sets had no room for the
-/// object that they entered.
+/// Does what cross_medium does. Sets `overflowed` to the mask of lanes whose sets had no room for
+/// the object that they entered.
 static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed, lane_int leaving,
                                                  lane_int crossing, lane_int* overflowed) {
     const lane_uint none = (lane_uint)VXL_NO_MEDIUM;
@@ -95,14 +95,14 @@ static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed,
     return in;
 }
 
-/// The set behind a surface of the object of `packed`, in the lanes that cross it.
+/// The sets behind a surface of the object of `packed`, in the `crossing` lanes.
 static inline MediumSet cross_medium(MediumSet in, lane_uint packed, lane_int leaving,
                                      lane_int crossing) {
     lane_int overflowed;
     return cross_medium_or_overflow(in, packed, leaving, crossing, &overflowed);
 }
 
-/// `ranks[object]` is the object's index in the order of priorities.
+/// The rank of an object: `ranks[object]` is its index in the order of priorities.
 static inline lane_uint rank_of(global const uint* ranks, lane_uint packed) {
     const lane_int some = LANE_MASK(packed != VXL_NO_MEDIUM);
     const lane_uint object = packed & VXL_OBJECT_MASK & LANES_AS_UINT(some);
@@ -117,7 +117,7 @@ static inline lane_uint first_in_rank(lane_uint packed, lane_uint* rank, lane_ui
     return LANES_SELECT(before, other, packed);
 }
 
-/// The packed attributes of the effective medium; VXL_NO_MEDIUM outside of all objects.
+/// The packed attributes of the effective medium; VXL_NO_MEDIUM outside all objects.
 static inline lane_uint effective_medium(const MediumSet* in, global const uint* ranks) {
     lane_uint packed = in->members[0], rank = rank_of(ranks, packed);
     for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i)
@@ -125,13 +125,14 @@ static inline lane_uint effective_medium(const MediumSet* in, global const uint*
     return packed;
 }
 
-/// Mask: two packed attributes, or VXL_NO_MEDIUM, stand for the same object or for none.
+/// Mask: pairs of packed attributes, or VXL_NO_MEDIUM, that stand for the same object or both for
+/// none.
 static inline lane_int same_medium(lane_uint a, lane_uint b) {
     return LANE_MASK(a == b) | (is_medium(a, b) & LANE_MASK(b != VXL_NO_MEDIUM));
 }
 
-/// Mask: a surface is hidden, since the effective medium is the same before and behind it. A ray
-/// that leaves an object that its set doesn't hold began inside that object.
+/// Mask: surfaces that are hidden because the effective medium is the same before and behind them.
+/// A ray that leaves an object that its set doesn't hold began inside that object.
 static inline lane_int hides_surface(const MediumSet* in, lane_uint packed, lane_int leaving,
                                      global const uint* ranks) {
     const MediumSet before =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The origins of rays that leave the surfaces of instances, or triangles.
+// Offsets the origins of rays that leave the surfaces of instances, or triangles.
 #ifndef VXL_OFFSET_ORIGIN_H
 #define VXL_OFFSET_ORIGIN_H
 
@@ -7,20 +7,20 @@
 #include "shared/instance.h"
 #include "shared/scene.h"
 
-/// How far, in voxels along a unit vector of metric space, points of the world's triangles lie off
-/// them at most: they are right within plane_bound along each axis.
+/// The maximum distance, in voxels along a unit vector of metric space, of computed points from the
+/// world's triangles: the points are right within plane_bound along each axis.
 static inline float rounding_of_points(PyramidShape shape) {
     const float4 e = shape.edge;
     const float uneven = fmax(e.x, fmax(e.y, e.z)) / fmin(e.x, fmin(e.y, e.z));
     return 1.7320508f * uneven * shape.plane_bound;
 }
 
-/// Surface points moved along `normal` (a unit vector in metric space, on the side that rays leave
-/// to) by what rounding may have put them behind the surface. Those of instances lie on that side
-/// in the instance's own voxels then, too, and those of the world's triangles on that of neighbours
-/// in the same plane. In scenes with objects that let light through the latter stay where they are:
-/// beyond the back of a thin pane a ray would never leave it. So do points of cubes, fields and
-/// solids of the world.
+/// Surface points moved along `normal` by as much as rounding may have put them behind the surface.
+/// `normal` is a unit vector in metric space, on the side to which rays leave. Moved points of
+/// instances lie on that side in the instance's own voxels, too; moved points of the world's
+/// triangles also lie on that side of neighbours in the same plane. In scenes with objects that let
+/// light through, points of the world's triangles are not moved: beyond the back of a thin pane, a
+/// ray would never leave the pane. Points of the world's cubes, fields and solids are never moved.
 static inline Vector offset_origin(PyramidShape shape, Vector position, Vector normal,
                                    global const uint* restrict hits, uint stride, uint first) {
     const int moves_off_triangles = VXL_TRIANGLES & !VXL_TRANSMISSION;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading the occupancy pyramid (runtime/grid/grid.hpp has its layout).
+// Functions that read the occupancy pyramid (runtime/grid/grid.hpp describes its layout).
 //
 // A half of a 64-bit mask covers 4 x 4 x 2 children: bit x | y << 2 | (z & 1) << 4 of half z >> 1.
 // With the lowest bits of x and y cleared from a bit's number, the pattern 0x00330033
@@ -36,30 +36,31 @@ static inline PyramidView pyramid_view(PyramidShape shape, global const uint* re
     return p;
 }
 
-/// The grid alone, for walks that look nothing up.
+/// A view of the grid alone, for walks that look nothing up.
 static inline PyramidView grid_view(PyramidShape shape) {
     return pyramid_view(shape, 0, 0, 0, 0);
 }
 
-/// What the pyramid knows of a cell: the empty block around it, or the leaf that holds its voxel.
+/// What the pyramid tells about a cell: the empty block around it, or the leaf that holds its
+/// voxel.
 typedef struct {
     lane_int occupied;   // mask: the cell's voxel is set
-    lane_int log2_size;  // of the aligned empty block around the cell, where it isn't occupied
+    lane_int log2_size;  // of the aligned empty block around the cell, if it isn't occupied
     lane_uint leaf;      // number of the cell's leaf, where occupied
 } CellState;
 
-/// The sector that each lane looked up last, which neighbouring cells mostly share.
+/// The sector that each lane looked up last, which neighbouring cells usually share.
 typedef struct {
     lane_int number;  // -1: none yet
     lane_uint entry;
 } LastSector;
 
 static inline LastSector no_sector(void) {
-    const LastSector none = {(lane_int)-1, (lane_uint)0x80000000u};  // an empty one
+    const LastSector none = {(lane_int)-1, (lane_uint)0x80000000u};  // an empty sector
     return none;
 }
 
-/// Bit number, within its half of the mask, of the child of size 1 << shift that holds the cell.
+/// The bit, within its half of the mask, of the child of size 1 << shift that holds the cell.
 static inline lane_uint child_bit(lane_int x, lane_int y, lane_int z, int shift) {
     return LANES_AS_UINT(((x >> shift) & 3) | (((y >> shift) & 3) << 2) |
                          (((z >> shift) & 1) << 4));
@@ -69,13 +70,13 @@ static inline lane_int group_is_empty(lane_uint mask, lane_uint bit) {
     return LANE_MASK(((mask >> (bit & VXL_GROUP_CORNER)) & VXL_GROUP_OF_EIGHT) == 0u);
 }
 
-/// Mask: the cell's leaf holds voxels. Also writes the state of the cells whose leaf holds none,
-/// and the numbers of the leaves that do. Lanes that are not `active` read something harmless.
+/// Mask: the cell's leaf holds voxels. Also writes the state of the cells whose leaf is empty, and
+/// the numbers of the other cells' leaves. Lanes that are not `active` read something harmless.
 static inline lane_int look_up_leaf(const PyramidView* p, lane_int x, lane_int y, lane_int z,
                                     lane_int active, LastSector* last, CellState* state) {
     const lane_int sector = ((z >> 6) * p->sectors_y + (y >> 6)) * p->sectors_x + (x >> 6);
     const lane_int changed = LANE_MASK(sector != last->number) & active;
-    if (lanes_any(changed)) {  // seldom: the branch lets the next loads begin early
+    if (lanes_any(changed)) {  // rarely: the branch lets the next loads begin early
         last->number = LANES_SELECT(changed, sector, last->number);
         last->entry =
             LANES_SELECT(changed, LANES_GATHER_UINT(p->sectors, sector & changed), last->entry);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arrays of a batch of rays as kernels take them; runtime/stages/ray_batch.hpp has their
-// meaning. A kernel that needs three or more of a structure's arrays takes the whole structure.
+// The arrays of a batch of rays as kernels take them; runtime/stages/ray_batch.hpp describes them.
+// A kernel that needs three or more of a structure's arrays takes the whole structure.
 #ifndef VXL_RAY_BATCH_H
 #define VXL_RAY_BATCH_H
 
@@ -51,7 +51,7 @@ typedef struct {
         global uint *restrict shadow_sources, global float *restrict shadow_contributions, \
         BeamGrid shadow_beam_grid, global const float *restrict shadow_beam_ends
 
-/// Shadow rays that wait to be traced, the batch's stride apart.
+/// Shadow rays that wait to be traced; components are the batch's stride apart.
 typedef struct {
     global uint* restrict count;
     global uint* restrict traced;
@@ -59,7 +59,7 @@ typedef struct {
     global uint* restrict targets;
     global uint* restrict sources;
     global float* restrict contributions;
-    BeamGrid beam_grid;  // of the light that they run to
+    BeamGrid beam_grid;  // beams of the light that the rays run to
     global const float* restrict beam_ends;
 } ShadowQueue;
 

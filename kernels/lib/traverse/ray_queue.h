@@ -12,17 +12,17 @@ typedef struct {
     Vector origin, direction;
     lane_float t_end;
     lane_uint source, flags;
-    lane_uint instance;  // of scenes with instances
+    lane_uint instance;  // in scenes with instances
     lane_float weight;   // not in global light
     lane_uint state;     // of paths in global light: VXL_PATH_STATE
-    // of scenes with transmitting objects or in global light
+    // in scenes with transmitting objects or in global light
     lane_uint target;
     lane_float throughput[3];
     lane_uint emitter;     // where paths look for emitters: VXL_PATH_EMITTER
-    lane_float travelled;  // where there is one: VXL_PATH_TRAVELLED
-    lane_float density;    // where there is one: VXL_PATH_DENSITY
-    lane_float width;      // where there is one: VXL_PATH_WIDTH
-    // of scenes with transmitting objects
+    lane_float travelled;  // where it exists: VXL_PATH_TRAVELLED
+    lane_float density;    // where it exists: VXL_PATH_DENSITY
+    lane_float width;      // where it exists: VXL_PATH_WIDTH
+    // in scenes with transmitting objects
     lane_uint cell_xy, cell_z, medium;  // medium: RayBatch::inside
     lane_float start, clear;
     MediumSet media;
@@ -36,7 +36,7 @@ typedef struct {
 /// The same behind the counters of rays that are sent on, VXL_COUNT_*: `bind` of a CountedQueue.
 #define VXL_COUNTED_QUEUE_PARAMETERS global uint *restrict counters, VXL_QUEUE_PARAMETERS
 
-/// A queue of new rays, with `stride` places.
+/// A queue of new rays, with `stride` slots.
 typedef struct {
     global float* rays;
     global uint* paths;
@@ -49,7 +49,7 @@ typedef struct {
 #define VXL_QUEUE \
     { next_rays, next_paths, next_starts, next_inside, next_stride }
 
-/// The wanted lanes of a packet, left-packed, and the index of their first in a queue.
+/// The wanted lanes of a packet, left-packed, and the index of the first one in a queue.
 typedef struct {
     uint first, count;
     uint lane[VXL_LANES];
@@ -67,8 +67,8 @@ static inline Slots slots_from(uint first, lane_int wanted) {
     return p;
 }
 
-/// Reserves a place after the `count` places taken for every lane of a mask, all at once. No result
-/// depends on where the places are.
+/// Reserves a slot behind the `count` reserved ones for every lane of a mask, all at once. No
+/// result depends on which slots these are.
 static inline Slots reserve_slots(lane_int wanted, global uint* count) {
     const uint sum = (uint)lanes_count(wanted);
     return slots_from(sum == 0 ? 0 : atomic_add(count, sum), wanted);

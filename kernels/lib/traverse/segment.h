@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a ray's way on which the medium counts, and how much of it is there.
+// The part of a ray on which the medium counts, and its length.
 #ifndef VXL_SEGMENT_H
 #define VXL_SEGMENT_H
 
@@ -15,7 +15,7 @@ typedef struct {
     lane_float t_first, t_last;
 } Segment;
 
-/// The segment's part inside the world; one that ends before it begins if there is none.
+/// The segment's part inside the world. If there is none, the result ends before it begins.
 static inline Segment part_in_world(PyramidShape shape, Segment s) {
     clip_to_world(s.origin, s.direction, shape.size_x, shape.size_y, shape.size_z, &s.t_first,
                   &s.t_last);
@@ -39,8 +39,8 @@ static inline lane_int scatters_before(const RayBatch* batch, uint first) {
     return LANE_MASK((state & VXL_STATE_IN_MEDIUM) != 0u);
 }
 
-/// The rays' parts up to what they met. A ray that met nothing goes on to the far surface, or to
-/// the world's end.
+/// The parts of rays up to what they met. A ray that met nothing continues to the far surface, or
+/// to the world's end.
 static inline Segment whole_segment(const RayBatch* batch, uint first) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
@@ -55,8 +55,8 @@ static inline Segment whole_segment(const RayBatch* batch, uint first) {
     return segment;
 }
 
-/// Returns the same parts, but where the medium scatters a path they end where `transmittance`
-/// says.
+/// The parts of whole_segment, except that they end at `transmittance` where the medium scatters a
+/// path.
 static inline Segment sight_segment(const RayBatch* batch, uint first) {
     Segment segment = whole_segment(batch, first);
     if (VXL_SCATTERING)

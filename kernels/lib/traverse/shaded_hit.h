@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays have met, as it was stored for them, ready to be shaded.
+// What rays have met, loaded from where it was stored, ready to be shaded.
 #ifndef VXL_SHADED_HIT_H
 #define VXL_SHADED_HIT_H
 
@@ -9,7 +9,7 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// The surfaces that a packet of rays has met. Lanes that met nothing have harmless numbers.
+/// The surfaces that a packet of rays has met. Lanes that met nothing hold harmless numbers.
 typedef struct {
     lane_int hit, of_instance;  // masks
     lane_int exact, smooth;     // masks: triangles and solids; fields
@@ -17,7 +17,7 @@ typedef struct {
     Vector cell;                     // the minimum corner of the voxel
     Vector world_origin, world_way;  // the ray in the world's voxels
     lane_float world_t;
-    HitRay ray;  // in the voxels of the instance that was met, or the world's
+    HitRay ray;  // the ray in the voxels of the instance that was met, or in the world's
 } ShadedHit;
 
 static inline ShadedHit load_hits(const WorldView* world, const RayBatch* batch, uint first) {

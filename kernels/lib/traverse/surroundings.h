@@ -16,7 +16,7 @@ typedef struct {
     global const float *restrict materials, global const uint *restrict ranks, \
         global uint *medium_overflows, float4 absorption, VXL_DENSITY_PARAMETERS
 
-/// runtime/stages/trace/trace.hpp has the meaning of each.
+/// The arrays are described in runtime/stages/trace/trace.hpp.
 typedef struct {
     global const float* restrict materials;
     global const uint* restrict ranks;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays transformed into the space of an instance: shared/instance.h.
+// Rays transformed into the space of an instance; see shared/instance.h.
 //
 // A ray is first moved to its point closest to the instance's centre: o - center + t d is rounded
-// only once there, however far away the ray began. From that point distances to the centre and into
-// the box are short.
+// only there, and only once, however far away the ray began. From that point, distances to the
+// centre and to the box are short.
 #ifndef VXL_TRANSFORMED_RAY_H
 #define VXL_TRANSFORMED_RAY_H
 
@@ -13,22 +13,22 @@
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
-/// A ray's segment in the box of an instance, in its voxels: point + along * (t - base).
+/// A ray's segment in the box of an instance, in the instance's voxels: point + along * (t - base).
 typedef struct {
     Vector point, along;
-    lane_float base, from;  // it comes in, or begins inside, at base + from
-    lane_int axis;          // across which it comes in; 3: it begins inside
+    lane_float base, from;  // the ray enters, or begins inside, at base + from
+    lane_int axis;          // the axis across which it enters; 3: it begins inside
     lane_int met;           // mask: the ray passes through the box
 } BoxPassage;
 
-/// A ray of shared/trace.h in an instance's voxels. Its t is `base` + (`from` + t here * `scale`)
-/// in the world.
+/// A ray of shared/trace.h in an instance's voxels. Its t corresponds to `base` + (`from` + t *
+/// `scale`) in the world.
 typedef struct {
     Vector origin, direction;
     lane_float base, from, scale;
 } TransformedRay;
 
-/// Part of a slab test: 1 / d, but not infinite.
+/// The 1 / d of a slab test, but finite.
 static inline lane_float finite_inverse(lane_float d) {
     return clamp(exact_reciprocal(d), -1e30f, 1e30f);
 }
@@ -41,7 +41,7 @@ static inline Vector object_vector(global const InstanceRecord* r, Vector v) {
     return result;
 }
 
-/// The object's point for one that lies `v` from the instance's centre.
+/// Maps a point at `v` from the instance's centre to the object's voxels.
 static inline Vector object_point(global const InstanceRecord* r, Vector v) {
     global const float* m = r->object_from_world;
     const Vector result = {fma(m[0], v.x, fma(m[1], v.y, fma(m[2], v.z, r->image[0]))),
@@ -50,7 +50,7 @@ static inline Vector object_point(global const InstanceRecord* r, Vector v) {
     return result;
 }
 
-/// The t at which a ray comes in between two planes of one axis, and leaves.
+/// The t at which a ray enters and leaves the space between two planes of one axis.
 static inline void between_planes(lane_float o, lane_float d, float low, float high,
                                   lane_float* enter, lane_float* leave) {
     const lane_float inverse = finite_inverse(d);
@@ -59,7 +59,7 @@ static inline void between_planes(lane_float o, lane_float d, float low, float h
     *leave = fmax(a, b);
 }
 
-/// A coordinate of a ray where it comes into the box, or begins: exactly the side that it crosses.
+/// A coordinate of a ray where it enters the box, or begins: exactly the side that it crosses.
 static inline lane_float coordinate_in_box(lane_float o, lane_float d, lane_float t, lane_int side,
                                            float low, float high, float fixed_point) {
     const lane_float plane = LANES_SELECT(LANE_MASK(d >= 0.0f), (lane_float)low, (lane_float)high);
@@ -67,7 +67,7 @@ static inline lane_float coordinate_in_box(lane_float o, lane_float d, lane_floa
     return snap_position(LANES_SELECT(side, plane, at), (lane_float)0.0f, fixed_point);
 }
 
-/// The way of the ray o + d t of the world, from t_first on, through an instance's box.
+/// The passage of the world's ray o + d t, from t_first on, through an instance's box.
 /// `inverse_squared` is 1 / (d d).
 static inline BoxPassage pass_box(global const InstanceRecord* r, Vector o, Vector d,
                                   lane_float inverse_squared, lane_float t_first) {
@@ -95,10 +95,10 @@ static inline BoxPassage pass_box(global const InstanceRecord* r, Vector o, Vect
     return b;
 }
 
-/// The ray in the instance's space, from where it comes into the box or begins.
+/// The ray in the instance's space, from where it enters the box or begins inside it.
 ///
-/// Where the map is `aligned` the ray's numbers are the world's except for their axes and signs.
-/// Its origin may then lie outside of the box, and the walk brings it in.
+/// Where the map is `aligned`, the ray's numbers are the world's except for their axes and signs.
+/// Its origin may then lie outside the box, and the walk moves it in.
 static inline TransformedRay transform_ray(global const InstanceRecord* r, const BoxPassage* b) {
     TransformedRay c;
     c.base = b->base;
@@ -124,18 +124,18 @@ static inline TransformedRay transform_ray(global const InstanceRecord* r, const
     return c;
 }
 
-/// The world's t of a transformed ray's.
+/// Converts a transformed ray's t to the world's t.
 static inline lane_float world_t(const TransformedRay* c, lane_float t) {
     return c->base + fma(t, c->scale, c->from);
 }
 
-/// The transformed ray's t of the world's.
+/// Converts the world's t to the transformed ray's t.
 static inline lane_float transformed_t(const TransformedRay* c, lane_float t) {
     return exact_divide((t - c->base) - c->from, c->scale);
 }
 
-/// The scene's packed attributes of hits on instances, whose own packed attributes hold numbers of
-/// groups. Other lanes keep theirs.
+/// The packed attributes, as the scene numbers them, of hits on instances, whose own packed
+/// attributes hold numbers of groups. Other lanes keep theirs.
 static inline lane_uint instance_attributes(const InstanceView* v, lane_uint instance,
                                             lane_uint packed, lane_int of_instance) {
     const lane_uint record =

@@ -9,14 +9,14 @@
 // 1 if voxels may be exact and cubes at once.
 #define VXL_SHARED_CUBES (VXL_CUBES && (VXL_EXACT || VXL_FIELD_LISTS))
 
-/// A mask for each kind. Smooth voxels hold fields: one, or as many as their list says.
+/// A mask for each kind. Smooth voxels hold fields: one field, or as many as their list says.
 typedef struct {
     lane_int cubes, smooth, exact;
     lane_int lists;   // voxels whose record is the list of their fields
-    lane_int behind;  // exact voxels that are cubes besides; they aren't among `cubes`
+    lane_int behind;  // exact voxels that are also cubes; they aren't among `cubes`
 } VoxelKinds;
 
-/// Packed attributes of voxels as those of their cubes, where they have any.
+/// The packed attributes of voxels as their cubes have them, for voxels with a cube.
 static inline lane_uint attributes_of_cubes(lane_uint packed) {
     if (!VXL_SHARED_CUBES) return packed;
     const uint kind = VXL_KIND_EXACT_IN_CUBE << VXL_KIND_SHIFT;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A discrete walk along a ray from cell to cell: floats propose, integers arbitrate.
 //
-// The cells visited are exactly those of the snapped ray, in order: 6-connected, a point on a plane
-// belonging to the cell being entered, crossings at one t taken lowest axis first. Crossing times
-// are computed from the integer cell each time, never accumulated. A time (K - o) / d is right
-// within 2 units, so a computed position is right within plane_bound voxels; only when it lies
-// closer than that to a plane that it may or may not have crossed does an exact 64-bit comparison
-// decide.
+// The cells visited are exactly those of the snapped ray, in order. The sequence is 6-connected, a
+// point on a plane belongs to the cell being entered, and crossings at one t are taken lowest axis
+// first. Crossing times are computed from the integer cell each time, never accumulated. A time (K
+// - o) / d is right within 2 units, so a computed position is right within plane_bound voxels; only
+// when it lies closer than that to a plane that it may or may not have crossed does an exact 64-bit
+// comparison decide.
 #ifndef VXL_WALK_H
 #define VXL_WALK_H
 
@@ -14,7 +14,7 @@
 #include "lib/traverse/pyramid.h"
 #include "shared/trace.h"
 
-// 0 leaves every crossing to floats, to measure what exactness costs.
+// With 0, floats decide every crossing, to measure the cost of exactness.
 #ifndef VXL_ARBITRATE
 #define VXL_ARBITRATE 1
 #endif
@@ -25,12 +25,12 @@ typedef struct {
     lane_int px, py, pz;                // mask: d >= 0
     lane_int mx, my, mz;                // mask: d != 0
     lane_int x, y, z;                   // the cell
-    lane_float t;                       // where the walk entered it
+    lane_float t;                       // the t at which the walk entered the cell
     lane_int axis;                      // across a plane of this axis; 3: the walk began here
     LastSector last;
 } Walk;
 
-/// The coordinate of the cell being entered at the ray's origin.
+/// The coordinate of the cell that a ray enters at its origin.
 static inline lane_int first_cell(lane_float o, lane_float d) {
     const lane_int cell = LANES_INT(o);
     return cell + (LANE_MASK(LANES_FLOAT(cell) == o) & LANE_MASK(d < 0.0f));
@@ -67,7 +67,7 @@ static inline lane_int in_grid(const PyramidView* p, const Walk* w) {
            LANE_MASK(w->y < p->size_y) & LANE_MASK(w->z < p->size_z);
 }
 
-/// Mask: the ray's point at `t` is in the world, or beyond it by no more than rounding puts it.
+/// Mask: the ray's point at `t` is in the world, or outside it by no more than rounding.
 static inline lane_int is_in_world(const PyramidView* p, const Walk* w, lane_float t) {
     const lane_float x = fma(w->dx, t, w->ox), y = fma(w->dy, t, w->oy), z = fma(w->dz, t, w->oz);
     const float bound = p->plane_bound;
@@ -75,7 +75,7 @@ static inline lane_int is_in_world(const PyramidView* p, const Walk* w, lane_flo
            LANE_MASK(y <= (float)p->size_y + bound) & LANE_MASK(z <= (float)p->size_z + bound);
 }
 
-/// Distance from the origin to a plane along one axis, in fixed point, positive ahead.
+/// The distance from the origin to a plane along one axis, in fixed point, positive ahead.
 static inline lane_long plane_distance(lane_int plane, lane_float o, lane_int positive,
                                        float fixed_point) {
     const lane_long distance = LANES_LONG((LANES_FLOAT(plane) - o) * fixed_point);
@@ -98,7 +98,7 @@ static inline AxisCrossing axis_crossing(lane_int exit_plane, lane_int nearest_p
     return a;
 }
 
-/// The cell coordinate on the near or far side of `plane`, for an axis that has crossed it or not.
+/// The cell coordinate behind `plane` if the axis has crossed it, or before it if not.
 static inline lane_int cell_beside(lane_int plane, lane_int crossed, lane_int positive) {
     return plane + (crossed ^ positive);
 }
@@ -109,11 +109,11 @@ typedef struct {
     lane_int kx, ky, kz;    // planes through which the block is left
     lane_int rx, ry, rz;    // planes nearest to the computed exit position
     lane_float tx, ty, tz;  // times of kx, ky, kz
-    lane_int ex, ey;        // mask: left across x; across y; neither: across z
+    lane_int ex, ey;        // masks: left across x; across y; if neither, across z
     lane_int x, y, z;       // the cell entered
 } Crossing;
 
-/// The cell entered across the planes of the axes that `c` names, in exact arithmetic.
+/// Sets the cell entered across the planes of the axes that `c` names, in exact arithmetic.
 static inline void settle_cell(const Walk* w, const AxisCrossing* x, const AxisCrossing* y,
                                const AxisCrossing* z, Crossing* c) {
     const lane_int ez = ~(c->ex | c->ey);
@@ -121,8 +121,8 @@ static inline void settle_cell(const Walk* w, const AxisCrossing* x, const AxisC
     const lane_long exit = (x->exit & ex) | (y->exit & ey) | (z->exit & ez_long);
     const lane_long direction =
         (x->direction & ex) | (y->direction & ey) | (z->direction & ez_long);
-    // A plane met at the same time as the exit is crossed if its axis comes before the exit's, or
-    // is that axis.
+    // A plane met at the same time as the exit is crossed if its axis comes before the exit's axis,
+    // or is that axis.
     const lane_long ax = x->nearest * direction, bx = exit * x->direction;
     const lane_long ay = y->nearest * direction, by = exit * y->direction;
     const lane_long az = z->nearest * direction, bz = exit * z->direction;
@@ -139,14 +139,14 @@ static inline void arbitrate(const PyramidView* p, const Walk* w, Crossing* c) {
     const AxisCrossing x = axis_crossing(c->kx, c->rx, w->ox, w->dx, w->px, p->fixed_point);
     const AxisCrossing y = axis_crossing(c->ky, c->ry, w->oy, w->dy, w->py, p->fixed_point);
     const AxisCrossing z = axis_crossing(c->kz, c->rz, w->oz, w->dz, w->pz, p->fixed_point);
-    // t_a <= t_b  <=>  A_a D_b <= A_b D_a; an axis with D = 0 is never left across.
+    // t_a <= t_b <=> A_a D_b <= A_b D_a; no block is left across an axis with D = 0.
     c->ex = LANE_LONG_MASK(x.exit * y.direction <= y.exit * x.direction) &
             LANE_LONG_MASK(x.exit * z.direction <= z.exit * x.direction);
     c->ey = LANE_LONG_MASK(y.exit * z.direction <= z.exit * y.direction) & ~c->ex;
     settle_cell(w, &x, &y, &z, c);
 }
 
-/// The first coordinate beyond plane `k` in the ray's direction.
+/// The coordinate of the first cell beyond plane `k` in the ray's direction.
 static inline lane_int beyond(lane_int k, lane_int positive) {
     return k + ~positive;
 }
@@ -155,12 +155,13 @@ static inline lane_int near_plane(lane_int plane, lane_float position, float bou
     return LANE_MASK(fabs(LANES_FLOAT(plane) - position) <= bound);
 }
 
-/// The coordinate of `cell`, but of `from` if the cell lies behind that in the ray's direction.
+/// The coordinate of `cell`, or of `from` if the cell lies behind it in the ray's direction.
 static inline lane_int not_back(lane_int cell, lane_int from, lane_int positive) {
     return LANES_SELECT(LANE_MASK(((cell - from) ^ ~positive) < 0), from, cell);
 }
 
-/// Moves the `moving` lanes across the first of the planes kx, ky, kz, one ahead on each axis.
+/// Moves the `moving` lanes across the first of the planes kx, ky, kz, which lie ahead, one on each
+/// axis.
 static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_int ky, lane_int kz,
                                lane_int moving) {
     Crossing c;
@@ -195,7 +196,7 @@ static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_
         c.ey = LANES_SELECT(doubtful, exact.ey, c.ey);
         t = LANES_SELECT(c.ex, c.tx, LANES_SELECT(c.ey, c.ty, c.tz));
     }
-    if (!VXL_ARBITRATE) {  // floats alone go back and forth for ever where planes meet
+    if (!VXL_ARBITRATE) {  // with floats alone, walks would oscillate forever where planes meet
         c.x = not_back(c.x, w->x, w->px);
         c.y = not_back(c.y, w->y, w->py);
         c.z = not_back(c.z, w->z, w->pz);
@@ -223,13 +224,14 @@ static inline lane_float exit_time(const Walk* w) {
     return fmin(tx, fmin(ty, tz));
 }
 
-/// Mask: a coordinate of a ray's origin lies on the side of the world across which it comes in.
+/// Mask: coordinates of rays' origins that lie on the side of the world through which the rays
+/// enter.
 static inline lane_int on_entry_side(lane_float o, lane_float d, int size) {
     return (LANE_MASK(o == 0.0f) & LANE_MASK(d > 0.0f)) |
            (LANE_MASK(o == (float)size) & LANE_MASK(d < 0.0f));
 }
 
-/// Makes `entering` walks that begin on a side of the world have come in across it.
+/// Marks `entering` walks that begin on a side of the world as having entered through it.
 static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering) {
     const lane_int x = on_entry_side(w->ox, w->dx, p->size_x) & entering;
     const lane_int y = on_entry_side(w->oy, w->dy, p->size_y) & entering;

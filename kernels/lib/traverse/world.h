@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world as kernels take it: the pyramid of its voxels, the surfaces in these, and the instances
-// behind it.
+// The world as kernels take it: the pyramid of its voxels, the surfaces in these voxels, and the
+// instances behind the pyramid.
 #ifndef VXL_WORLD_H
 #define VXL_WORLD_H
 
@@ -39,7 +39,7 @@ typedef struct {
     global const uint* restrict triangle_textures;
     global const uint* restrict textures;
     global const SolidShape* restrict solids;
-    global const uint* restrict order;  // Pyramid::order; null where nothing can coincide
+    global const uint* restrict order;  // Pyramid::order; null where no surfaces can coincide
 } SurfaceView;
 
 /// The instances of models whose pyramids lie behind the world's.
@@ -47,7 +47,7 @@ typedef struct {
     global const InstanceRecord* restrict records;
     global const InstanceNode* restrict nodes;
     global const uint* restrict group_materials;
-    // By objects' numbers: 0 for those whose instances are left out. Null: none is.
+    // By objects' numbers: 0 for objects whose instances are left out. Null: all are shown.
     global const uint* restrict shown;
 } InstanceView;
 

@@ -13,7 +13,7 @@
         global const uint *restrict grid_primitive_first,                                          \
         global const uint *restrict grid_primitives
 
-/// runtime/grid/grid.hpp has the meaning of each buffer; those that a grid doesn't need are null.
+/// The buffers are described in runtime/grid/grid.hpp; those that a grid doesn't need are null.
 typedef struct {
     int4 size, bricks;  // voxels, and bricks of the table
     global const uint* restrict slots;

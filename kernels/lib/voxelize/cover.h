@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact set of voxels of a brick's row that a triangle covers.
+// The exact set of voxels in a brick's row that a triangle covers.
 #ifndef VXL_COVER_H
 #define VXL_COVER_H
 
 #include "lib/voxelize/lattice.h"
 
-// Lattice units by which a voxel's closed cube reaches beyond its sides for SUPERCOVER. The
-// lattice's corners are up to half a unit from those that rays meet, on every axis: voxels that
-// list triangles for rays must list one that only comes that close.
+// How far a voxel's closed cube extends beyond its sides for SUPERCOVER, in lattice units. On every
+// axis, the lattice's corners are up to half a unit from those that rays meet, so voxels that list
+// triangles for rays must also list triangles that come only that close.
 #ifndef VXL_MARGIN
 #define VXL_MARGIN 0
 #endif
 
-// 1 for a mesh of points and lines alone. A closed voxel has a point on a side in common with the
-// next, and up to eight would be taken; so only the next one has what lies on its lower sides.
+// This is 1 for a mesh of points and lines alone. A closed voxel shares a point on its side with
+// the next voxel, so up to eight voxels would be taken; instead, only the next one counts what lies
+// on its lower sides.
 #ifndef VXL_POINTS
 #define VXL_POINTS 0
 #endif
 #define LOWEST_REACH (1 - VXL_POINTS + VXL_MARGIN)
 
-/// The place of brick `index` of a grid of `bricks`.
+/// The position of brick `index` in a grid of `bricks`.
 static inline int3 brick_of(uint index, int4 bricks) {
     const uint row = index / (uint)bricks.x;
     return (int3)((int)(index % (uint)bricks.x), (int)(row % (uint)bricks.y),
@@ -31,8 +32,8 @@ typedef struct {
     int3 first, last;
 } CoverBox;
 
-/// The voxels up to `last` whose closed cubes the triangle's bounding box meets; of points and
-/// lines, the half-open ones.
+/// The voxels up to `last` whose closed cubes the triangle's bounding box meets; for points and
+/// lines, the cubes are half-open.
 static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     CoverBox box;
     box.first = max((lowest_corner(t) - LOWEST_REACH) >> LATTICE_BITS, (int3)(0));
@@ -55,14 +56,15 @@ static inline uint bits_between(int first, int last) {
 /// A triangle prepared for tests of rows of voxels along x.
 typedef struct {
     CoverBox box;
-    // SUPERCOVER: the tests that are needed. In one layer of voxels the triangle meets those that
-    // its silhouette seen across the layer meets, and in one line of voxels, being connected, all.
+    // SUPERCOVER: the tests that are needed. In a single layer of voxels, the triangle meets
+    // exactly those that its silhouette seen across the layer meets; in a single line of voxels it
+    // meets all, because it is connected.
     bool sees_xy, sees_yz, sees_zx, meets_plane;
     long3 n;
     long low, high;  // SUPERCOVER: bounds on n·(v - box.first) for the plane to meet voxel v
     Silhouette xy, yz, zx;  // seen along z, x, y
     Crossing x, y, z;       // THIN: of the plane with lines along each axis
-    ushort xy_rows[16];     // SUPERCOVER: the silhouette seen along z, bit x of row y
+    ushort xy_rows[16];     // SUPERCOVER: the silhouette seen along z; bit x of row y
 } Cover;
 
 static inline void prepare_plane(Cover* c, const LatticeTriangle* t) {
@@ -122,7 +124,7 @@ static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const Cover
         prepare_supercover(c, t);
 }
 
-/// The voxels of row (y, z) whose closed cubes the closed triangle meets, bit x each.
+/// The voxels of row (y, z) whose closed cubes the closed triangle meets, as bits x.
 static inline uint supercover_row(const Cover* c, int y, int z) {
     const uint seen = c->sees_xy ? c->xy_rows[y] : bits_between(c->box.first.x, c->box.last.x);
     if (!seen || (c->sees_yz && !cell_in_silhouette(&c->yz, y, z))) return 0u;
@@ -140,8 +142,8 @@ static inline uint supercover_row(const Cover* c, int y, int z) {
     return row & seen;
 }
 
-/// The voxels of row (y, z) whose crosshairs (the three segments through the centre, half-open)
-/// the triangle meets, bit x each. A centre line on an edge is moved by (e, e², e³).
+/// The voxels of row (y, z) whose crosshairs (the three half-open segments through the centre) the
+/// triangle meets, as bits x. A centre line on an edge is moved by (e, e², e³).
 static inline uint thin_row(const Cover* c, int y, int z) {
     uint row = 0;
     if (c->n.x != 0 && point_in_silhouette(&c->yz, y, z)) {

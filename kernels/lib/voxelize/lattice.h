@@ -3,8 +3,8 @@
 //
 // Coordinates are lattice units from a brick's minimum corner, |v| <= 2^27. Edge functions then fit
 // 62 bits. Plane terms need 84 bits: they are formed once per triangle and brick in 128 bits, and
-// their quotient by the lattice spacing of what is compared fits 64 bits again (or is saturated,
-// which no comparison inside the brick can notice).
+// their quotient by the lattice spacing of the compared values fits 64 bits again (or is saturated,
+// which changes no comparison inside the brick).
 #ifndef VXL_LATTICE_H
 #define VXL_LATTICE_H
 
@@ -91,7 +91,7 @@ static inline long wide_ceil(Wide s, int bits) {
     return wide_floor(wide_sum(s, 0, (1UL << bits) - 1UL), bits);
 }
 
-/// The number of 24 bits of precision nearest to s; the last bit may be off by one.
+/// The float nearest to s, with 24 bits of precision; the last bit may be off by one.
 static inline float wide_to_float(Wide s) {
     const long low = (long)s.low;
     if ((low < 0 ? -1L : 0L) == s.high) return (float)low;
@@ -105,12 +105,13 @@ static inline long floor_quotient(long a, long b) {
 }
 
 /// The three edges of a triangle seen along an axis, as bounds low <= u U + w W <= high on a cell
-/// or point (U, W) in voxels. Components are edges: a loop over them took a fifth more time.
+/// or point (U, W) in voxels. Vector components are edges, because a loop over edges took a fifth
+/// more time.
 typedef struct {
     long3 u, w, low, high;
 } Silhouette;
 
-/// A triangle's corners seen along an axis. Components are corners.
+/// A triangle's corners seen along an axis. Vector components are corners.
 typedef struct {
     int3 u, w;
 } Outline;
@@ -130,14 +131,15 @@ static inline void silhouette_edges(Silhouette* s, const Outline* p) {
 ///
 /// `margin` widens the cells on all sides, in lattice units.
 ///
-/// Each edge is tested from both sides (a separating axis), so triangles without area are exact
-/// too. With the axes of the cell itself, which are those of the bounding box, the test is exact.
+/// Each edge is tested from both sides (as a separating axis), so triangles without area are exact,
+/// too. Together with the axes of the cell itself, which are those of the bounding box, the test is
+/// exact.
 static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area, int margin) {
     const Outline p = outline_of(a, b, c);
     Silhouette s;
     silhouette_edges(&s, &p);
     const long3 at = s.u * convert_long3(p.u) + s.w * convert_long3(p.w);
-    // oclgrind mistakes max(v, 0L) of a vector for that of a scalar.
+    // oclgrind mistakes a vector's max(v, 0L) for the scalar function.
     const long3 positive = max(s.u, (long3)(0)) + max(s.w, (long3)(0));
     const long3 negative = min(s.u, (long3)(0)) + min(s.w, (long3)(0));
     const long3 widened = margin * (positive - negative);
@@ -146,11 +148,11 @@ static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area, 
     return s;
 }
 
-/// The points (U,W) + offset/4096 inside the triangle, which has area.
+/// The points (U,W) + offset/4096 inside the triangle, whose area must not be 0.
 ///
-/// A point on an edge is decided as if it were moved by (e, e²) for an infinitesimal e, by more
-/// along u if `u_first`, else along w. So each point of a closed outline is in exactly one of two
-/// neighbours.
+/// A point on an edge is decided as if it were moved by (e, e²) for an infinitesimal e, with the
+/// larger part along u if `u_first`, otherwise along w. So each point on a shared edge of a closed
+/// outline is in exactly one of the two neighbours.
 static inline Silhouette silhouette_of_points(int2 a, int2 b, int2 c, long area, int offset,
                                               bool u_first) {
     const Outline p = outline_of(a, b, c);
@@ -176,7 +178,7 @@ static inline bool point_in_silhouette(const Silhouette* s, int u, int w) {
     return all(s->u * u + s->w * w >= s->low);
 }
 
-/// Bit u for each cell first <= u <= last of row w in the silhouette.
+/// The cells of row w, from `first` to `last`, that are in the silhouette, as bits u.
 static inline uint silhouette_row(const Silhouette* s, int w, int first, int last) {
     uint row = 0;
     for (int u = first; u <= last; ++u) row |= (uint)cell_in_silhouette(s, u, w) << u;

@@ -8,7 +8,7 @@
     uint first_triangle, uint triangle_count, global const int *restrict vertices, \
         global const uint *restrict triangles
 
-/// Triangles number first .. first + count - 1; runtime/stages/voxelize/voxelize_bins.hpp.
+/// The triangles number first .. first + count - 1; see runtime/stages/voxelize/voxelize_bins.hpp.
 typedef struct {
     uint first, count;
     global const int* restrict vertices;
@@ -25,7 +25,7 @@ typedef struct {
         global const uint *restrict number_of_bin, global const uint *restrict coordinates,      \
         global const uint *restrict bin_first, global const uint *restrict bin_lists
 
-/// runtime/stages/voxelize/voxelize_bins.hpp has the meaning of each.
+/// The buffers are described in runtime/stages/voxelize/voxelize_bins.hpp.
 typedef struct {
     int4 size;
     uint count, stored;

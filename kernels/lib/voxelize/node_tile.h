@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A brick's nodes as tiles of VXL_LANES neighbours in x and y, one tile to a vector.
+// A brick's nodes as tiles of VXL_LANES neighbours in x and y; one tile fills a vector.
 //
-// Compact tiles waste fewer lanes on nodes that a small triangle does not concern than rows of 16.
+// Compact tiles waste fewer lanes than rows of 16 on nodes that a small triangle does not concern.
 #ifndef VXL_NODE_TILE_H
 #define VXL_NODE_TILE_H
 
@@ -21,7 +21,8 @@
 #define TILES_X (16 / TILE_X)
 #define TILES_Y (16 / TILE_Y)
 
-/// Writes a tile's values to 16-bit nodes of a slice, x fastest, 16 a row; `first` is its corner.
+/// Writes a tile's values to 16-bit nodes of a slice, x fastest, 16 per row; `first` is the tile's
+/// corner.
 static inline void store_tile(lane_int values, global short* first) {
 #if VXL_LANES == 1
     first[0] = (short)values;
@@ -57,7 +58,8 @@ static inline void store_tile_words(lane_uint values, global uint* first) {
 #endif
 }
 
-/// The mask of a tile's nodes whose bits are set; bit x of rows[y], the tile's corner at (x, 0).
+/// The mask of a tile's nodes whose bits are set. Bit x of rows[y] is node (x, y); the tile's
+/// corner is at (x, 0).
 static inline lane_int tile_mask(const ushort* rows, int x) {
     uint bits = 0;
     for (int y = 0; y < TILE_Y; ++y)

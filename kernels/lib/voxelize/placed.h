@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An object's brick grid seen from the world's voxels, through a map in fixed point.
+// An object's brick grid as the world's voxels see it, through a map in fixed point.
 #ifndef VXL_PLACED_H
 #define VXL_PLACED_H
 
@@ -8,7 +8,7 @@
 // The map from world voxels to object voxels: row a holds the three coefficients of object axis a,
 // then its offset, all times 2^fraction_bits. Coefficients are even, so that half steps are exact.
 // Row 3 is the reach: how far along each object axis a world voxel looks around its centre. The
-// host makes sure that sums over the world's voxels stay below 2^62.
+// host ensures that sums over the world's voxels stay below 2^62.
 typedef struct {
     constant long* rows;
     int fraction_bits;
@@ -17,8 +17,8 @@ typedef struct {
     global const ulong* near;  // per slot: leaves with voxels, or with distances in the band
     global const ulong* occupancy;
     global const short* distance;
-    float distance_scale;  // turns the object's distance units into the world's
-    uint4 attribute_map;   // placed_attributes.h
+    float distance_scale;  // converts the object's distance units to the world's
+    uint4 attribute_map;   // see placed_attributes.h
     global const uint* materials;
     global const uint* attributes;
     global const uint* colors;
@@ -47,7 +47,7 @@ typedef struct {
     long x, y, z;
 } FixedPoint;
 
-// Object coordinates of the world point half_steps / 2.
+// The object coordinates of the world point half_steps / 2.
 static inline FixedPoint map_half_steps(const PlacedObject* object, int4 half_steps) {
     constant long* r = object->rows;
     FixedPoint p;
@@ -58,7 +58,7 @@ static inline FixedPoint map_half_steps(const PlacedObject* object, int4 half_st
     return p;
 }
 
-// The cell that holds a coordinate, clamped far outside of every grid.
+// The cell that holds a coordinate, clamped to far outside every grid.
 static inline int cell_of(long coordinate, int fraction_bits) {
     return (int)clamp(coordinate >> fraction_bits, (long)-0x20000000, (long)0x20000000);
 }
@@ -94,10 +94,11 @@ static inline CellBox map_box(const PlacedObject* object, int4 low, int edge, bo
 
 // What an object has in a box of the world.
 #define VXL_NOTHING 0u  // it is outside
-#define VXL_FULL 1u     // its inside, without surface
-#define VXL_SURFACE 2u  // perhaps its surface
+#define VXL_FULL 1u     // its inside, without a surface
+#define VXL_SURFACE 2u  // possibly its surface
 
-// What the object has in a box, as far as its brick table alone tells: one of the three above.
+// What the object has in a box, as far as its brick table alone tells: one of the three values
+// above.
 static inline uint state_of_bricks(const PlacedObject* object, CellBox box) {
     const int4 first = max(box.first >> 4, (int4)(-1)), last = min(box.last >> 4, object->bricks);
     bool inside = false, outside = false;
@@ -123,7 +124,7 @@ static inline bool touches_near_leaf(const PlacedObject* object, global const ul
                 const uint slot =
                     brick_slot(object->slots, object->bricks, (int4)(x >> 2, y >> 2, z >> 2, 0));
                 if (!brick_is_stored(slot)) {
-                    x |= 3;  // on to the next brick
+                    x |= 3;  // continue in the next brick
                     continue;
                 }
                 if (near[slot] >> ((x & 3) | (y & 3) << 2 | (z & 3) << 4) & 1) return true;
@@ -131,7 +132,7 @@ static inline bool touches_near_leaf(const PlacedObject* object, global const ul
     return false;
 }
 
-// True if a place without surface is inside, by the sign of its nearest node.
+// True if a position away from the surface is inside, by the sign of its nearest node.
 static inline bool is_inside_field(const PlacedObject* object, global const short* distance,
                                    int4 node) {
     const uint slot = brick_slot(object->slots, object->bricks, node >> 4);
@@ -140,7 +141,7 @@ static inline bool is_inside_field(const PlacedObject* object, global const shor
                     ((node.z & 15) << 8)] < 0;
 }
 
-// True if voxel `v` of the object is set. `place` becomes its index in the bricks' values, or -1
+// True if voxel `v` of the object is set. Sets `place` to its index in the bricks' values, or to -1
 // for a voxel of a brick that isn't stored.
 static inline bool is_occupied(const PlacedObject* object, global const ulong* occupancy, int4 v,
                                long* place) {
@@ -166,7 +167,7 @@ static inline bool touches_full_brick(const PlacedObject* object, CellBox box) {
     return false;
 }
 
-// Cells within the reach of p.
+// The cells within the reach of p.
 static inline CellBox cells_around(const PlacedObject* object, FixedPoint p) {
     constant long* reach = object->rows + 12;
     const FixedPoint first = {p.x - reach[0], p.y - reach[1], p.z - reach[2]};
@@ -176,8 +177,8 @@ static inline CellBox cells_around(const PlacedObject* object, FixedPoint p) {
     return box;
 }
 
-// Finds the first occupied voxel in the box, x fastest, and its place as is_occupied tells it.
-// Empty bricks and leaves are skipped.
+// Finds the first occupied voxel in the box, x fastest, and its index as in is_occupied. Skips
+// empty bricks and leaves.
 static inline bool find_in_box(const PlacedObject* object, global const ulong* occupancy,
                                global const ulong* near, CellBox box, long* place) {
     const int4 first = max(box.first, (int4)(0)), last = min(box.last, object->bricks * 16 - 1);

@@ -5,8 +5,8 @@
 
 #include "lib/voxelize/placed_field.h"
 
-// An object's packed attributes in the world: its kind bits and object number, its own packed
-// attributes if all its voxels have the same, the length of its list of materials, and 0.
+// Describes an object's packed attributes in the world: its kind bits and object number, its own
+// packed attributes if all its voxels have the same, the length of its list of materials, and 0.
 typedef uint4 AttributeMap;
 
 static inline uint attributes_in_world(AttributeMap map, global const uint* materials, uint own) {
@@ -14,7 +14,8 @@ static inline uint attributes_in_world(AttributeMap map, global const uint* mate
     return map.x | materials[min(group, map.z - 1)] << VXL_MATERIAL_SHIFT;
 }
 
-// `from` is the voxel's index in the object's buffers, negative for one that has none.
+// The packed attributes of a voxel in the world. `from` is its index in the object's buffers,
+// negative if it has none.
 static inline uint attributes_of(AttributeMap map, global const uint* materials,
                                  global const uint* attributes, long from) {
     const uint own = VXL_OBJECT_ATTRIBUTES && from >= 0 ? attributes[from] : map.y;
@@ -32,7 +33,8 @@ static inline long index_of_voxel(const PlacedObject* object, int4 v) {
     return (long)slot * VXL_BRICK_VOXELS + ((v.x & 15) | (v.y & 15) << 4 | (v.z & 15) << 8);
 }
 
-// Leaves are painted brick by brick: `painted` lists slots.
+// The world's leaf for a work-item: leaves are painted brick by brick, and `painted` lists the
+// bricks' slots.
 static inline uint painted_leaf(uint item, global const uint* painted) {
     return painted[item >> 6] << 6 | (item & 63u);
 }
@@ -55,9 +57,9 @@ static inline int cells_back(long numerator, long denominator) {
     return (int)(low / (2 * denominator));
 }
 
-// The cell of the surface point that one Newton step from the middle of p's cell finds, in whole
-// numbers so that every device finds the same. `node` is that cell's first corner in a gathered
-// block. Only in such cells do voxelizers promise an attribute.
+// The cell of the surface point that one Newton step from the middle of p's cell finds. It is
+// computed in integers, so every device finds the same cell. `node` is the first corner of p's cell
+// in a gathered block. Voxelizers guarantee attributes only in such cells.
 static inline int4 cell_on_surface(const short* node, int4 cell) {
     long x = 0, y = 0, z = 0;  // four times the mean differences
     long sum = 0;              // eight times the mean distance

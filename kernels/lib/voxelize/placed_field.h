@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A distance field read between its nodes, from a block of nodes gathered for a few neighbours.
+// A distance field interpolated between its nodes, from a block of nodes gathered for a few
+// neighbours.
 #ifndef VXL_PLACED_FIELD_H
 #define VXL_PLACED_FIELD_H
 
@@ -44,7 +45,7 @@ static inline void gather_block(const PlacedObject* object, global const short* 
         }
 }
 
-// Twice D of four edges from their nodes -1, 0, 1, 2; 0 where a node is saturated.
+// Twice D of four edges, from their nodes -1, 0, 1, 2; 0 where a node is saturated.
 static inline float4 twice_curvatures(int4 before, int4 first, int4 second, int4 after) {
     const int4 high = LARGER(LARGER(before, first), LARGER(second, after));
     const int4 low = SMALLER(SMALLER(before, first), SMALLER(second, after));
@@ -58,8 +59,9 @@ static inline float between(float4 corners, float x, float y) {
     return fma(y, row.y - row.x, row.x);
 }
 
-// First-order expansion from the unsaturated corner with the largest weight, for a cell at the end
-// of the band. A point on a saturated corner, or in a cell without others, is saturated.
+// A first-order expansion from the unsaturated corner with the largest weight, for a cell at the
+// end of the band. A point on a saturated corner, or in a cell without unsaturated corners, is
+// saturated.
 static inline float extrapolate(const short* node, float4 s) {
     const int4 step = (int4)(1, VXL_BLOCK_ROW, VXL_BLOCK_LAYER, 0);
     float best_weight = 0.0f, best = node[0] < 0 ? -VXL_SATURATED : VXL_SATURATED;
@@ -103,7 +105,7 @@ static inline float interpolate(const short* node, float4 s) {
     if (highest >= VXL_SATURATED || lowest <= -VXL_SATURATED) return extrapolate(node, s);
     const float4 twice_x = twice_curvatures((int4)(a00.x, a10.x, a01.x, a11.x), x0, x1,
                                             (int4)(a00.w, a10.w, a01.w, a11.w));
-    // Edges along y at (x,z), then along z at (x,y), both in the order 00, 10, 01, 11.
+    // The edges along y are at (x,z), those along z at (x,y), both in the order 00, 10, 01, 11.
     const int4 y0 = convert_int4((short4)(a00.yz, a01.yz)),
                y1 = convert_int4((short4)(a10.yz, a11.yz));
     const float4 twice_y = twice_curvatures(
@@ -129,7 +131,7 @@ static inline float interpolate(const short* node, float4 s) {
         fma(bend.y, between(twice_y, s.x, s.z), fma(bend.z, between(twice_z, s.x, s.y), linear)));
 }
 
-// The position of a fixed-point coordinate in its cell, 0 <= s < 1, cut to 24 bits.
+// The position of a fixed-point coordinate in its cell, 0 <= s < 1, truncated to 24 bits.
 static inline float fraction_of(long coordinate, int fraction_bits) {
     const uint bits = (uint)(coordinate >> (fraction_bits - 24)) & 0xFFFFFFu;
     return convert_float(bits) * 0x1p-24f;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The squared distance from points near a brick to a triangle, as accurate as floats can be.
+// The squared distance from points near a brick to a triangle, as accurate as floats allow.
 //
-// In the frame of the triangle everything is affine in the point: h above its plane, s_i outside of
-// each edge line, e_i along each edge. The constants are taken at the foot that is nearest to the
-// brick's centre, found in 64-bit fixed point, so a triangle of thousands of voxels loses no digit.
+// In the frame of the triangle everything is affine in the point: h above its plane, s_i outside
+// each edge line, e_i along each edge. The constants are evaluated at the foot point that is
+// nearest to the brick's centre, found in 64-bit fixed point, so a triangle of thousands of voxels
+// loses no digit.
 //
-// Vectors are chosen by `if`: a choice of one by a scalar condition isn't valid in SPIR-V
+// Vectors are chosen by `if`, because choosing one by a scalar condition isn't valid in SPIR-V
 // before 1.4.
 #ifndef VXL_POINT_TRIANGLE_H
 #define VXL_POINT_TRIANGLE_H
@@ -36,7 +37,8 @@ static inline float3 cross_product(float3 a, float3 b) {
                     fma(a.x, b.y, -(a.y * b.x)));
 }
 
-/// f(p) = at + gradient · p, p in voxels from the brick's centre, f in the shortest voxel edges.
+/// The function f(p) = at + gradient · p, with p in voxels from the brick's centre and f in the
+/// shortest voxel edge.
 typedef struct {
     float3 gradient;
     float at;
@@ -44,16 +46,16 @@ typedef struct {
 
 typedef struct {
     Affine outside;  ///< signed distance from the edge's line in the triangle's plane
-    Affine along;    ///< from the edge's end that is nearest to the brick, towards the other
+    Affine along;    ///< from the edge's end nearest to the brick, towards the other
     float length;
 } TriangleEdge;
 
 typedef struct {
     Affine height;         ///< above the plane
-    TriangleEdge edge[3];  ///< the longest first
+    TriangleEdge edge[3];  ///< the longest edge first
 } TriangleFrame;
 
-/// A vector perpendicular to the unit vector e, of length 1.
+/// A unit vector perpendicular to the unit vector e.
 static inline float3 any_perpendicular(float3 e) {
     const float3 a = fabs(e);
     const bool is_x = a.x <= a.y && a.x <= a.z, is_y = !is_x && a.y <= a.z;
@@ -64,8 +66,8 @@ static inline float3 any_perpendicular(float3 e) {
 }
 
 /// Writes the part of a triangle's frame that is equal for all bricks: unit vectors, in metric
-/// space; `scale` is each voxel edge in the shortest. The plane scale is 0 for a triangle without
-/// area, whose normal is any one perpendicular to its longest edge.
+/// space; `scale` is each voxel edge in units of the shortest. The plane scale is 0 for a triangle
+/// without area, whose normal is any unit vector perpendicular to its longest edge.
 static inline void shape_of_triangle(const LatticeTriangle* t, float3 scale, global float* shape) {
     const float to_voxels = 1.0f / LATTICE_VOXEL, shrink = 1.0f / 1048576.0f;
     float longest = -1.0f;
@@ -89,7 +91,7 @@ static inline void shape_of_triangle(const LatticeTriangle* t, float3 scale, glo
         vstore4((float4)(any_perpendicular(longest_direction), 0.0f), 0, shape);
         return;
     }
-    // Shrunk by a power of two, so that squares of 2^56 stay within floats.
+    // The area vector is shrunk by a power of two, so that squares of 2^56 stay within floats.
     const float3 area = convert_float3(n) * shrink *
                         (float3)(scale.y * scale.z, scale.z * scale.x, scale.x * scale.y);
     const float inverse = scalar_reciprocal(scalar_root(dot_product(area, area)));
@@ -121,7 +123,7 @@ static inline TriangleEdge frame_edge(int3 start, int3 end, float4 edge, float i
     return e;
 }
 
-/// The triangle as seen from a brick; its corners are in lattice units from the brick's centre.
+/// The triangle's frame for a brick; its corners are in lattice units from the brick's centre.
 static inline TriangleFrame frame_triangle(const LatticeTriangle* t, global const float* shape,
                                            float3 scale) {
     const float4 plane = vload4(0, shape);
@@ -139,7 +141,8 @@ static inline TriangleFrame frame_triangle(const LatticeTriangle* t, global cons
         f.height.gradient = plane.xyz * scale;
         f.height.at = -wide_to_float(wide_dot(area_vector(t), t->corner[0])) * plane.w;
     } else {
-        // A segment: two edges back to back enclose no area, so only their own distance counts.
+        // This is a segment: two edges back to back enclose no area, so only their own distance
+        // counts.
         f.height = affine_through(plane.xyz, foot, scale);
         f.edge[1].outside.gradient = -f.edge[1].outside.gradient;
         f.edge[1].outside.at = -f.edge[1].outside.at;
@@ -147,7 +150,7 @@ static inline TriangleFrame frame_triangle(const LatticeTriangle* t, global cons
     return f;
 }
 
-/// A triangle's affine functions at the x and y of a tile's lanes.
+/// A triangle's affine functions at the x and y of a tile's lanes, for z = 0.
 typedef struct {
     lane_float height, outside[3], along[3];
 } TileFrame;
@@ -167,7 +170,7 @@ static inline TileFrame tile_frame(const TriangleFrame* f, lane_float x, lane_fl
     return t;
 }
 
-/// The squared distance of the tile's nodes at height z.
+/// The squared distances of the tile's nodes at height z.
 static inline lane_float squared_distance(const TriangleFrame* f, const TileFrame* t, float z) {
     const lane_float zero = (lane_float)(0.0f), height_z = (lane_float)(z);
     const lane_float height = fma((lane_float)(f->height.gradient.z), height_z, t->height);
@@ -180,8 +183,8 @@ static inline lane_float squared_distance(const TriangleFrame* f, const TileFram
         const lane_float beyond = fmax(-along, along - f->edge[i].length);
         const lane_float past_end = fmax(beyond, zero);
         const lane_float squared = fma(outside, outside, past_end * past_end);
-        // Thin triangles: rounding may call points beyond a sharp tip inside all edges, but such
-        // points are past the end of the longest edge.
+        // For thin triangles, rounding may call points beyond a sharp tip inside all edges, but
+        // such points are past the end of the longest edge.
         outermost = i == 0 ? fmax(outside, beyond) : fmax(outermost, outside);
         nearest = i == 0 ? squared : fmin(nearest, squared);
     }

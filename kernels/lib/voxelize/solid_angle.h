@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of a point's winding number that comes from the triangles that cap open outlines, in
-// floats.
+// float arithmetic.
 #ifndef VXL_SOLID_ANGLE_H
 #define VXL_SOLID_ANGLE_H
 
@@ -12,9 +12,11 @@ static inline lane_float take_sign(lane_float magnitude, lane_float sign) {
     return LANES_AS_FLOAT((LANES_AS_INT(magnitude) & ~bit) | (LANES_AS_INT(sign) & bit));
 }
 
-/// The angle of (x, y), with the sign of y even for zero, within 3e-7; the same bits everywhere.
+/// The angle of (x, y), with the sign of y even for zero, within 3e-7. Every device gives the same
+/// bits.
 ///
-/// The polynomial is Moshier's atanf (Cephes), after turning by 45 degrees above tan 22.5 degrees.
+/// The polynomial is that of Moshier's atanf (Cephes), after a rotation by 45 degrees above tan
+/// 22.5 degrees.
 static inline lane_float lanes_atan2(lane_float y, lane_float x) {
     const lane_float ax = fabs(x), ay = fabs(y);
     const lane_float small = fmin(ax, ay), large = fmax(fmax(ax, ay), (lane_float)(1e-30f));
@@ -32,14 +34,14 @@ static inline lane_float lanes_atan2(lane_float y, lane_float x) {
     return take_sign(angle, y);
 }
 
-/// A triangle as seen from points of one brick: its corners from a common origin.
+/// A triangle relative to the points of one brick: its corners from a common origin.
 typedef struct {
     LatticeTriangle lattice;
     long3 area;     // in lattice units
-    float3 normal;  // the same in metric space, of any length
+    float3 normal;  // the area in metric space, of any length
 } Cap;
 
-/// `scale` is each voxel edge in the shortest.
+/// Prepares a cap; `scale` is each voxel edge in units of the shortest.
 static inline Cap make_cap(LatticeTriangle t, float3 scale) {
     Cap c;
     c.lattice = t;
@@ -71,8 +73,8 @@ static inline lane_float lane_dot(const LaneVector* a, const LaneVector* b) {
     return fma(a->x, b->x, fma(a->y, b->y, a->z * b->z));
 }
 
-/// The exact side of the cap's plane on which each lane's point lies: 1 behind it, -1 in front.
-/// Points on the plane are moved by (e, e², e³), as those of crossings are.
+/// The side of the cap's plane on which each lane's point lies, exactly: 1 behind it, -1 in front.
+/// Points on the plane are moved by (e, e², e³), as for crossings.
 static inline lane_float exact_sides(const Cap* cap, const LanePoints* p) {
     lane_float sides;
     for (int i = 0; i < VXL_LANES; ++i) {
@@ -87,10 +89,11 @@ static inline lane_float exact_sides(const Cap* cap, const LanePoints* p) {
     return sides;
 }
 
-// Rounding, with u = 2^-24. A vector's components are off by 2 u of themselves, the normal's by 3 u
-// and their product's sum by 3 u of its terms: 8 u. Lengths are off by 2.5 u beyond that, products
-// of three by 9.5 u, those of a length and a dot product, three of them, by 6.5 u, and their sums
-// by 10 u; the vectors' own 2 u make 24 u of the four terms: below 64 u of the product of lengths.
+// Bounds on rounding, with u = 2^-24. A vector's components are off by 2 u of themselves, the
+// normal's by 3 u and the sum of their products by 3 u of its terms: 8 u. Lengths are off by 2.5 u
+// beyond that, products of three by 9.5 u, products of a length and a dot product, of which there
+// are three, by 6.5 u, and their sums by 10 u. The vectors' own 2 u make 24 u of the four terms:
+// below 64 u of the product of lengths.
 #define HEIGHT_ROUNDING 5e-7f
 #define REACH_ROUNDING 4e-6f
 #define ARC_ROUNDING 3e-7f
@@ -101,8 +104,8 @@ typedef struct {
 } HalfAngle;
 
 /// Half the solid angle of the cap seen from each point, positive from behind (van Oosterom and
-/// Strackee 1983). The angle jumps across the cap, where the side is decided in integers, so that
-/// it agrees with the crossings. Near the cap's edges both legs may vanish, and nothing is known.
+/// Strackee 1983). The angle jumps across the cap; integers decide the side, so that it agrees with
+/// the crossings. Near the cap's edges both legs may vanish, and the angle is unknown.
 static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, float3 to_metric) {
     const LaneVector a = vector_to(cap->lattice.corner[0], p, to_metric);
     const LaneVector b = vector_to(cap->lattice.corner[1], p, to_metric);
@@ -117,8 +120,8 @@ static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, fl
     if (lanes_any(LANE_MASK(fabs(height) <= bound) & LANE_MASK(reach <= 0.0f)))
         height = LANES_SELECT(LANE_MASK(fabs(height) <= bound),
                               take_sign(height, exact_sides(cap, p)), height);
-    // The turn that the errors of both legs make if the legs are as short as they may be. It is
-    // doubled for the rounding of this bound.
+    // The rotation that the errors of both legs cause if the legs are as short as they may be. It
+    // is doubled for the rounding of this bound.
     const lane_float slack = REACH_ROUNDING * a.length * b.length * c.length;
     const lane_float min_height = fmax(fabs(height) - bound, (lane_float)(0.0f));
     const lane_float min_reach = fmax(fabs(reach) - slack, (lane_float)(0.0f));

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour of a texture at a place: bilinear in linear light, on one level of the texture.
+// The colour of a texture at a point: bilinear in linear light, on one level of the texture.
 #ifndef VXL_TEXTURE_H
 #define VXL_TEXTURE_H
 
 #include "shared/texture.h"
 
-/// A coordinate, in texture widths, brought to where texels are: 0..1, or 0..2 where every other
-/// copy is mirrored.
+/// Maps a coordinate, in texture widths, to where texels are: 0..1, or 0..2 where every other copy
+/// is mirrored.
 static inline float wrapped_place(float at, uint wrap) {
     if (wrap == VXL_TEXTURE_WRAP_CLAMP) return clamp(at, 0.0f, 1.0f);
     if (wrap == VXL_TEXTURE_WRAP_MIRROR) return at - 2.0f * floor(0.5f * at);
     return at - floor(at);
 }
 
-/// The texel for a number from -1 to `size`, or for mirrored ones to twice the size.
+/// The texel for an index from -1 to `size` or, for mirrored textures, to twice the size.
 static inline int wrapped_texel(int at, int size, uint wrap) {
     if (wrap == VXL_TEXTURE_WRAP_REPEAT) return at < 0 ? at + size : at >= size ? at - size : at;
     if (wrap == VXL_TEXTURE_WRAP_MIRROR && at >= size) at = 2 * size - 1 - at;
@@ -25,7 +25,7 @@ static inline float3 texel_color(uint texel, global const float* linear_levels) 
                     linear_levels[texel >> 16 & 255u]);
 }
 
-/// The colour at a place on a level of a texture, by its record in shared/texture.h.
+/// The colour at a point on a level of a texture, given by its record in shared/texture.h.
 static inline float3 texture_color(uint4 texture, uint level, global const uint* texels,
                                    global const float* linear_levels, float2 uv) {
     int2 size = convert_int2(texture.yz);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How `diff` takes ids: equal or unequal, and unequal ones fail unless some are allowed.
+// How `diff` compares ids: they are equal or unequal, and unequal ones fail unless some are
+// allowed.
 #include <gmock/gmock.h>
 
 #include "runtime/io/image/exr.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `diff` shows and when it fails, on images whose differences are known.
+// The output of `diff`, and when it fails, for images whose differences are known.
 #include <gmock/gmock.h>
 
 #include "runtime/image/flip.hpp"

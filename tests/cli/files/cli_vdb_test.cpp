@@ -34,7 +34,7 @@ class CliVdbTest : public SceneProgramTest {
         });
     }
 
-    /// The file as another program might have written it: with an identifier of its own.
+    /// The file as another program might have written it, with another identifier.
     std::string foreign(int number) const {
         std::string copy = bytes;
         return copy.replace(21, 36, fmt::format("{:08x}-0000-4000-8000-000000000000", number));

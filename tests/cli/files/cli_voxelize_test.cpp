@@ -122,7 +122,7 @@ TEST_F(CliVoxelizeTest, AWorldAndAFileTakeOtherVoxels) {
 }
 
 TEST_F(CliVoxelizeTest, TheInsideOfASolidHasItsColor) {
-    // 60 cubes a side, of which bricks of 16 are full.
+    // There are 60 cubes along each side, and some bricks of 16 are full.
     write_scene([](Json& scene) {
         scene["world"] = {{"voxel_size", 0.02}};
         scene["materials"]["brick"] = {{"color", {1, 0, 0}}, {"opacity", 0.5}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of glTF that the test writes: what they need, what lies beside them, and damage.
+// Files of glTF that the test writes: the files that they need, the files next to them, and damage.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF file of nodes that a clip moves, and where they stand, evaluated as the format says.
+// A glTF file of nodes that a clip moves, and the nodes' positions, evaluated as the format
+// defines.
 #pragma once
 
 #include <algorithm>

@@ -73,7 +73,7 @@ struct SkinnedTree {
         writer.json["scenes"][0]["nodes"].push_back(RandomTree::kNodes);
     }
 
-    /// Where a vertex is, by the format's equations.
+    /// The position of a vertex, by the format's equations.
     Numbers place(size_t vertex, const std::vector<Matrix4>& maps) const {
         Numbers sum(3);
         for (size_t k = 4 * vertex; k < 4 * vertex + 4; ++k) {

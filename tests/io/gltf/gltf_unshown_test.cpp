@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What glTF files say of materials, and their surfaces lack.
+// Properties of materials in glTF files that the shown surfaces lack.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

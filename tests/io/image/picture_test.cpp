@@ -100,7 +100,7 @@ TEST(Pictures, OfInksAreTheLightThatTheyLeave) {
     std::vector<uint8_t> cmyk = ycck;
     cmyk[size_t(marker - ycck.begin()) + 11] = 0;
     expect(cmyk, [&](size_t i) { return ycck_of(stored[i]); });
-    // Without the marker inks aren't inverted.
+    // Inks aren't inverted without the marker.
     std::vector<uint8_t> plain = ycck;
     const auto start = plain.begin() + (marker - ycck.begin()) - 4;
     plain.erase(start, start + 16);

@@ -131,7 +131,7 @@ TEST_F(PngTest, PixelsThatAreNotSquareAreDeclared) {
     // 1e6 pixels to a unit across, twice as many along it, and no unit.
     EXPECT_THAT(png_bytes(small_image(), {.pixel_aspect = 2}),
                 HasSubstr(std::string("pHYs\x00\x0f\x42\x40\x00\x1e\x84\x80\0", 13)));
-    // Those of other programs' images may be as far from 1 as this: 1e9 to 1e3, and 1 to 1e6.
+    // Aspects of other programs' images may be as far from 1 as this: 1e9 to 1e3, and 1 to 1e6.
     EXPECT_THAT(png_bytes(small_image(), {.pixel_aspect = 1e6}),
                 HasSubstr(std::string("pHYs\x00\x00\x03\xe8\x3b\x9a\xca\x00\0", 13)));
     EXPECT_THAT(png_bytes(small_image(), {.pixel_aspect = 1e-9}),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh that tests of codecs compress, and what they ask of what comes back.
+// A mesh that tests of codecs compress, and checks of the decoded mesh.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ struct Sheet {
     std::vector<uint32_t> indices;
 };
 
-/// A position rounded to a lattice that no step of a codec crosses.
+/// A position rounded to a lattice so coarse that a codec's steps don't change it.
 inline std::array<long, 3> place_of(const glm::vec3& p) {
     return {std::lround(p.x / 0.1f), std::lround(p.y / 0.1f), std::lround(p.z / 0.1f)};
 }
@@ -55,7 +55,7 @@ inline double distance_from(const Sheet& sheet, const Mesh& mesh) {
 
 using Corner = std::array<long, 3>;
 
-/// The triangles by their corners, whose cycles begin with the least.
+/// The triangles by their corners, each cycle beginning with the smallest corner.
 template <class Triangles>
 std::multiset<std::array<Corner, 3>> triangles_of(const std::vector<glm::vec3>& positions,
                                                   const Triangles& corner_of, size_t count) {
@@ -70,7 +70,7 @@ std::multiset<std::array<Corner, 3>> triangles_of(const std::vector<glm::vec3>& 
     return found;
 }
 
-/// The sheet's triangles, at the vertices of the sheet that are nearest to the decoded ones.
+/// Expects the sheet's triangles, at the sheet's vertices nearest to the decoded ones.
 inline void expect_same_triangles(const Sheet& sheet, Mesh mesh) {
     for (glm::vec3& p : mesh.positions)
         p = *std::ranges::min_element(sheet.positions, {},
@@ -81,7 +81,7 @@ inline void expect_same_triangles(const Sheet& sheet, Mesh mesh) {
               triangles_of(sheet.positions, of_sheet, sheet.indices.size() / 3));
 }
 
-/// Has each of many damaged copies of the bytes from `first` to `end` read.
+/// Reads many copies of the file, each damaged in the bytes from `first` to `end`.
 inline void expect_refusals_or_meshes(const GltfWriter& writer, size_t first, size_t end) {
     std::mt19937 random(11);
     int refused = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The maps that glTF files and libraries of OBJ files name, as meshes have them.
+// The maps that glTF files and libraries of OBJ files name, in the meshes that are read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

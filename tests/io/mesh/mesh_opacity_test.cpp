@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the surfaces of meshes cover: the alpha of the pictures of OBJ files, map_d, and the
-// alpha of vertices.
+// The opacity of meshes' surfaces: the alpha of the pictures of OBJ files, map_d, and the alpha of
+// vertices.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

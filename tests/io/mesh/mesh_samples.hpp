@@ -12,8 +12,8 @@
 
 namespace voxelume::samples {
 
-/// A pyramid over a 5 x 3 rectangle; no two coordinates play the same part. The order of the
-/// vertices is that in which the triangles first name them, as STL gives them.
+/// A pyramid over a 5 x 3 rectangle, in which no two coordinates are alike. The vertices are in the
+/// order in which the triangles first name them, as in STL.
 struct Pyramid {
     double positions[5][3] = {{0.5, 0.25, -1.0},
                               {5.5, 0.25, -1.0},
@@ -47,7 +47,7 @@ inline std::string obj(bool with_colors) {
     return text;
 }
 
-/// Appends the bytes of `value`, lowest first or highest first.
+/// Appends the bytes of `value`, the lowest or the highest first.
 template <class T>
 void append(std::string& bytes, T value, bool big_endian) {
     std::string raw(reinterpret_cast<const char*>(&value), sizeof value);

@@ -55,7 +55,7 @@ class Browser {
                    static_cast<char*>(nullptr));
             _exit(127);
         }
-        setpgid(process_, process_);  // here too, for the destructor may come first
+        setpgid(process_, process_);  // repeated here, because the destructor may come first
         close(to[0]);
         close(from[1]);
         to_ = to[1], from_ = from[0];
@@ -65,7 +65,8 @@ class Browser {
         close(from_);
         kill(-process_, SIGKILL);
         waitpid(process_, nullptr, 0);
-        // Its own children may still be dying, with a file of the profile just made or renamed.
+        // The browser's own children may still be ending, just after creating or renaming a file of
+        // the profile.
         std::error_code error;
         for (int tries = 0; tries < 300; ++tries) {
             remove_all(folder_ / "profile", error);
@@ -123,7 +124,10 @@ class Browser {
         return read_png(folder_ / "screenshot.png");
     }
 
-    int requests() const { return requests_; }  ///< made by the page, its own included
+    int requests() const {
+        return requests_;
+    }  ///< by the page, including the request for the page
+       ///< itself
 
   private:
     static std::string from_base64(const std::string& text) {

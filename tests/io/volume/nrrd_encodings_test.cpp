@@ -38,7 +38,7 @@ class NrrdEncodings : public FileTest {
         put_bytes(folder / "a.nrrd", bytes);
         return folder / "a.nrrd";
     }
-    /// All bytes of the values, read in slabs of two layers.
+    /// Reads all bytes of the values, in slabs of two layers.
     std::string values_of(const std::string& bytes) const {
         const CellArray array = read_nrrd_header(put(bytes));
         const InputFile data(array.data);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the helper program reads of OpenVDB files is what OpenVDB reads in this process, bit by bit;
-// and damage stays in the helper.
+// The helper program reads the same bits from OpenVDB files as OpenVDB in this process, and damage
+// stays in the helper.
 #include <gmock/gmock.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>

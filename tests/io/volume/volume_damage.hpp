@@ -10,7 +10,8 @@
 
 namespace voxelume {
 
-/// Truncates `damaged` at every place and reads `opened`, which is the same file or its header.
+/// Truncates `damaged` after every `stride`-th byte and reads `opened`, which is the same file or
+/// its header.
 inline void expect_truncations_refused(const std::filesystem::path& damaged,
                                        const std::filesystem::path& opened, size_t stride) {
     const std::string bytes = bytes_of(damaged);
@@ -21,8 +22,8 @@ inline void expect_truncations_refused(const std::filesystem::path& damaged,
     put_bytes(damaged, bytes);
 }
 
-/// The number of changed bytes that the reader refuses. Any other change leaves the content that is
-/// read intact (the byte was in a comment, for example).
+/// The number of changed bytes that the reader refuses. Any other change must leave the content
+/// intact, for example because the byte was in a comment.
 inline size_t count_refused_changes(const std::filesystem::path& damaged,
                                     const std::filesystem::path& opened, size_t trials) {
     const std::string bytes = bytes_of(damaged);
@@ -43,7 +44,7 @@ inline size_t count_refused_changes(const std::filesystem::path& damaged,
     return refused;
 }
 
-/// Expects that writing fails at every limit below the size and leaves nothing.
+/// Expects that writing fails at every limit below the file's size, and leaves nothing behind.
 inline void expect_full_disk_leaves_nothing(const std::filesystem::path& path,
                                             const Volume& volume) {
     write_volume(path, volume);

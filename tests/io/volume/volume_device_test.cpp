@@ -84,7 +84,7 @@ TEST_F(VolumeDeviceTest, LevelsKeepTheirMean) {
 }
 
 TEST_F(VolumeDeviceTest, Kv6HoldsTheSurfaceAsVoxlapReadsIt) {
-    // The box has 3 x 4 x 5 voxels, of which 1 x 2 x 3 are inside: x in 1..3, y in 0..3, z in 2..6.
+    // The box has 3 x 4 x 5 voxels, 1 x 2 x 3 of them inside: x in 1..3, y in 0..3, z in 2..6.
     const Volume volume = solid_box({7, 5, 8}, {1, 0, 2}, {3, 3, 6}, {1, 0.5f, 0});
     const std::string bytes = write("a.kv6", volume);
     EXPECT_EQ(bytes.substr(0, 4), "Kvxl");

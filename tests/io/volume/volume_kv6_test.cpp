@@ -122,7 +122,8 @@ TEST_F(Kv6Test, AnyTruncationIsRefused) {
 }
 
 TEST_F(Kv6Test, WhatIsDeclaredTakesNoMemory) {
-    // A file with a hole, as large as its head says, of which nothing agrees.
+    // This is a sparse file, as large as its header says, in which nothing else agrees with the
+    // header.
     Kv6File file;
     file.count = INT32_MAX;
     put_bytes(path(), file.bytes().substr(0, 32));

@@ -119,7 +119,7 @@ TEST_F(ArrayCubesTest, ColoursAreVoxelsThatArentBlackOrClear) {
     EXPECT_TRUE(model.transparent);
     EXPECT_EQ(cells_of(model),
               (VoxelCells{{{0, 0, 0}, {0x000000, ""}}, {{1, 0, 1}, {0xFE0201FF, ""}}}));
-    // Floats from 0 to 1, in Fortran's order, where each channel is a block of its own.
+    // Floats from 0 to 1 in Fortran's order, in which each channel is a separate block.
     const std::vector<float> planar = {0, 1, 0, 0.5f, 0, 2};  // reds, greens, blues of two cells
     EXPECT_EQ(cells_of(cubes(
                   put("c.npy", npy_bytes("<f4", "2, 1, 1, 3", bytes_of_values(planar), true)))),

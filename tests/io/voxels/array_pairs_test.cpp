@@ -76,7 +76,7 @@ TEST_F(ArrayPairs, Float16IsAnyOtherFloat) {
     const ArraySummary summary = summary_of_array(read_npy_header(half));
     EXPECT_EQ(summary.max, 60000);
     EXPECT_EQ(summary.min, -3);
-    // Colours, of which Fortran's order has each channel as a block of its own.
+    // Colours in Fortran's order, in which each channel is a separate block.
     const std::vector<uint16_t> planar = {0, 0x3C00, 0, 0x3800, 0, 0x4000};
     EXPECT_EQ(cells_of(read_voxel_model(
                   put("c.npy", npy_bytes("<f2", "2, 1, 1, 3", bytes_of_values(planar), true)),

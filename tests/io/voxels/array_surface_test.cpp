@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// What a model says of a node: its distance in units, or far inside or outside.
+/// The value of a model at a node: its distance in units, or far inside or outside.
 int distance_at(const VoxelModel& model, const glm::ivec3& node) {
     const glm::ivec3 bricks = model.frame.bricks(), brick = node / 16, in = node % 16;
     const uint32_t slot =
@@ -107,7 +107,7 @@ TEST_F(ArraySurfaceTest, NodesAtTheSurfaceHaveTheirValuesAndOthersTheirSides) {
     }
 }
 
-// Bytes have a table of their own; other numbers of the same value store the same.
+// Bytes have a separate table; other numbers with the same value are stored alike.
 TEST_F(ArraySurfaceTest, BytesStoreWhatWiderNumbersDo) {
     std::mt19937 random(6);
     CellArray array;

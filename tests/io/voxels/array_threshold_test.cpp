@@ -53,8 +53,8 @@ TEST_F(ArrayThresholdTest, AThresholdIsTheSameForAllTypes) {
     check("<f8", std::vector<double>{-1e300, -0.5, 0.1, 0.1 - 1e-17, 1.5, 1e300, NAN});
 }
 
-// Values of 8 and 16 bits are counted by their codes, those of 32 one by one: both come to the
-// same.
+// Values of 8 and 16 bits are counted by their codes, values of 32 bits one by one; both give the
+// same result.
 TEST_F(ArrayThresholdTest, TheSummaryOfFewBitsIsThatOfMany) {
     std::mt19937 random(19);
     for (const int kinds : {1, 3, 60, 65, 250}) {

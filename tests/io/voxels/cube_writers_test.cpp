@@ -45,7 +45,7 @@ class CubeWritersTest : public FileTest {
     glm::dvec3 edge{0}, origin{0};
 };
 
-/// Voxels in 70 x 33 x 20, of which some lie in each end of the box; `colors` different ones.
+/// Voxels in 70 x 33 x 20, some of them at each end of the box, in `colors` different colours.
 CubeList odd_cubes(size_t count, uint32_t colors) {
     std::mt19937 random(11);
     std::set<std::array<int, 3>> places = {{0, 7, 3}, {69, 0, 5}, {4, 32, 0}, {9, 9, 19}};

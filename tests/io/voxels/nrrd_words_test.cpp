@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What headers of NRRD files say, and what is assumed where they don't.
+// The fields in headers of NRRD files, and the assumptions where they are missing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays see through a block of one medium of a MagicaVoxel file, whatever its voxels are.
+// The light through a block of one medium in a MagicaVoxel file, which doesn't depend on the
+// block's voxels.
 #include <gtest/gtest.h>
 
 #include <algorithm>

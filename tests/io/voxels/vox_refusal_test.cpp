@@ -101,7 +101,7 @@ TEST_F(VoxRefusal, ATruncatedFileIsRefusedWhereverItEnds) {
     for (size_t size = 0; size < bytes.size(); ++size) {
         put_bytes(folder / "a.vox", bytes.substr(0, size));
         try {
-            // What ends between two chunks is another whole file.
+            // A file cut between two chunks is another whole file.
             EXPECT_FALSE(read_voxel_model(folder / "a.vox", Surface::cubes).slots.empty());
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::input) << size << ": " << error.what();

@@ -55,7 +55,7 @@ TEST_F(VoxelArtTest, QubicleMatricesLieXFastestThenY) {
         {{5, 6, 7}, {0x030201, ""}}, {{5, 7, 7}, {0x060504, ""}}, {{6, 8, 7}, {0x090807, ""}}};
     EXPECT_EQ(cells("a.qb", bytes), expected);
     expect_truncations_refused("a.qb", bytes, bytes.size());
-    // These voxels are compressed, have blue first, and Z goes away: the slice before z = -7.
+    // These voxels are compressed, blue comes first, and Z points away: the slice before z = -7.
     std::string packed = qb_head(1, 0, 1, 2) + qb_matrix({2, 3, 1}, {5, 6, 7});
     for (const uint32_t word : {0xFF010203u, 0u, 0x01040506u, 2u, 2u, 0u, 0xFF070809u, 6u})
         append_value(packed, word);

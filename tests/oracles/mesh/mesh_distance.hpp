@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closest point of a mesh, in double.
+// The distance to the closest point of a mesh, in double precision.
 #pragma once
 
 #include "tests/oracles/mesh/mesh_tree.hpp"

@@ -33,7 +33,7 @@ struct Shear {
     }
 };
 
-/// Twice the area of (0, a, b); the negative of that of (0, b, a).
+/// Twice the area of (0, a, b), which is exactly the negative of that of (0, b, a).
 long double area(const Vector& a, const Vector& b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -48,8 +48,8 @@ void meet(const Triangle& triangle, const Shear& shear, long double& nearest) {
     if (t > 0) nearest = std::min(nearest, t);
 }
 
-/// True if the ray may enter the box before `nearest`. The box is widened by far more than doubles
-/// round.
+/// True if the ray may enter the box before `nearest`. The box is widened by far more than the
+/// rounding of doubles.
 bool may_enter(const MeshTree::Node& box, const glm::dvec3& origin, const glm::dvec3& direction,
                long double nearest) {
     const glm::dvec3 margin = 1e-9 * (glm::abs(box.low) + glm::abs(box.high) + glm::abs(origin));
@@ -69,7 +69,7 @@ bool may_enter(const MeshTree::Node& box, const glm::dvec3& origin, const glm::d
 }
 
 double distance_to_edge(const Edge& edge, const glm::dvec3& origin, const glm::dvec3& direction) {
-    // The nearest points of a segment a + s e and a half line o + t d are at their common
+    // The nearest points of a segment a + s e and a half line o + t d lie on their common
     // perpendicular or at an end of one of them.
     const Vector o(origin), d(direction), a(edge[0]), e = Vector(edge[1]) - a, r = a - o;
     const long double dd = glm::dot(d, d), ee = glm::dot(e, e), de = glm::dot(d, e);
@@ -92,7 +92,7 @@ struct PointLess {
     }
 };
 
-/// From which sides the triangles at an edge are seen.
+/// The numbers of triangles at an edge that are seen from the front and from the back.
 struct Sides {
     int front = 0, back = 0;
 };
@@ -136,7 +136,9 @@ std::vector<Edge> silhouette_edges(const std::vector<Triangle>& triangles, const
         for (size_t i = 0; i < 3; ++i) {
             Sides& sides = edges[std::minmax(corner[i], corner[(i + 1) % 3])];
             if (facing >= 0) ++sides.front;
-            if (facing <= 0) ++sides.back;  // edge-on counts as both: its edges are silhouette
+            if (facing <= 0)
+                ++sides.back;  // edge-on counts as both: its edges are silhouette
+                               // edges
         }
     }
     std::vector<glm::dvec3> points(numbers.size());

@@ -10,8 +10,8 @@ namespace voxelume::oracle {
 
 /// The smallest t > 0 at which origin + direction * t meets a closed triangle, from either side.
 ///
-/// Watertight: triangles with equal corners evaluate a common edge to opposite numbers, and a ray
-/// on it meets both.
+/// The test is watertight: triangles with equal corners evaluate a common edge to opposite numbers,
+/// and a ray on the edge meets both.
 std::optional<double> first_hit(const MeshTree& mesh, const glm::dvec3& origin,
                                 const glm::dvec3& direction);
 

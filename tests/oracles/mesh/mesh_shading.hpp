@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The normal by which light falls on a mesh where a ray meets it first, in double.
+// The shading normal of a mesh where a ray first meets it, in double precision.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,15 +18,16 @@ struct ShadedTriangle {
 struct ShadedHit {
     double t = 0;
     size_t triangle = 0;
-    glm::dvec3 normal{
-        0};  ///< of unit length: the corners' unit normals by their shares of the point
+    glm::dvec3 normal{0};  ///< of unit length: the corners' unit normals, weighted by the corners'
+                           ///< shares of the point
 };
 
 /// Where origin + direction * t, t > 0, first meets one of the triangles, from either side.
 std::optional<ShadedHit> shaded_hit(const std::vector<ShadedTriangle>& triangles,
                                     const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// The triangle under an affine map. Its normals stay those of the planes that they were of.
+/// The triangle under an affine map. Its normals stay perpendicular to the planes that they
+/// belonged to.
 ShadedTriangle mapped(const ShadedTriangle& triangle, const glm::dmat4& map);
 
 }  // namespace voxelume::oracle

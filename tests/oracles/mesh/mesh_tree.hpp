@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tree of boxes over triangles in double, for the oracles that search a mesh.
+// A tree of boxes over triangles in double precision, for the oracles that search a mesh.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance from a point to a triangle, in double, feature by feature.
+// The distance from a point to a triangle, in double precision, feature by feature.
 #pragma once
 
 #include <glm/glm.hpp>

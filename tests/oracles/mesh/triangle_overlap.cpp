@@ -45,7 +45,7 @@ Point to_point(const glm::ivec3& p) {
     return {Rational(p.x), Rational(p.y), Rational(p.z)};
 }
 
-/// p moved by (e, e², e³).
+/// The point p moved by (e, e², e³).
 Point moved(Point p) {
     Rational e(1);
     mpq_div_2exp(e.get_mpq_t(), e.get_mpq_t(), 80);
@@ -69,7 +69,7 @@ bool passes_box(const glm::ivec3& p, int axis, const LatticeCorners& t) {
 }
 
 /// Returns 0 if the line through p along `axis` doesn't cross the triangle; else the sign of the
-/// crossing, and its place in `at`.
+/// crossing, and its coordinate in `at`.
 int line_crossing(const Point& p, int axis, const LatticeCorners& triangle, Rational& at) {
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const Point a = to_point(triangle[0]), b = to_point(triangle[1]), c = to_point(triangle[2]);
@@ -82,8 +82,8 @@ int line_crossing(const Point& p, int axis, const LatticeCorners& triangle, Rati
     return area > 0 ? 1 : -1;
 }
 
-/// The place at which the line through p along `axis` crosses the triangle's plane, which is not
-/// parallel to the line.
+/// The coordinate at which the line through p along `axis` crosses the triangle's plane, which is
+/// not parallel to the line.
 Rational plane_crossing(const Point& p, int axis, const LatticeCorners& triangle) {
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const Point a = to_point(triangle[0]), b = to_point(triangle[1]), c = to_point(triangle[2]);
@@ -114,8 +114,8 @@ bool crosshair_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangl
         if (!passes_box(v * 4096 + 2048, axis, triangle)) continue;
         Rational at;
         if (line_crossing(moved(center), axis, triangle, at) == 0) continue;
-        // The shift only decides which triangle owns an edge; the place is that on the unshifted
-        // line.
+        // The shift only decides which triangle owns an edge; the coordinate is that on the
+        // unshifted line.
         at = plane_crossing(center, axis, triangle);
         if (at >= v[axis] * 4096 && at < (v[axis] + 1) * 4096) return true;
     }

@@ -78,7 +78,7 @@ TEST(TouchingGlass, AbsorbsByTheMaterialThatTheLightIsIn) {
 }
 
 TEST(TouchingGlass, BendsLightFromOneIndexToTheOther) {
-    // A gap of air would reflect all of this light, which comes to it at 60 degrees and more.
+    // A gap of air would reflect all of this light, which arrives at 60 degrees or more.
     const std::string m = R"({"diffuse": 0, "refraction": 1, "ior": 1.5})";
     const std::string n = R"({"diffuse": 0, "refraction": 1, "ior": 1.6})";
     const std::string observer = R"("position": [-2.5, 0.5, 0], "look_at": [-1.875, 0.2, 0],

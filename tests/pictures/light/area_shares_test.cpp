@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// What a room holds besides its floor, wall and lights.
+/// The contents of a room apart from its floor, wall and lights.
 struct ShinyRoom {
     const char* name;
     std::function<void(Json&)> furnish;
@@ -127,7 +127,7 @@ Json by_rays_alone(Json scene) {
     return scene;
 }
 
-/// By default those whose kernels have the features of most others.
+/// By default, the cases whose kernels have the features of most others.
 std::vector<ShinyRoom> shiny_rooms_to_try() {
     if (is_exhaustive()) return kShinyRooms;
     return {kShinyRooms[0], kShinyRooms[3], kShinyRooms[4], kShinyRooms[7]};
@@ -151,13 +151,13 @@ TEST_P(ShinyRooms, AreAsBrightAsByRaysAlone) {
             fmt::print("channel {} part {}: {:+.5f} +- {:.5f} of {:.5f}\n", channel, part, e.mean,
                        e.error, light.mean);
             EXPECT_GT(light.mean, 1e-3);
-            // By chance, one of 96 such differences is larger in one of twenty tests.
+            // By chance, one of 96 differences of this kind is larger in one of twenty tests.
             EXPECT_LE(std::abs(e.mean), 3.5 * e.error) << "channel " << channel << ", " << part;
             EXPECT_LT(e.error, 0.02 * light.mean) << "channel " << channel << ", " << part;
         }
 }
 
-/// A metal floor that mirrors a light straight above it, seen from beside that light.
+/// A metal floor that mirrors a light straight above it, seen from next to that light.
 Json mirrored_light(double roughness, int samples) {
     Json scene = open_furnace(samples);
     scene["world"]["background"] = {0, 0, 0};

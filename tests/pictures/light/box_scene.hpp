@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene of one box, and its image with what making it took.
+// A scene of one box, its image, and what rendering it took.
 #pragma once
 
 #include <string>

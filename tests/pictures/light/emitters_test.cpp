@@ -101,7 +101,8 @@ const std::vector<EmitterRoom> kRooms = {
          add_thing(s, small_box("exact"), "lamp", {0.15, 0.2, 0.1});
      }}};
 
-/// By default those of instances, and of glass and veils, which have the features of most others.
+/// By default, the cases of instances, and of glass and veils, which have the features of most
+/// others.
 std::vector<EmitterRoom> rooms_to_try() {
     if (is_exhaustive()) return kRooms;
     return {kRooms[4], kRooms[6]};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes in global light, and the light that their pixels show with its statistical error.
+// Scenes in global light, and the light of their pixels with its statistical error.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace voxelume {
 
-/// A mean of pixels and its standard error, as if they were independent samples. Those of 4 x 4
-/// pixels aren't: their errors cancel, so that the mean's is smaller, but for what depends on how a
-/// pixel's decisions are paired, where it is up to a seventh larger.
+/// A mean of pixels and its standard error, as if pixels were independent samples. The pixels of a
+/// 4 x 4 square aren't: their errors cancel, so the mean's error is smaller. An exception is what
+/// depends on the pairing of a pixel's decisions, for which the error is up to a seventh larger.
 struct Estimate {
     double mean = 0, error = 0;
 };

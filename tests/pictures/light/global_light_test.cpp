@@ -64,8 +64,8 @@ TEST_P(EverySurface, AClosedRoomThatGivesHalfAndReturnsHalfIsWhite) {
 }
 
 TEST(GlobalLight, ALightInAClosedSphereIsTheGeometricSeries) {
-    // Every point of a sphere sees every other alike. A light of intensity I in the middle gives
-    // I/R^2, of which each bounce adds the albedo's share.
+    // Every point of a sphere sees all others alike. A light of intensity I in the middle gives
+    // I/R^2, and each bounce adds the albedo's share of it.
     constexpr double kAlbedo = 0.75, kRadius = 0.5, kIntensity = 0.125;
     for (const int bounces : {0, 1, 2, 7}) {
         Json scene = open_furnace(16);
@@ -182,7 +182,7 @@ TEST(GlobalLight, WithoutBouncesIsTheDirectLightOfLocalLight) {
     for (size_t i = 0; i < local.size(); ++i) EXPECT_EQ(local[i].color, global[i].color) << i;
 }
 
-/// All that global light treats in a way of its own, in 15 x 10 pixels.
+/// Everything that global light treats specially, in 15 x 10 pixels.
 Json mixed_scene() {
     Json scene = open_furnace(5);
     scene["world"]["background"] = {0.5, 0.75, 1};

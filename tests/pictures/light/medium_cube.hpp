@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A medium that scatters light, and what a picture of it shows.
+// A medium that scatters light, and pictures of it.
 #pragma once
 
 #include <cmath>

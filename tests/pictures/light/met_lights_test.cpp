@@ -17,7 +17,7 @@ constexpr double kPlateSide = 0.4, kPlateRadiance = 6;
 // Rays that are sent to lights go one way further than paths, whose later ways bring 1e-4.
 constexpr int kBounces = 16;
 
-/// What stands on a room's floor, and what is around it.
+/// The objects on a room's floor, and the surroundings.
 struct MirrorRoom {
     const char* name;
     std::function<void(Json&)> furnish;
@@ -116,7 +116,7 @@ const std::vector<MirrorRoom> kMirrorRooms = {
      }},
 };
 
-/// By default the fastest of each kind.
+/// By default, the fastest case of each kind.
 std::vector<MirrorRoom> mirror_rooms_to_try() {
     if (is_exhaustive()) return kMirrorRooms;
     return {kMirrorRooms[0], kMirrorRooms[2], kMirrorRooms[3], kMirrorRooms[4]};
@@ -141,8 +141,8 @@ TEST_P(MirrorRooms, AreAsBrightAsByAnEmissivePlate) {
             fmt::print("channel {} part {}: {:+.5f} +- {:.5f} of {:.5f}\n", channel, part, e.mean,
                        e.error, light.mean);
             EXPECT_GT(light.mean, 1e-3);
-            // By chance, one of 84 such differences is larger in one of 25 tests. Where both follow
-            // the same paths, sums are rounded in another order.
+            // By chance, one of 84 differences of this kind is larger in one of 25 tests. Where
+            // both images follow the same paths, sums are rounded in another order.
             EXPECT_LE(std::abs(e.mean), 3.5 * e.error + 1e-5 * light.mean)
                 << "channel " << channel << ", " << part;
             EXPECT_LT(e.error, 0.03 * light.mean) << "channel " << channel << ", " << part;
@@ -150,7 +150,7 @@ TEST_P(MirrorRooms, AreAsBrightAsByAnEmissivePlate) {
 }
 
 TEST(MetLights, AMirrorShowsTheLightsOwnRadiance) {
-    // Nothing else is there that returns light.
+    // Nothing else in the room returns light.
     Json scene = lit_by(plate_room(1), true);
     scene["objects"] = Json::array();
     add_thing(scene, {{"shape", "box"}, {"size", {1.1, 0.1, 1.1}}, {"surface", "exact"}}, "mirror",
@@ -219,7 +219,7 @@ TEST(MetLights, AreLeftOutWhereNoPathRunsIntoOne) {
     add_thing(filtered, glass_ball("exact"), "glass", {0, -0.1, 0.1});
     filtered["render"]["shadow"] = "filtered";
     EXPECT_EQ(meetings_of(filtered), 0u);
-    // They let nothing through where nothing transmits light.
+    // Filtered shadows let nothing through where nothing transmits light.
     filtered["objects"].back()["material"] = "mirror";
     EXPECT_GT(meetings_of(filtered), 0u);
     add_thing(filtered, glass_ball("exact"), "glass", {0, 0.2, 0.1}, {{"visible", false}});

@@ -29,7 +29,7 @@ struct PlacedLight {
         return light;
     }
 
-    /// What comes to a point at the end of `way`, without the medium.
+    /// The light that arrives at a point at the end of `way`, without the medium.
     double light_along(const glm::dvec3& way) const {
         const double squared = glm::dot(way, way);
         if (outer == 0) return 2 / squared;
@@ -97,7 +97,7 @@ TEST(NearLightAlone, DarkConesBringNothing) {
     EXPECT_EQ(estimate_of_channel(image, "G").mean, 0);
 }
 
-/// Where the density differs from voxel to voxel.
+/// A medium whose density differs from voxel to voxel.
 TEST(NearLightAlone, FollowsTheDensityOfEachVoxel) {
     const PlacedLight light{.position = {0.1, 0.45, -0.3}};
     const Image image = image_of_medium(cube_of_medium(
@@ -144,7 +144,7 @@ TEST(NearLightAlone, AgreesWithChanceWhereLightIsScatteredOften) {
     for (const char* channel : {"R", "G", "B"}) {
         const Estimate a = estimate_of_channel(near, channel),
                        b = estimate_of_channel(by_chance, channel);
-        // The point's light differs by its distance, of which the cube takes at most 1 in 1,000.
+        // The point's light differs by its distance; the cube is at most 1 in 1,000 of it.
         EXPECT_NEAR(a.mean, b.mean, 4 * std::hypot(a.error, b.error) + 2e-3 * b.mean) << channel;
     }
 }
@@ -173,7 +173,7 @@ TEST(NearLightAlone, StopsAtSurfacesAndInShadows) {
                 1e-4 * expected);
 }
 
-/// What an observer with a light sees has an infinite mean, and yet the picture is finite.
+/// An observer with a light sees light with an infinite mean, and yet the picture is finite.
 TEST(NearLightAlone, ALightAtTheObserversPlaceLeavesAPicture) {
     const auto median_with = [](double aside) {
         Json scene =
@@ -190,7 +190,8 @@ TEST(NearLightAlone, ALightAtTheObserversPlaceLeavesAPicture) {
     };
     const float aside = median_with(0.05);
     EXPECT_GT(median_with(0), aside);
-    // By chance it is 11 times as much, and 600,000 times by points that crowd at the light.
+    // Points found by chance give 11 times as much; points that crowd at the light gave 600,000
+    // times as much.
     EXPECT_LT(median_with(0), 50 * aside);
 }
 

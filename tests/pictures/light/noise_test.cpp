@@ -7,8 +7,8 @@
 namespace voxelume {
 namespace {
 
-/// A floor under a sky, half of which lies under a roof: smooth light beside noisy light, and above
-/// both the sky alone.
+/// A floor under a sky. Half of the floor lies under a roof, so smooth light is next to noisy
+/// light; above both is only the sky.
 Scene noisy_scene(double error, int samples) {
     Json json = open_furnace(samples);
     json["materials"]["clay"] = {{"color", {0.6, 0.5, 0.4}}};
@@ -90,7 +90,7 @@ TEST(Noise, TakesNoMoreSamplesThanTheMaximum) {
 }
 
 TEST(Noise, AddsSamplesToThoseOfAShorterRun) {
-    // The mean of both halves is the image of all samples but for rounding.
+    // The mean of both halves is the image of all samples, except for rounding.
     const NoisyImage both = rendered_to(1e-6, 32), once = rendered_to(0, 32);
     for (const char* channel : {"R", "G", "B", "A"})
         for (size_t i = 0; i < 1024; ++i)

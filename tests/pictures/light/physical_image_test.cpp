@@ -14,7 +14,7 @@ Json physical(double metallic, double roughness) {
     return {{"base_color", {1, 1, 1}}, {"metallic", metallic}, {"roughness", roughness}};
 }
 
-/// Such a material has a coat, and what isn't metal of it reflects half as much.
+/// A material with a coat; its part that isn't metal reflects half as much.
 Json coated(double metallic, double roughness, double coat, double coat_roughness) {
     Json material = physical(metallic, roughness);
     material["coat"] = coat;
@@ -33,8 +33,8 @@ class PhysicalOnEverySurface : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(GlobalLight, PhysicalOnEverySurface,
                          testing::Values("cubes", "smooth", "exact"));
 
-/// Expects that balls of metal, of plastic and of both can't be told from a white sky: of 4,096
-/// samples, which `--all` takes, to a thousandth.
+/// Expects that balls of metal, of plastic and of both can't be distinguished from a white sky, to
+/// a thousandth with the 4,096 samples that `--all` takes.
 void expect_invisible(const char* surface, const Json& metal, const Json& plastic, const Json& half,
                       const std::string& what) {
     Json scene = open_furnace(is_exhaustive() ? 4096 : 64);
@@ -51,9 +51,9 @@ void expect_invisible(const char* surface, const Json& metal, const Json& plasti
 }
 
 TEST_P(PhysicalOnEverySurface, WhiteOnesAreInvisibleUnderAWhiteSky) {
-    // Balls see the sky and themselves alone, so what they return is one scattering on `exact`
-    // ones, and several where cubes face each other.
-    // By default each surface has one of the roughnesses that the others don't have.
+    // Balls see only the sky and themselves, so they return light after one scattering on `exact`
+    // ones, and after several where cubes face each other. By default, each surface has one of the
+    // roughnesses that the others don't have.
     const size_t turn = GetParam()[0] == 'c' ? 0 : GetParam()[0] == 's' ? 1 : 3;
     for (const double roughness : in_turn<double>({0.05, 0.2, 0.5, 0.8, 1.0}, turn))
         expect_invisible(GetParam(), physical(1, roughness), physical(0, roughness),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A closed white room whose walls tell where light met them, and parallel rays through it.
-// A red, a green and a blue light illuminate every point of a wall in proportions that no other
-// point of it has. So the colour of a pixel tells where its path ended, and how much it lost.
+// A closed white room whose walls identify where light met them, and parallel rays through the
+// room. A red, a green and a blue light illuminate every point of a wall in proportions that no
+// other point of that wall has. So the colour of a pixel tells where its path ended, and how much
+// light it lost.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -113,8 +114,8 @@ inline WallPoint wall_behind(const glm::dvec3& origin, const glm::dvec3& directi
     return {origin + t * direction, axis};
 }
 
-/// The point that a wall's colour tells, and the ratio of the squared distance to the red light to
-/// what that point would have: 1 if no light was lost. `wall` says which wall it is.
+/// The point that a wall's colour identifies, and the ratio of the measured squared distance to the
+/// red light to the actual one: 1 if no light was lost. `wall` says which wall it is.
 struct Reading {
     glm::dvec3 position;
     double excess;

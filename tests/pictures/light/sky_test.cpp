@@ -52,7 +52,7 @@ TEST_P(BothLights, AWallHidesHalfOfAConstantSky) {
     add_thing(scene, {{"shape", "box"}, {"size", {1.1, 0.5, 0.1}}, {"surface", "exact"}}, "soot",
               {0, 0.25, 0.0502});
     scene["observer"]["display"]["size"] = {0.0001, 0.0001, 9};
-    // It is seen 1/2500 of the wall's height away from the wall.
+    // The observer sees a point 1/2500 of the wall's height away from the wall.
     expect_mean(estimate_of(channel_of(sense(scene), 0)), 0.5, GetParam(), 1e-3);
 }
 
@@ -87,7 +87,7 @@ glm::dvec3 direction_at(int column, int row) {
             std::cos(longitude) * std::cos(latitude)};
 }
 
-/// Preetham's sky in kcd/m^2 and chromaticities, as the paper's appendix has it.
+/// Preetham's sky in kcd/m^2 and chromaticities, from the paper's appendix.
 struct Daylight {
     double turbidity, sun;  ///< angle from the zenith, radians
 

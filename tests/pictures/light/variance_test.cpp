@@ -128,7 +128,7 @@ TEST(Variance, OfANoiseTargetIsThatOfTheSamplesOfEachTile) {
     EXPECT_GT(counts.size(), 1u);
 }
 
-// As above: a sample's light and the mean of the 8 others are floats.
+// A sample's light and the mean of the 8 others are floats, as above.
 TEST(Variance, OfAnAdaptiveImageIsThatOfThePixelsThatContrast) {
     Scene scene = varied_scene("local", 9);
     scene.render.adaptive = 0.1;

@@ -125,7 +125,7 @@ std::string refined_words(const MeshOfShape& made, int voxels, const RefinedMesh
 
 /// Float level, metres.
 constexpr double kFloatError = 1e-7;
-/// How far the first field after `exact` may be off, in voxels.
+/// The maximum error of the first field after `exact`, in voxels.
 constexpr double kFirstField = 0.005;
 
 /// The facets are what the file says. The first field is farther from them than `exact` was.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of one object in worlds of any fineness, and what finer ones may cost in accuracy.
+// Scenes of one object in worlds of any voxel size, and the loss of accuracy allowed to finer ones.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace voxelume {
 
 inline constexpr glm::ivec2 kRefinedSize(240, 180);
 
-/// A scene with one model "m" and `objects`, in a world of such voxels.
+/// A scene with one model "m" and `objects`, in a world with voxels of this size.
 inline Scene refined_scene(const std::string& model, const std::string& objects, double voxel,
                            glm::ivec2 size = kRefinedSize,
                            const std::filesystem::path& folder = {}) {
@@ -41,7 +41,7 @@ inline Image refined_image(const Scene& scene) {
     return image;
 }
 
-/// Expects errors of a finer model or world that are at most 5 % larger, or what rounding makes.
+/// Expects that the errors of a finer model or world are at most 5 % larger, or within rounding.
 inline void expect_no_worse(const SolidErrors& finer, const SolidErrors& coarser,
                             const std::string& at) {
     constexpr double kMore = 1.05, kDepth = 2e-6, kNormal = 0.02;
@@ -50,7 +50,7 @@ inline void expect_no_worse(const SolidErrors& finer, const SolidErrors& coarser
     EXPECT_LE(finer.normal_rms, std::max(kMore * coarser.normal_rms, kNormal)) << at;
     EXPECT_LE(double(finer.silhouette), kMore * double(coarser.silhouette) + double(kPixels)) << at;
     std::string key = at;
-    std::erase(key, '"');  // GoogleTest writes it to JSON as it is
+    std::erase(key, '"');  // GoogleTest writes it to JSON unescaped
     testing::Test::RecordProperty(
         key, fmt::format("depth {:.3g} m, normal {:.3g} degrees, silhouette {}", finer.depth_rms,
                          finer.normal_rms, finer.silhouette));
@@ -59,7 +59,7 @@ inline void expect_no_worse(const SolidErrors& finer, const SolidErrors& coarser
 inline constexpr const char* kRefinedPlace =
     R"({"model": "m", "position": [0.013, -0.021, 0.007], "turn": [17, 31, 8]})";
 
-/// first, 2 first ... up to `usual` or, in an exhaustive run, `all`.
+/// The values first, 2 first ... up to `usual` or, in an exhaustive run, up to `all`.
 inline std::vector<int> doubled_up_to(int first, int usual, int all) {
     std::vector<int> values;
     for (int value = first; value <= (is_exhaustive() ? all : usual); value *= 2)

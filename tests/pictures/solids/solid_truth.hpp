@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of combined solids against the functions of their shapes.
+// Compares pictures of combined solids with the implicit functions of their shapes.
 #pragma once
 
 #include <fmt/format.h>
@@ -52,15 +52,15 @@ inline std::string parts_scene(const CombinedSolid& parts, int cells, const char
                       fmt::format(R"({{"model": "a", "placement": "{}"}})", placement));
 }
 
-/// How far a picture's surface is from where its solid is, in voxels.
+/// The errors of a picture's surface against the solid, in voxels.
 struct EdgeErrors {
     size_t shown = 0;  ///< pixels that show the solid, as they should
-    size_t edge = 0;   ///< pixels beside an edge between two parts
+    size_t edge = 0;   ///< pixels next to an edge between two parts
     size_t wrong = 0;  ///< pixels that show the solid, or the ground behind it, and shouldn't
     double at_edge = 0, elsewhere = 0;  ///< RMS
 };
 
-/// What a ray meets by the solid's function.
+/// The point where a ray meets the solid's implicit function.
 struct SeenSolid {
     double t = INFINITY;
     glm::dvec3 normal{0};
@@ -80,7 +80,7 @@ class SolidTruth {
         return seen_[size_t(y + 1) * (kPairSize.x + 2) + size_t(x + 1)];
     }
 
-    /// True if a neighbour's surface is turned away from that at (x,y) by more than roundness does.
+    /// True if a neighbour's surface faces away from that at (x,y) by more than curvature explains.
     bool is_at_edge(int x, int y) const {
         for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
             const SeenSolid& beside = at(x + step.x, y + step.y);
@@ -88,7 +88,8 @@ class SolidTruth {
         }
         return false;
     }
-    /// True if the solid's outline, or that of a part before another, is within a pixel.
+    /// True if the solid's outline, or the outline of a part in front of another, is within a
+    /// pixel.
     bool is_at_outline(int x, int y) const {
         for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i)
@@ -96,8 +97,8 @@ class SolidTruth {
         return false;
     }
 
-    /// How far a point that a pixel shows is from the surface, along its normal, in metres. The
-    /// outlines of parts may be off by a tenth of a pixel.
+    /// The distance of a point that a pixel shows from the surface, along its normal, in metres.
+    /// The outlines of parts may be off by a tenth of a pixel.
     double distance(const glm::dvec3& point, const glm::dvec3& normal,
                     const glm::dvec2& pixel) const {
         constexpr double kNear = 0.005, kSlack = 0.1;  // metres, pixels

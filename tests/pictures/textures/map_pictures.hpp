@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far pictures of surfaces with maps are from exact values and from other pictures.
+// The differences of pictures of surfaces with maps from exact values and from other pictures.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,16 +15,16 @@
 
 namespace voxelume {
 
-/// A row of texels, of which the right half is of the second colour.
+/// A row of texels whose right half has the second colour.
 inline oracle::Picture halves(std::array<uint8_t, 3> left, std::array<uint8_t, 3> right) {
     oracle::Picture picture{64, 1, {}, oracle::Beyond::clamp, oracle::Beyond::clamp};
     for (int x = 0; x < 64; ++x) picture.texels.push_back(x < 32 ? left : right);
     return picture;
 }
 
-/// The RMS difference of the pixels from the means of 256 values, in 1/255. `value` gives the
-/// colour at a column and row, nothing beside the surface; pixels that it doesn't fill don't count.
-/// There are to be more than `least` that do.
+/// The RMS difference of the pixels from the means of 256 values, in 1/255. `value` returns the
+/// colour at a column and row, or nothing outside the surface; pixels that the surface doesn't fill
+/// don't count. More than `min` pixels must count.
 template <class Value>
 double rms_of_means(const Image& image, size_t min, const Value& value) {
     double squares = 0;
@@ -50,8 +50,8 @@ double rms_of_means(const Image& image, size_t min, const Value& value) {
     return 255 * std::sqrt(squares / double(3 * pixels));
 }
 
-/// The RMS difference of two pictures in the pixels whose middles `counts`, over the second one's
-/// mean. There are to be more than `least` values.
+/// The RMS difference of two pictures over the pixels whose middles `counts` accepts, divided by
+/// the second picture's mean. More than `min` values must count.
 template <class Counts>
 double relative_rms(const Image& image, const Image& expected, size_t min, const Counts& counts) {
     double squares = 0, sum = 0;
@@ -71,7 +71,7 @@ double relative_rms(const Image& image, const Image& expected, size_t min, const
     return std::sqrt(squares / double(values)) / (sum / double(values));
 }
 
-/// The mean light of a floor under a panel that looks down.
+/// The mean light of a floor under a panel that shines downwards.
 inline double light_on_floor(const Image& image) {
     const Plane<float>& plane = image.planes.at("G");
     return std::accumulate(plane.begin(), plane.end(), 0.0) / double(plane.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sheet or slab with maps, seen aslant above a floor that isn't there unless it is asked for.
+// A sheet or slab with maps, seen at an angle, above a floor that exists only if it is asked for.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -62,8 +62,8 @@ class MappedSheetTest : public FileTest {
     const char* surface_;
 };
 
-/// The place on the front of the sheet, from 0 to 1, that a part of a pixel sees; outside of these
-/// beside it.
+/// The position on the front of the sheet, from 0 to 1, that a part of a pixel sees; values outside
+/// this range lie beside the sheet.
 inline glm::dvec2 place_seen(const Scene& scene, double column, double row) {
     const Observer& o = scene.observer;
     const glm::dvec2 half = half_extent(o.display);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A textured rectangle of 8 x 6 m in the plane y = 0 of its object, as 256 exact bilinear values a
-// pixel show it.
+// A textured rectangle of 8 x 6 m in the plane y = 0 of its object, computed from 256 exact
+// bilinear values per pixel.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace voxelume {
 
 inline constexpr int kEach = 16;  // values of the oracle in each direction of a pixel
 
-/// A picture with large and small patterns and sharp edges, of three different channels.
+/// A picture of large and small patterns with sharp edges, in three different channels.
 inline oracle::Picture picture_of(int width, int height) {
     std::mt19937 random(5);
     std::uniform_int_distribution<int> grain(-24, 24);
@@ -33,7 +33,8 @@ inline oracle::Picture picture_of(int width, int height) {
     return picture;
 }
 
-/// Where a pixel's part looks, by the scene's own words: the way, and for boxes the start.
+/// The ray of a part of a pixel, computed from the scene's values: its direction and, for boxes,
+/// its start.
 struct SheetRay {
     glm::dvec3 from, way;
 };
@@ -49,8 +50,8 @@ inline SheetRay sheet_ray(const Scene& scene, double column, double row) {
     return {o.position, axes * glm::dvec3(at, 1)};
 }
 
-/// The colour that the sheet shows along a ray; negative beside it, or closer than `margin` to its
-/// border.
+/// The colour that the sheet shows along a ray. It is negative outside the sheet, or closer than
+/// `margin` to its border.
 inline glm::dvec3 color_along(const oracle::Picture& picture, const glm::dmat4& object_from_world,
                               const SheetRay& ray, double margin = 0) {
     const glm::dvec3 from(object_from_world * glm::dvec4(ray.from, 1));
@@ -61,8 +62,8 @@ inline glm::dvec3 color_along(const oracle::Picture& picture, const glm::dmat4& 
     return oracle::bilinear(picture, {(at.x + 4) / 8 * 3, 1 - (at.z + 3) / 6 * 2});
 }
 
-/// The root of the mean square of the differences from the oracle, in 1/255, of the pixels that see
-/// nothing but the sheet. With `mirror` the sheet is seen in a mirror at this z.
+/// The root mean square of the differences from the oracle, in 1/255, over the pixels that see
+/// nothing but the sheet. With `mirror`, the sheet is seen in a mirror at this z.
 struct Difference {
     double squares = 0, largest = 0;
     size_t pixels = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The maps of glTF textures where rays meet smooth objects: emission against exact bilinear values,
-// roughness and metalness against materials of these numbers, and the light of panels that glow in
-// parts against panels that end there.
+// roughness and metalness against materials of these numbers, and the light of panels that are
+// emissive in parts against panels that end there.
 #include <gtest/gtest.h>
 
 #include <array>

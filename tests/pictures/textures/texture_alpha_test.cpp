@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alpha of textures where rays meet exact triangles, as glTF files and libraries of OBJ files
-// have it: what is seen through sheets that stand one behind the other, and the light that falls
-// through them.
+// The alpha of textures where rays meet exact triangles, as in glTF files and libraries of OBJ
+// files: the view through sheets that stand one behind another, and the light that falls through
+// them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ double vertex_alpha(double u, double v) {
     return 0.1 + 0.6 * u + 0.2 * v;
 }
 
-/// What a sheet of a mode covers there.
+/// The coverage at a point of a sheet with this alpha mode.
 double covered(const std::string& mode, double u, double v) {
     const double alpha = alpha_at(u, v);
     return mode == "BLEND" ? alpha : mode == "MASK" ? double(alpha >= 0.4) : 1.0;
@@ -169,7 +169,7 @@ double difference(const Image& image, const Expected& expected) {
     return 255 * std::sqrt(squares / (image.width * image.height));
 }
 
-/// What the sheet whose middle is at `middle` covers at a place.
+/// The coverage at a point of the sheet whose middle is at `middle`.
 double sheet_at(const std::string& mode, double x, double y, double middle) {
     const double u = (x - middle + 1) / 2, v = (1 - y) / 2;
     return std::abs(x - middle) > 1 || std::abs(y) > 1 ? 0 : covered(mode, u, v);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The oracle's pictures as images that PNG files are written of.
+// The oracle's pictures as images, which tests write to PNG files.
 #pragma once
 
 #include "runtime/image/image.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of equal values in an array, held against the sphere that the values are of.
+// The surface of equal values in an array, compared with the sphere that the values describe.
 #include <gmock/gmock.h>
 
 #include <cmath>

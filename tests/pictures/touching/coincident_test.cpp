@@ -2,10 +2,9 @@
 // Objects whose exact surfaces coincide: boxes with one top, balls in one place, glass that stands
 // on a table, blocks of glass side by side.
 //
-// Where surfaces coincide, rounding alone says which of them a ray meets first. What has to be
-// shown instead is told by pictures in which nothing coincides: the object that counts is moved by
-// an eighth of a voxel so that it covers the other. The pictures differ in few pixels, next to
-// edges.
+// Where surfaces coincide, rounding alone says which of them a ray meets first. Pictures in which
+// nothing coincides tell what has to be shown instead: the object that counts is moved by an eighth
+// of a voxel so that it covers the other. The pictures differ in few pixels, next to edges.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

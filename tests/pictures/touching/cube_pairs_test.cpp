@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of solids of which one or both are shown as cubes, against the solids' formulas.
+// Pairs of solids, one or both of which are shown as cubes, compared with the solids' formulas.
 //
-// Cubes have no surface of their own that depths could be compared with: they stand around their
-// solid's. So what is shown has to be near the surface of the object that it is said to be, and
-// nothing may be seen through the solids.
+// Cubes have no exact surface that depths could be compared with, because they stand around their
+// solid's surface. So each pixel must lie near the surface of the object that it shows, and nothing
+// may be seen through the solids.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -158,8 +158,8 @@ CubePairErrors cube_pair_errors(const Scene& scene) {
 constexpr double kHalfDiagonal = 0.8661;
 constexpr double kFarthestCube = kHalfDiagonal + 2 * kMaxMapStretch * kHalfDiagonal;
 
-/// A voxel that the surface passes is no cube where its centre lies in none of the model's. A ray
-/// gets no deeper than to the far end of that voxel.
+/// A voxel that the surface passes through is no cube if its centre lies in none of the model's
+/// voxels. A ray gets no deeper than the far end of that voxel.
 constexpr double kDeepestPoint = 2 * kHalfDiagonal;
 
 constexpr std::array<std::array<const char*, 2>, 5> kCubePairs = {{{"cubes", "cubes"},
@@ -227,7 +227,7 @@ Image film_before_wall(const std::string& material, const std::string& wall,
     return render(test_device(), parse_scene(text, "film.json", {}), report);
 }
 
-// The poster is 2 cm before the wall's solid and in its cubes. Rays that come to it aslant have
+// The poster is 2 cm before the wall's solid and in its cubes. Rays that arrive at an angle have
 // been in other cubes before.
 TEST(CubePairs, ShowAPosterWholeThatIsInCubesOfAWall) {
     const std::string poster = R"("shape": "box", "size": [1, 1, 0.02])";

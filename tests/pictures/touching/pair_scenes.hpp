@@ -17,7 +17,8 @@ namespace voxelume {
 
 inline constexpr glm::ivec2 kPairSize(80, 64);
 
-/// A scene of two objects without light, whose images say where surfaces are. Vectors are JSON.
+/// A scene of two objects without light, whose images give the positions of surfaces. Vectors are
+/// JSON.
 inline std::string pair_scene(double voxel, const std::string& models, const std::string& objects) {
     return fmt::format(
         R"({{"voxelume": 1,
@@ -29,7 +30,7 @@ inline std::string pair_scene(double voxel, const std::string& models, const std
         voxel, models, objects, kPairSize.x, kPairSize.y);
 }
 
-/// The unit vector through a pixel, (0.5, 0.5) being the middle of the first.
+/// The unit vector through a pixel; (0.5, 0.5) is the middle of the first pixel.
 inline glm::dvec3 direction_at(const Observer& observer, const glm::dvec2& pixel) {
     const glm::dvec2 at = 2.0 * pixel / glm::dvec2(kPairSize) - 1.0;
     const glm::dvec3 ray(-at.x * std::tan(observer.display.half_angles.x),
@@ -42,7 +43,7 @@ struct SolidPair {
     const char* name;
     const char *first, *second;        ///< keys of the models
     const char *first_at, *second_at;  ///< keys of the objects
-    bool is_smooth = false;            ///< no edges but where they meet
+    bool is_smooth = false;            ///< has no edges except where the two meet
 };
 
 inline constexpr std::array kSolidPairs = {
@@ -69,7 +70,7 @@ inline constexpr std::array kSolidPairs = {
               R"("shape": "ellipsoid", "radii": [0.9, 0.4, 0.6])", R"("turn": [0, 40, 25])",
               R"("turn": [15, 5, 0])"}};
 
-/// The models and the objects of a pair in the world, of which each has a surface.
+/// The models and the objects of a pair in the world; each model has its own surface.
 inline std::array<std::string, 2> pair_text(const SolidPair& pair, const char* first,
                                             const char* second) {
     return {fmt::format(R"("a": {{{}, "surface": "{}"}}, "b": {{{}, "surface": "{}"}})", pair.first,
@@ -110,8 +111,8 @@ inline std::string random_shape(std::mt19937& random) {
     }
 }
 
-/// The minimum and the maximum by which random_map() stretches, and its shift along each axis: what
-/// it maps lies in the world.
+/// The minimum and the maximum factor by which random_map() stretches, and the maximum shift along
+/// each axis: mapped solids stay inside the world.
 inline constexpr double kMinMapStretch = 0.65, kMaxMapStretch = 1.05, kMaxMapShift = 0.2;
 
 /// The matrix of a random affine map that shears, as JSON. Between two turns it stretches, and
@@ -134,7 +135,8 @@ inline std::string random_map(std::mt19937& random) {
     return fmt::format(R"("matrix": [{}])", rows);
 }
 
-/// The models and the objects of two random solids under random maps, of which each has a surface.
+/// The models and the objects of two random solids under random maps; each model has its own
+/// surface.
 inline std::array<std::string, 2> random_pair(std::mt19937& random, const char* first,
                                               const char* second) {
     std::array<std::string, 2> shapes, maps;

@@ -23,7 +23,7 @@
 namespace voxelume {
 namespace {
 
-/// What an image shows that the solids' formulas don't.
+/// The differences between an image and the solids' formulas.
 struct PairErrors {
     size_t shown = 0;      ///< pixels that show a surface
     size_t wrong = 0;      ///< of another object than any that the formulas have within the slack
@@ -77,8 +77,8 @@ class Truth {
     std::vector<oracle::Seen> seen_;
 };
 
-/// True if a surface that a picture lacks at a pixel is that of an edge, which `smooth` solids
-/// round: the distances at the lattice's nodes don't make any field have it.
+/// True if a surface that a picture lacks at a pixel belongs to an edge that `smooth` solids round:
+/// the distances at the lattice's nodes let no field have this edge.
 bool is_rounded(const Scene& scene, const oracle::Seen& seen, const glm::dvec2& pixel) {
     if (seen.object < 0) return false;
     const Object& object = scene.objects[size_t(seen.object)];
@@ -215,7 +215,7 @@ TEST(Pairs, RandomOnesShowTheObjectThatIsThere) {
     fmt::print("{} pairs: {}\n", pairs, worst.words());
 }
 
-/// How far a surface may be from where its solid is.
+/// The maximum distance of a surface from its solid.
 struct SurfaceSlack {
     const char* name;
     double border, rms;  ///< voxels

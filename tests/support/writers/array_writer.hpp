@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes .npy, NRRD and NIfTI files as their specifications have them, for tests of the readers.
+// Writes .npy, NRRD and NIfTI files according to their specifications, for tests of the readers.
 #pragma once
 
 #include <zlib.h>

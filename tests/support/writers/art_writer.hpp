@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes files of voxel editors and games as their specifications have them, for tests of readers.
+// Writes files of voxel editors and games according to their specifications, for tests of readers.
 #pragma once
 
 #include <array>

@@ -97,7 +97,7 @@ inline std::string lighthouse_bytes() {
     place(2, 3, "sea", {{"_t", "0 0 0"}});
     place(4, 0, "rock", {{"_t", "4 4 6"}});
     place(6, 1, "tower", {{"_t", "5 6 34"}});
-    // Four ways to turn a wave, two of them mirrored.
+    // There are four ways to turn a wave, two of them mirrored.
     const char* poses[][2] = {{"-24 -20 1", "4"}, {"-28 12 1", "17"}, {"10 -28 1", "20"},
                               {"-8 -24 1", "4"},  {"30 -14 1", "33"}, {"-20 4 1", "36"},
                               {"28 26 1", "1"},   {"-26 28 1", "49"}};

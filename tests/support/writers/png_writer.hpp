@@ -21,7 +21,7 @@ inline std::string png_chunk(const std::string& name, const std::string& data) {
     return big_endian(uint32_t(data.size())) + body + big_endian(uint32_t(sum));
 }
 
-/// A PNG of such rows of bytes. `color`: 0 grey, 2 RGB, 6 RGBA.
+/// A PNG with these rows of bytes. `color`: 0 grey, 2 RGB, 6 RGBA.
 inline std::string png_of_rows(int width, int bits, int color,
                                const std::vector<std::string>& rows) {
     std::string raw;
