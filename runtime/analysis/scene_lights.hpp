@@ -19,7 +19,8 @@ std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world
 struct PathLight {
     LightRecord record;
     std::optional<LightAreaRecord> area;
-    uint32_t number = 0;  ///< of its random samples: the same whichever other lights shine
+    uint32_t number =
+        0;  ///< number of its sequence of random samples, which doesn't depend on the other lights
 };
 
 /// The lights that a scene lists and its sun, as global light samples them.

@@ -91,7 +91,8 @@ const ImageFormatEntry& format_of(std::string_view ending, const std::string& na
                 image_endings(&ImageFormatEntry::write));
 }
 
-/// Calls `write` with the image that has the channels asked for, and how the format stores it.
+/// Calls `write` with the image of the channels that are asked for, and with the way in which the
+/// format stores them.
 template <class Write>
 auto with_storage(const v1::Image::Implementation& image, const ImageFormatEntry& format,
                   const v1::ImageFileOptions& options, const Write& write) {

@@ -59,7 +59,7 @@ void check_views(const std::vector<Image>& views, const Quilt& quilt) {
                               count);
 }
 
-/// Progress of one view as that of all.
+/// The options with the progress of one view reported as a part of that of all views.
 RenderOptions options_of_view(const RenderOptions& options, int number, int views) {
     RenderOptions of_view = options;
     if (options.progress)

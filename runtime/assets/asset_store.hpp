@@ -49,11 +49,12 @@ class AssetStore {
     /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
     /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
-    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
+    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache has the
+    /// number.
     double winding_of(const Model& model, const glm::dvec3& point);
     /// What the surface that suits a model's mesh file depends on; a morph doesn't count.
     MeshShape shape_of(const Model& model);
-    /// The part of it that takes a sixth of the time.
+    /// The thickness part of shape_of(), which takes a sixth of the time.
     MeshThickness thickness_of(const Model& model);
     /// The surface that a model's file of voxels holds, with the reason. An OpenVDB file has cubes,
     /// and without those a level set. Throws as voxels() does.

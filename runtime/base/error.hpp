@@ -45,7 +45,7 @@ class Error : public std::runtime_error {
     Error(ErrorKind kind, const std::string& sentence)
         : std::runtime_error(sentence), kind_(kind) {}
 
-    /// The sentence of another error's place, which stays its own.
+    /// Makes an error whose sentence already names `place`.
     Error(const SourcePlace& place, ErrorKind kind, const std::string& sentence)
         : std::runtime_error(sentence),
           kind_(kind),

@@ -47,7 +47,7 @@ struct FrameSteps {
 };
 
 struct ScheduleOptions {
-    bool overlap = true;    ///< of one device: a world is built while another is rendered
+    bool overlap = true;    ///< one device builds a world while it renders another
     bool one_each = false;  ///< true if each device renders the one frame of its own index
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
     std::stop_token stop = {};         ///< cancels the run
@@ -63,9 +63,8 @@ struct ScheduleOutcome {
 ///
 /// Each device has a thread, and several devices take frames as they become free, no more than two
 /// for each beyond what is output. One device overlaps frames of one moment each as long as it has
-/// the memory for two worlds; from the first frame on for which it hasn't, frames follow each other
-/// one by one. An error is thrown once the frames before it are output; what is rendered then is
-/// told to stop.
+/// the memory for two worlds; after that, frames follow each other one by one. An error is thrown
+/// once the frames before it are output; frames that are being rendered then are told to stop.
 ScheduleOutcome run_frames(const std::vector<Device>& devices, size_t count,
                            const FrameSteps& steps, ScheduleOptions options);
 

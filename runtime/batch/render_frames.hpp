@@ -22,8 +22,8 @@ namespace voxelume {
 /// frame.
 using BatchProgress = std::function<void(double done, int frame)>;
 
-/// Is told warnings, each about something else: before the first frame those that need no
-/// rendering, after the last one the others. It may throw, which ends the run.
+/// Called with warnings that differ in subject: before the first frame with those that need no
+/// rendering, after the last one with the others. It may throw, which ends the run.
 using BatchWarnings = std::function<void(std::span<const Warning>)>;
 
 /// The image of a frame's samples before others are added to them.
@@ -45,11 +45,12 @@ struct BatchOptions {
     bool volume = false;            ///< the volumetric image of each frame's display
     bool overlap = true;  ///< on one device, two worlds at a time; false: needs less memory
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
-    bool is_part = false;  ///< other runs render the other frames: nothing counts as never shown
+    bool is_part = false;        ///< other runs render the other frames, so no warning says that
+                                 ///< something is never shown
     EarlierImages earlier = {};  ///< empty: images have all samples
     BandSinks bands = {};        ///< empty: images that are larger than memory are refused
     BatchProgress progress = {};
-    BatchWarnings warn = {};    ///< without it nothing is looked for
+    BatchWarnings warn = {};    ///< empty: no warnings are looked for
     std::stop_token stop = {};  ///< cancels the run
 };
 
@@ -64,8 +65,9 @@ struct FrameReport {
 struct FrameResult {
     FrameReport report;
     std::shared_ptr<const Image> image;  ///< null where none is asked for, or `bands` had it
-    std::shared_ptr<BandSink> bands;     ///< who took the image, finished; null: it is whole
-    ShownContent shown;                  ///< what those bands show
+    std::shared_ptr<BandSink>
+        bands;           ///< the finished sink that took the image; null if the image is whole
+    ShownContent shown;  ///< what those bands show
     std::shared_ptr<Volume> volume;  ///< null where none is asked for; its attributes may be set
 };
 
@@ -76,18 +78,18 @@ using FrameOutput = std::function<void(const FrameResult&)>;
 struct BatchOutcome {
     size_t frames_done = 0;     ///< results that the output took
     bool is_cancelled = false;  ///< stopped before all frames were done
-    int bands = 1;              ///< of each image
-    double check_seconds = 0;   ///< finding potentially visible objects, planning, before frame one
+    int bands = 1;              ///< number of bands of each image
+    double check_seconds =
+        0;  ///< seconds of finding potentially visible objects and planning, before the first frame
     /// The frame from which on nothing overlapped, because memory suffices for one world only.
     std::optional<int> one_by_one_from;
 };
 
 /// Renders frames of a scene and hands each to `output`. The bits don't depend on the options.
-///
 /// - One device overlaps frames: it builds the next world while it renders one and `output` takes
-///   another. From the first frame on whose memory doesn't suffice for that, frames follow each
-///   other one by one. Worlds, images and models that later frames show again are retained as long
-///   as memory suffices.
+/// another. If memory doesn't suffice for that at some frame, frames from there on follow each
+/// other one by one. Worlds, images and models that later frames show again are retained as long
+/// as memory suffices.
 /// - Several devices take a frame each, as they become free, and build its world themselves.
 /// - Several devices share the tiles of an image that is the only result of the run.
 /// - Images for which memory doesn't suffice are rendered in bands, in one world, and given to

@@ -20,8 +20,8 @@ class RunWarnings {
     /// Takes note of a rendered frame.
     void add(const FrameResult& result);
 
-    /// Tells of what the frames had, and of what none of them shows, but not of the latter if the
-    /// frames are a part of a run, or the images parts of their frames.
+    /// Passes on the warnings that frames added, and warns of what no frame shows, unless the
+    /// frames are a part of a run or the images parts of their frames.
     void end(const Scene& scene, std::span<const int> frames, bool is_part);
 
   private:

@@ -47,14 +47,15 @@ struct Mesh {
     /// Indices into `textures`, one per group of faces, kNoTexture for a group without one. Empty:
     /// there are no textures.
     std::vector<uint32_t> group_textures;
-    std::vector<std::string> material_libraries = {};  ///< what OBJ's mtllib statements name, once
+    std::vector<std::string> material_libraries =
+        {};  ///< each name in OBJ's mtllib statements, once
     /// Names of groups whose materials none of the libraries has, and sentences on libraries that
     /// can't be read.
     std::vector<std::string> missing_materials = {}, library_faults = {};
-    std::string texture = {};  ///< of PLY's first comment TextureFile
-    /// What isn't shown of the file, a sentence each without its full stop.
+    std::string texture = {};  ///< name in PLY's first comment TextureFile
+    /// Sentences, each without its full stop, on what isn't shown of the file.
     std::vector<std::string> notes = {};
-    /// What was assumed where the file doesn't say it, as sentences for descriptions alone.
+    /// Sentences, for descriptions alone, on what was assumed where the file doesn't say it.
     std::vector<std::string> assumptions = {};
 };
 

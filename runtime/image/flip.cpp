@@ -118,7 +118,8 @@ struct Sensitivity {
     double a, b;
 };
 
-/// What the eye sees of an opponent channel: the channel filtered by the eye's two sensitivities.
+/// What the eye sees of an opponent channel: the channel filtered by two Gaussians of its
+/// sensitivity.
 ColorPlane seen(const ColorPlane& plane, std::array<Sensitivity, 2> both,
                 double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi, kWidest = 0.04;

@@ -59,7 +59,7 @@ struct v1::Device::Implementation {
 
 struct v1::Scene::Implementation {
     voxelume::Scene scene;
-    std::string hash;                       ///< of the document that it was read from
+    std::string hash;                       ///< hash of the document that the scene was read from
     std::shared_ptr<api::ReadAssets> read;  ///< shared by scenes that differ in settings alone
 };
 
@@ -100,7 +100,7 @@ inline const Volume& inside(const v1::Volume& volume) {
     return *volume.implementation().volume;
 }
 
-/// Throws Error::usage for no device.
+/// The devices inside these handles. Throws Error::usage if there are none.
 std::vector<Device> inside(const std::vector<v1::Device>& devices);
 
 }  // namespace api

@@ -26,7 +26,7 @@ size_t colors_in(const VoxelModel& model) {
     return colors.size();
 }
 
-/// What was assumed, with what the colours tell.
+/// Notes on what was assumed of the array, and on its colours.
 std::vector<std::string> notes_of(const CellArray& array) {
     std::vector<std::string> notes = array.notes;
     if (!array.is_color()) return notes;

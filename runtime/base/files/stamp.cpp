@@ -25,7 +25,7 @@ constexpr size_t kStampHeader = size_t{1} << 20;  // stamps lie in the headers o
 constexpr std::string_view kPngStart = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kTextChunk = "tEXt";
 
-/// The CRC-32 of PNG's chunks, bit by bit: it is that of a hundred bytes.
+/// The CRC-32 of PNG's chunks, bit by bit: its input is about a hundred bytes.
 uint32_t crc_of(std::string_view bytes) {
     uint32_t sum = ~0u;
     for (const char byte : bytes) {
