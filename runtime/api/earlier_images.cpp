@@ -18,8 +18,7 @@ namespace voxelume::api {
 namespace {
 
 // The texts in an image's header that tell of its samples.
-constexpr const char* kSamples =
-    "samples";  ///< samples of each pixel; with a target of noise their maximum
+constexpr const char* kSamples = "samples";  ///< per pixel; with a target of noise the maximum
 constexpr const char* kNoiseTarget = "noise target";
 constexpr const char* kTimeTarget = "time target";
 

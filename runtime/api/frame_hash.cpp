@@ -29,11 +29,9 @@ namespace {
 
 /// The functions that add the hashes of files.
 struct FileHashes {
-    std::function<void(const std::filesystem::path&)>
-        add_mesh;  ///< adds a mesh with all files that it leads to
-    std::function<void(const std::filesystem::path&)>
-        add_voxels;  ///< adds a file of voxels with all files that it leads to
-    std::function<void(const Model&)> add_given;  ///< adds voxels in memory
+    std::function<void(const std::filesystem::path&)> add_mesh;    ///< with its companion files
+    std::function<void(const std::filesystem::path&)> add_voxels;  ///< with its companion files
+    std::function<void(const Model&)> add_given;                   ///< voxels in memory
 };
 
 /// Adds the files whose contents a scene shows, at the frame that it is at.

@@ -26,8 +26,7 @@ namespace {
 /// Throws Error::input for a file whose name isn't that of a scene and which doesn't begin as one.
 void refuse_other_files(const std::filesystem::path& file) {
     std::string ending = ending_of(file);
-    if (ending == ".gz")
-        ending = ending_of(file.stem()) + ending;  // ".json.gz", unlike other ".gz"
+    if (ending == ".gz") ending = ending_of(file.stem()) + ending;  // such as .nii.gz
     if (ending.empty() || ending == ".json" || !std::filesystem::is_regular_file(file)) return;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) return;  // reading reports the reason

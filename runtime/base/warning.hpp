@@ -43,8 +43,7 @@ struct Warning {
     WarningKind kind = WarningKind::outside_world;
     SourcePlace where;
     std::string text;
-    std::string file =
-        {};  ///< the file that the warning is about, where files of other folders may have its text
+    std::string file = {};  ///< the subject's file, where files of other folders may share its text
 };
 
 /// True if both are about the same, whatever numbers their texts have.

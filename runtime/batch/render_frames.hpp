@@ -65,9 +65,8 @@ struct FrameReport {
 struct FrameResult {
     FrameReport report;
     std::shared_ptr<const Image> image;  ///< null where none is asked for, or `bands` had it
-    std::shared_ptr<BandSink>
-        bands;           ///< the finished sink that took the image; null if the image is whole
-    ShownContent shown;  ///< what those bands show
+    std::shared_ptr<BandSink> bands;     ///< sink that took the image, finished; null: it is whole
+    ShownContent shown;                  ///< what those bands show
     std::shared_ptr<Volume> volume;  ///< null where none is asked for; its attributes may be set
 };
 
@@ -79,17 +78,17 @@ struct BatchOutcome {
     size_t frames_done = 0;     ///< results that the output took
     bool is_cancelled = false;  ///< stopped before all frames were done
     int bands = 1;              ///< number of bands of each image
-    double check_seconds =
-        0;  ///< seconds of finding potentially visible objects and planning, before the first frame
+    double check_seconds = 0;   ///< seconds of culling and planning before the first frame
     /// The frame from which on nothing overlapped, because memory suffices for one world only.
     std::optional<int> one_by_one_from;
 };
 
 /// Renders frames of a scene and hands each to `output`. The bits don't depend on the options.
+///
 /// - One device overlaps frames: it builds the next world while it renders one and `output` takes
-/// another. If memory doesn't suffice for that at some frame, frames from there on follow each
-/// other one by one. Worlds, images and models that later frames show again are retained as long
-/// as memory suffices.
+///   another. From the first frame on whose memory doesn't suffice for that, frames follow each
+///   other one by one. Worlds, images and models that later frames show again are retained as long
+///   as memory suffices.
 /// - Several devices take a frame each, as they become free, and build its world themselves.
 /// - Several devices share the tiles of an image that is the only result of the run.
 /// - Images for which memory doesn't suffice are rendered in bands, in one world, and given to

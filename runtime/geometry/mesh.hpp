@@ -47,8 +47,7 @@ struct Mesh {
     /// Indices into `textures`, one per group of faces, kNoTexture for a group without one. Empty:
     /// there are no textures.
     std::vector<uint32_t> group_textures;
-    std::vector<std::string> material_libraries =
-        {};  ///< each name in OBJ's mtllib statements, once
+    std::vector<std::string> material_libraries = {};  ///< names of OBJ's mtllib, each once
     /// Names of groups whose materials none of the libraries has, and sentences on libraries that
     /// can't be read.
     std::vector<std::string> missing_materials = {}, library_faults = {};

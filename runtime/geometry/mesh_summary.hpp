@@ -16,10 +16,9 @@ namespace voxelume {
 
 /// The amounts of a mesh's colours and textures.
 struct MeshPaint {
-    uint64_t colors = 0;  ///< number of linear colours
-    bool has_corner_colors =
-        false;            ///< corners have indices of colours; otherwise vertices have one each
-    uint64_t texels = 0;  ///< number of texels of all levels of all textures
+    uint64_t colors = 0;             ///< number of linear colours
+    bool has_corner_colors = false;  ///< corners index colours; otherwise vertices have one each
+    uint64_t texels = 0;             ///< number of texels of all levels of all textures
     uint64_t textures = 0;
     uint64_t uvs = 0;             ///< number of positions on textures, if there are textures
     bool has_corner_uvs = false;  ///< corners have indices of such positions

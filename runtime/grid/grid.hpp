@@ -102,10 +102,9 @@ struct Instance {
 struct InstanceSet {
     std::vector<InstanceModel> models;
     std::vector<Instance> list;
-    std::vector<size_t>
-        counted;  ///< for worlds that are only counted: Pyramid::records() of each model
-    float origin_offset = 0;  ///< PyramidShape::origin_offset
-    VoxelBox box;             ///< around all instances at their present positions
+    std::vector<size_t> counted;  ///< in counted worlds: Pyramid::records() of each model
+    float origin_offset = 0;      ///< PyramidShape::origin_offset
+    VoxelBox box;                 ///< around all instances at their present positions
     Buffer<InstanceRecord> records;
     Buffer<InstanceNode> nodes;  ///< the tree over the instances' boxes; the root is the first node
     Buffer<uint32_t> materials;
@@ -163,8 +162,7 @@ struct Pyramid {
     Buffer<uint32_t> solids;
     InstanceSet instances;
     SourceMeshes sources;
-    Buffer<float>
-        cube_steps;  ///< nine for each of the scene's objects: runtime/analysis/cube_steps.hpp
+    Buffer<float> cube_steps;  ///< nine per scene object: runtime/analysis/cube_steps.hpp
     Buffer<uint32_t> order;  ///< coincidence_order() of each of the scene's objects; empty where no
                              ///< two exact surfaces can coincide
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if

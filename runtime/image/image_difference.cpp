@@ -15,8 +15,7 @@ namespace voxelume {
 
 namespace {
 
-constexpr float kUnmatched =
-    65504.0f;  // stands for light that isn't finite, which couldn't be written
+constexpr float kUnmatched = 65504.0f;  // for values that aren't finite
 
 bool are_equal(float a, float b) {
     return a == b || (std::isnan(a) && std::isnan(b));

@@ -16,8 +16,7 @@ struct EdgeTurn {
     /// Metres across the edge in which the surface turns by kSharpAngle; 0 if it does so at the
     /// edge itself.
     double width = std::numeric_limits<double>::infinity();
-    double share =
-        0;  ///< part of a whole turn; the shares of the edges across a rounded one add up to 1
+    double share = 0;  ///< of the turn; all edges across a rounded one together have 1
 };
 
 /// Follows the surface from the middle of an edge to both sides, in the plane that the edge is

@@ -108,8 +108,7 @@ MeshEdges::MeshEdges(const Mesh& mesh)
         if (here.size() > 2) continue;
         for (const Side& side : all)
             across_[side.number] = here[side.is_up == here[0].is_up ? 1 : 0].number;
-        across_[here[0].number] =
-            here[1].number;  // both sides have one direction where one face looks inwards
+        across_[here[0].number] = here[1].number;  // alike if one looks inwards
         across_[here[1].number] = here[0].number;
     }
 }
