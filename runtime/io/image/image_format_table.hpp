@@ -18,7 +18,7 @@
 
 namespace voxelume {
 
-/// How an image is written. A format takes of it what it can say.
+/// How an image is written. A format uses those options that it supports.
 struct ImageStorage {
     PngOptions png;                                      ///< of formats for screens
     ExrStorage exr;                                      ///< of formats that hold channels

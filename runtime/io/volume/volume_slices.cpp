@@ -36,7 +36,7 @@ Image make_slice(const Volume& volume, VolumeRows& rows) {
     return image;
 }
 
-/// The slices that were written, which go again if the stack isn't completed.
+/// The slices that were written, which are deleted if the stack isn't completed.
 class WrittenSlices {
   public:
     WrittenSlices() = default;
