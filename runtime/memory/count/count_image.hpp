@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene + world on a counting device -> what rendering its flat image takes there.
+// scene + world on a counting device -> the memory for its flat image.
 #pragma once
 
 #include "runtime/scene/scene.hpp"
@@ -30,12 +30,12 @@ struct ImageMemory {
     Buffer<uint32_t> chosen_pixels;  ///< of its other samples
 };
 
-/// All that Renderer's image of a world takes, without the world. `depth` is that of the arrays for
+/// All buffers of Renderer's image of a world, without the world. `depth` is that of the arrays for
 /// reflections and refractions.
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth);
 
-/// The small tables that light is computed with.
+/// The small tables for light.
 Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
 
 /// The buffers of the dilated occupancy of a world.

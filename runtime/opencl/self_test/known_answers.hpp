@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The questions of a driver's self-test with their answers. These were computed in exact
-// arithmetic, not by a driver; tests/opencl/self_test_test.cpp computes them once more, in another
-// way.
+// The questions of a driver's self-test with their answers. The answers were computed in exact
+// arithmetic, not by a driver; tests/opencl/self_test_test.cpp computes them again in another way.
 #pragma once
 
 #include <array>
