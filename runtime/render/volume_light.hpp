@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rays of a display -> their light. Both layouts of volumetric images share it.
+// rays of a display -> their light, for both layouts of volumetric images.
 #pragma once
 
 #include <optional>
