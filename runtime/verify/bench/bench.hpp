@@ -50,7 +50,7 @@ struct BenchRow {
     int resolution = 0;     ///< voxels per metre
     double voxel_size = 0;  ///< metres
     double min_radius = 0;  ///< minimum radius of curvature, metres; 0 for edges, or if unknown
-    BenchTimes seconds;     ///< times of the repeat with the least total
+    BenchTimes seconds;     ///< times of the repeat with the smallest total
     uint64_t voxels = 0;
     uint64_t world_bytes = 0;  ///< bytes of the world's pyramid
     uint64_t peak_bytes = 0;   ///< maximum of bytes on the device at once
