@@ -168,7 +168,8 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
     return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});
 }
 
-/// True if no other grid of the model was asked for, so that this one is outdated.
+/// True if a grid belongs to a model of which no grid was asked for: it is left from earlier
+/// frames.
 bool GridCache::is_old(const Model& model, const Source& source) const {
     const std::optional<Model> part = source.model.is_thin_part ? thin_part_of(model) : model;
     if (!part) return false;

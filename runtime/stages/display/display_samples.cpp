@@ -18,7 +18,8 @@ int log2_of_places(uint32_t samples) {
     return log2;
 }
 
-/// The offset of a voxel's shift for sample `i`: a multiple of the golden ratio.
+/// The offset that sample `i` adds to a voxel's shift: the fraction of a multiple of the golden
+/// ratio.
 float turn_of(uint32_t i) {
     constexpr double kGolden = 0.61803398874989485;
     return float(kGolden * i - std::floor(kGolden * i));

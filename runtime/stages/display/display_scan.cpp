@@ -68,8 +68,9 @@ VoxelBox box_of_objects(const Pyramid& world) {
     return all;
 }
 
-/// The range of numbers of the lines that meet a box of the world, across one axis of the lattice,
-/// with `count` lines along it, `parts` in a voxel. `first` is above `last` if there are none.
+/// The range of numbers of the lines that meet a box of the world, across one axis of the lattice.
+/// A voxel has `parts` parts along the axis, and the lattice `count`. `first` is above `last` if no
+/// line meets the box.
 LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& box) {
     const glm::dvec3 along(row.x, row.y, row.z);
     double minimum = double(row.w), maximum = minimum;

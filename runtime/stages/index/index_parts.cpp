@@ -16,8 +16,8 @@ struct Chains {
     std::vector<uint32_t> first{0}, entries;
 };
 
-/// True if a field is the first in its bracket, so that its own link doesn't matter and later
-/// fields are joined to it.
+/// True if a field is the first in its bracket. It can't be left out then, because later fields are
+/// joined to it.
 bool opens_bracket(std::span<const PlacedField> fields, size_t i) {
     if (i == 0) return true;
     const std::vector<FieldBracket>&before = fields[i - 1].place.brackets,

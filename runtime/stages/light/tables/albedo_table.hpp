@@ -41,7 +41,7 @@ double width_of(double roughness);
 AlbedoTable albedo_table(double width);
 
 /// The share of light that facets return after several reflections, per share that they don't
-/// return at once. They reflect these shares with the reflectance straight on and along the surface
+/// return at once. The facets reflect `reflectance` straight on and `grazing` along the surface
 /// (Kulla & Conty 2017).
 double multiple_share(double reflectance, double missing, double grazing = 1);
 
