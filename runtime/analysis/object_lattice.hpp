@@ -56,7 +56,7 @@ class ObjectLattices {
 
     const Scene& scene_;
     AssetStore& meshes_;
-    std::vector<uint32_t> copies_;  ///< of each model: objects in the world
+    std::vector<uint32_t> copies_;  ///< number of each model's objects in the world
 };
 
 /// True for an object whose file has a field too fine to be resampled into the world.

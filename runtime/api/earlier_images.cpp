@@ -77,7 +77,7 @@ std::optional<Number> number_in(const ExrHeader& header, const char* attribute) 
     return number;
 }
 
-/// How an image's file says that it was sampled.
+/// The sampling of an image, as its file's header gives it.
 RenderSettings sampling_in(const std::filesystem::path& file) {
     const ExrHeader header = read_exr_header(file);
     RenderSettings render;

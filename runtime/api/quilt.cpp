@@ -66,7 +66,7 @@ RenderOptions options_of_view(const RenderOptions& options, int number, int view
         of_view.progress = [&options, number, views](double done, int frame) {
             options.progress((number + done) / views, frame);
         };
-    if (number > 0) of_view.warn = {};  // which would say the same
+    if (number > 0) of_view.warn = {};  // other views would repeat the warnings
     return of_view;
 }
 

@@ -49,7 +49,7 @@ api::Attributes attributes_of(const Scene& scene, int frame) {
     return attributes;
 }
 
-/// What a job asks for in any of its frames.
+/// The results that a job asks for in any of its frames.
 struct Wanted {
     bool images = false, volumes = false;  ///< in memory or as files
     v1::Channels channels;

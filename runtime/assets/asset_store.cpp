@@ -68,7 +68,7 @@ const Mesh& AssetStore::mesh(const std::filesystem::path& path, const FileMap& m
     if (mesh) return *mesh;
     const LoadTimer timer(load_seconds_);
     if (!map.is_identity() && file.mesh) {
-        // What was read to measure the file is moved instead of read again or copied.
+        // A mesh that was read to measure the file is moved instead of read again or copied.
         mesh = std::move(file.mesh);
         file.mesh.reset();
     } else {

@@ -45,7 +45,7 @@ uint64_t process_limit(int resource) {
     return limit.rlim_cur;
 }
 
-/// What the machine and the system allow; doesn't change while a program runs.
+/// The memory that the machine and the system allow; doesn't change while a program runs.
 uint64_t allowed_memory() {
     const uint64_t machine = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
     return std::min({machine, control_group_memory("/proc/self/cgroup", "/sys/fs/cgroup"),

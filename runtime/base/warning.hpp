@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// What a warning is about, in the order of v1::WarningKind.
+/// The subject of a warning, in the order of v1::WarningKind.
 enum class WarningKind : uint8_t {
     outside_world,        ///< an object of which nothing can lie in the world
     no_voxels,            ///< an object that has no voxels

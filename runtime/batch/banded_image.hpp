@@ -48,7 +48,7 @@ class BandedImage {
     /// Ends the image early: devices take no further bands and drop the one that they have.
     void close();
 
-    /// What the bands show together.
+    /// The content of all bands together.
     const ShownContent& shown() const { return shown_; }
 
   private:

@@ -16,7 +16,7 @@ namespace voxelume {
 /// Hands a rendered frame over.
 using OutputStep = std::function<void()>;
 
-/// What a device made of a frame.
+/// The result of a device for a frame.
 struct RenderedFrame {
     OutputStep output;
     std::exception_ptr error;  ///< thrown instead of an output

@@ -10,7 +10,7 @@
 
 namespace voxelume {
 
-/// What frames are made of.
+/// The sources of frames.
 struct FrameSource {
     const Scene& scene;
     ImageBands bands;              ///< the bands in which images are rendered

@@ -15,18 +15,19 @@
 namespace voxelume {
 namespace {
 
-/// How each device takes its frames.
+/// The way in which each device takes its frames.
 enum class Mode {
     one_each,    ///< only the frame that has the device's index
     one_by_one,  ///< one after another
-    overlapped   ///< it builds the next frame's world, on a queue of its own, while one is rendered
+    overlapped   ///< the device builds the next frame's world, on a queue of its own, while one is
+                 ///< rendered
 };
 
-/// What the devices of a run share.
+/// The state that the devices of a run share.
 struct Run {
     const FrameSteps& steps;
     Mode mode;
-    size_t count;  ///< of frames
+    size_t count;  ///< number of frames
     FrameQueue queue;
     std::mutex scenes = {};                      ///< held while a scene is made
     std::optional<size_t> one_by_one_from = {};  ///< as in the outcome

@@ -30,7 +30,7 @@ class RunWarnings {
     void add_light_warning(const Scene& scene);
 
     std::vector<Warning> warnings_;
-    std::vector<SourcePlace> lost_;  ///< of objects that became no voxels in some frame
+    std::vector<SourcePlace> lost_;  ///< places of objects that had no voxels in some frame
     size_t told_ = 0;                ///< number of the first warnings, which `warn_` knows
     ModelCache cache_;
     BatchWarnings warn_;

@@ -27,8 +27,9 @@ constexpr size_t kMaxCrossings = size_t{1} << 22;
 /// The position of a line in its square, off the middle: few meshes have edges there.
 constexpr double kOffset = 0.4142135623730950;
 
-/// Where a mesh's vertices lie between the lines along each axis: twice a line's number for those
-/// on it, one more for those behind it. Most triangles of large meshes lie between the same lines.
+/// The positions of a mesh's vertices relative to the lines along each axis: twice a line's number
+/// for vertices on it, one more for those behind it. Most triangles of large meshes lie between the
+/// same lines.
 class Places {
   public:
     Places(const Mesh& mesh, const Bounds& box, const glm::ivec3& lines) {

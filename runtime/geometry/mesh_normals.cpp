@@ -58,7 +58,7 @@ std::vector<CornerPlace> corners_by_position(const Mesh& mesh) {
 
 /// A face's normal and its angle at one of its corners.
 struct Wedge {
-    glm::dvec3 normal;  ///< of unit length, or 0
+    glm::dvec3 normal;  ///< unit vector, or 0
     double angle = 0;   ///< radians
     uint32_t corner = 0;
 };

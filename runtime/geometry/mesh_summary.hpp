@@ -30,7 +30,7 @@ struct MeshPaint {
 
 struct MeshSummary {
     uint64_t triangles = 0;
-    uint64_t strokes = 0;  ///< those that are points or lines
+    uint64_t strokes = 0;  ///< number of those that are points or lines
     Bounds surface;        ///< the box around the triangles, metres
     Bounds vertices;       ///< box around all positions, those that no triangle uses included
     SurfaceArea area;      ///< in the mesh's own space

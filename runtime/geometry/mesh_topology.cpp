@@ -39,7 +39,7 @@ struct DirectedEdge {
 
 /// An edge by the number of the triangle's corner that it begins at, over all triangles.
 struct NumberedEdge {
-    uint64_t hash;  ///< of both positions, in either order
+    uint64_t hash;  ///< hash of both positions, in either order
     uint64_t corner;
     bool is_forward;  ///< from the position whose hash is smaller
 };

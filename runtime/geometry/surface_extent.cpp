@@ -104,7 +104,7 @@ uint64_t corner_hash(const std::vector<uint64_t>& places, const glm::uvec3& tria
     return (places[triangle.x] + places[triangle.y] + places[triangle.z]) * 0x9E3779B97F4A7C15u;
 }
 
-/// What a triangle adds to an area.
+/// The contribution of a triangle to an area.
 struct TriangleArea {
     glm::dvec3 shadows;
     double total;

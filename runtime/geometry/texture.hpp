@@ -14,7 +14,7 @@ namespace voxelume {
 /// An entry of Mesh::group_textures for a group without a texture.
 inline constexpr uint32_t kNoTexture = 0xFFFFFFFFu;
 
-/// How a texture continues outside of its image; the numbers are those of the kernel.
+/// The continuation of a texture outside of its image; the numbers are those of the kernel.
 enum class TextureWrap : uint8_t { repeat, mirror, clamp };
 
 /// An image and its levels for distant views, each of half the size of the one before.
@@ -63,7 +63,7 @@ struct TextureMap {
 struct Texture {
     std::shared_ptr<const TextureImage> image;  ///< never null
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    uint32_t alpha = kAlphaOpaque;  ///< what the texels' alpha means
+    uint32_t alpha = kAlphaOpaque;  ///< meaning of the texels' alpha
     std::array<TextureMap, kMapCount> maps{};
     bool is_of_vertices = false;  ///< no picture: it has the alpha of vertices
 

@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// How a field's distances are joined to those before it: by the minimum (`least`) or maximum
-/// (`largest`) of the two; kernels/shared/field_place.h has the numbers.
+/// The operation that joins a field's distances with those before it: the minimum (`least`) or
+/// maximum (`largest`) of the two; kernels/shared/field_place.h has the numbers.
 enum class FieldLink : uint8_t { none, least, largest };
 
 /// The depth to which the brackets of a formula may be nested.

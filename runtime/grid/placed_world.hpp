@@ -20,7 +20,7 @@ struct PlacedField {
     uint64_t version = 0;       ///< differs between any two fields that aren't the same
 };
 
-/// What `index` makes a pyramid of.
+/// The input of `index`.
 struct PlacedWorld {
     BrickGrid voxels;                 ///< voxels of all objects but those of `fields`
     std::vector<PlacedField> fields;  ///< fields of several objects never merge; the first in the

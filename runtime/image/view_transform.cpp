@@ -61,7 +61,7 @@ class CurveTable {
     }
 
     static constexpr uint32_t kShift = 16;
-    static constexpr uint32_t kFirst = 0x3900;  ///< of floats: 2^-13, below the darkest light
+    static constexpr uint32_t kFirst = 0x3900;  ///< bits of 2^-13, below the darkest light
     static constexpr uint32_t kEntries = 0x4200 - kFirst;  ///< up to 2^5
     std::array<float, kEntries> values_{};
 };

@@ -34,7 +34,7 @@ struct Contents {
     std::vector<std::string> models;     ///< members
     std::vector<std::string> objects;    ///< items: `{...}`
     std::vector<std::string> tracks;     ///< items; none: nothing moves
-    int frames = 1;                      ///< of the animation
+    int frames = 1;                      ///< frames of the animation
     double fps = 24;
     FileObserver observer;
     ViewFrom from;                         ///< direction of other observers, who see all of it
@@ -45,7 +45,7 @@ struct Contents {
     /// If there are more emissive objects, pictures are in global light.
     size_t max_locally_emissive = 16;
     Bounds box;                ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};  ///< of the world, metres
+    glm::dvec3 voxel_size{0};  ///< voxels of the world, metres
     glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
 };
 

@@ -50,7 +50,7 @@ GltfClip clip_of(const GltfFile& gltf, const std::string& wanted) {
 /// A model, which is written when all objects that show it are known.
 struct MeshModel {
     std::string name, surface;  ///< the latter as members
-    int number = 0;             ///< of the mesh in the file
+    int number = 0;             ///< number of the mesh in the file
     double stretch = 0;         ///< largest scale of its points or of what moves; 0: none
     GltfMorph morph;
 };

@@ -16,7 +16,7 @@ struct GltfMorph {
     static constexpr int kMesh = -1, kNobody = -2;
     int owner = kNobody;              ///< number of the node that has the weights, or one of these
     std::vector<double> weights;      ///< empty: the mesh has no targets, or all weights are 0
-    const Keyframes* keys = nullptr;  ///< of a clip; times are seconds
+    const Keyframes* keys = nullptr;  ///< keys of a clip; times are seconds
     int skin = -1;                    ///< number in the file; -1: none
     std::string clip;                 ///< clip that moves the skin's joints; empty if none does
 };

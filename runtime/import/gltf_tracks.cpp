@@ -50,7 +50,7 @@ std::string factor_members(const Factors& factors, const std::array<const GltfTr
 
 /// A step of the path from the world to an object.
 struct Link {
-    int node = -1;  ///< that has tracks; -1: a matrix
+    int node = -1;  ///< node with tracks; -1: a matrix
     glm::dmat4 matrix{1};
 };
 

@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kFilledShare = 0.92;  // of the image's width or height: shadows need room, too
+constexpr double kFilledShare = 0.92;  // of the image: shadows need room, too
 constexpr int kSamples = 4;
 constexpr int kGlobalSamples = 64;
 constexpr double kAmbientInside = 0.15;

@@ -32,7 +32,7 @@ struct FarLight {
     const char* name;
     glm::dvec3 towards;  ///< unit vector from the scene
     glm::dvec3 color;
-    double irradiance;  ///< of a plane that faces it
+    double irradiance;  ///< irradiance of a plane that faces the light
     double spread;      ///< degrees
     int samples;
 };

@@ -16,7 +16,7 @@ namespace {
 
 // Radiance and irradiance of a strength of 1, measured in a picture of MagicaVoxel's.
 constexpr double kStrength = 1.3;
-constexpr double kSunSine = 0.55;     // of half the angle that a sun of area 1 fills
+constexpr double kSunSine = 0.55;     // sine of half the angle that a sun of area 1 fills
 constexpr double kFogDensity = 0.05;  // absorption per voxel of the thickest fog
 
 /// The axes X_E, up and backwards of a camera, with Y up.

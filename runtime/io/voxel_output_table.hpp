@@ -13,7 +13,7 @@ namespace voxelume {
 
 /// One format. A new format is a row of the table and the function that its row names.
 struct VoxelOutputFormat {
-    std::string_view ending;  ///< of file names
+    std::string_view ending;  ///< ending of file names
     /// Writes cubes; null for formats that also hold surfaces, which VoxelExport writes.
     WriterNotes (*write)(const std::filesystem::path&, const CubeList&);
     bool keeps_edges;      ///< voxels may have edges of different lengths

@@ -89,7 +89,7 @@ CountedInstances CountedGrids::instances() {
 }
 
 std::vector<PlacedObject> CountedGrids::placed() {
-    std::vector<SharedGrid> shown;  // they stay in grids_, too
+    std::vector<SharedGrid> shown;  // the grids stay in grids_, too
     return placed_objects(
         scene_, meshes_, objects_.boxes(),
         [this](const Object& object, const Model& model, const ObjectLattice& lattice) {

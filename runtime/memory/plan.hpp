@@ -37,12 +37,12 @@ struct ScenePlan {
     double index_bytes = 0;
     double image_bytes = 0;
     double volume_bytes = 0;  ///< for the display's volumetric image, instead of image_bytes
-    double shown_bytes = 0;   ///< of those two, for what the scene wants
+    double shown_bytes = 0;   ///< the larger of the wanted ones of these two
 
     double world_bytes = 0;  ///< bytes of the pyramid, part of image_bytes and volume_bytes
     double dilated_occupancy_bytes =
         0;  ///< of the grid that beams of rays are sent through, part of image_bytes
-    ForeseenImage foreseen;  ///< what the image's kernels will be
+    ForeseenImage foreseen;  ///< the expected kernels of the image
     RayBytes rays;           ///< their maximum is part of image_bytes
     DensityPlan medium;      ///< part of image_bytes
     double host_bytes = 0;   ///< tables, meshes, emissive objects and the image in main memory

@@ -83,7 +83,7 @@ bool is_number(std::string_view element) {
 struct Kernel::Made {
     std::string label;  ///< its program's
     std::once_flag once;
-    std::string key;                         ///< of `build`
+    std::string key;                         ///< key of `build`
     std::shared_future<BuiltProgram> build;  ///< where it isn't ready
     cl::Program program;
     cl::Kernel kernel;

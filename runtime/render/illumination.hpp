@@ -110,7 +110,7 @@ class Illumination {
     std::vector<PathLight> lights_;
     EmitterTable emitters_;  ///< only for features with `emitters`
     PathSampling sampling_{};
-    std::vector<LightBeams> beams_;  ///< those of each light; empty if no beams are sent
+    std::vector<LightBeams> beams_;  ///< beams of each light; empty if no beams are sent
     uint32_t max_rays_;
     size_t max_depth_;
     TraceStage trace_;

@@ -30,7 +30,7 @@ struct RenderReport {
     uint64_t voxels = 0;       ///< surface voxels in the world's pyramid
     uint64_t world_bytes = 0;  ///< bytes of the pyramid on the device
     uint64_t sight_rays = 0;
-    uint64_t contrasting_pixels = 0;  ///< of an adaptive image: those that got all samples
+    uint64_t contrasting_pixels = 0;  ///< pixels of an adaptive image that got all samples
     uint64_t beams = 0;               ///< number sent, each for 16 sight rays; 0 if they don't pay
     uint64_t clear_beams = 0;    ///< number of those that meet nothing: their rays ended at once
     uint64_t display_lines = 0;  ///< probe lines along a display's lattice
@@ -76,7 +76,7 @@ class Renderer {
     struct Tiles {
         TileShare& share;
         std::vector<TileRange>& taken;  ///< the tiles that it rendered
-        double weight = 1;              ///< of this image's work, in the share's progress
+        double weight = 1;              ///< part of this image in the share's progress
         /// The pixels that tiles consist of, 16 each; empty: squares of 4 x 4 pixels.
         std::span<const uint32_t> pixels{};
     };
@@ -91,7 +91,7 @@ class Renderer {
         uint64_t world = 0;
         Observer observer;
         RenderSettings settings;
-        Features features;            ///< those that hits depend on
+        Features features;            ///< features on which hits depend
         std::vector<bool> transmits;  ///< for each material
         friend bool operator==(const View&, const View&) = default;
     };
@@ -120,7 +120,7 @@ class Renderer {
     struct WorldDilation {
         uint64_t world = 0;
         DilatedOccupancy dilated_occupancy;
-        std::vector<LightBeams> light_beams;  ///< those of the last frame's lights
+        std::vector<LightBeams> light_beams;  ///< beams of the last frame's lights
     };
 
     static View view_of(const Scene& scene, const BuiltWorld& world, const Features& features);
@@ -162,7 +162,7 @@ class Renderer {
     RenderSettings image_settings_;  ///< with moments: those of the image, also in its passes
     std::optional<size_t> pass_;     ///< with moments: the number of the pass that is rendered
     bool has_passes_ = false;  ///< hits are retained until the passes of the light are rendered
-    const Renderer* lender_ = nullptr;  ///< of a pass: the renderer with the image's hits
+    const Renderer* lender_ = nullptr;  ///< in a pass: the renderer with the image's hits
     std::optional<Scene> scene_;        ///< the scene whose image is retained
     uint64_t world_ = 0;                ///< the version of its world
     std::shared_ptr<const Image> image_;

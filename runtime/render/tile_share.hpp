@@ -53,7 +53,7 @@ class TileShare {
     void done(const TileRange& range) { add_work(range.count * weight_); }
     /// Reports that work is done or not needed: 1 is a tile with all of its weights.
     void add_work(double tiles);
-    double weight() const { return weight_; }  ///< of a tile's work
+    double weight() const { return weight_; }  ///< weight of a tile's work
     /// Sets that the share's own tiles are only `weight` of the work.
     void set_weight(double weight) { weight_ = weight; }
     /// Ends the work: no more tiles are handed out.
@@ -72,7 +72,7 @@ class TileShare {
     uint32_t tiles_;
     uint32_t maximum_;
     uint32_t next_ = 0;
-    std::atomic<double> weight_ = 1;  ///< of a tile's work
+    std::atomic<double> weight_ = 1;  ///< weight of a tile's work
     double done_ = 0;                 ///< tiles
     FrameProgress progress_;
     TileShare* whole_ = nullptr;

@@ -14,7 +14,7 @@ struct World;
 
 inline constexpr int kFittedMargin = 4;  ///< voxels around the objects, as around models
 
-/// Which parts a scene leaves out.
+/// The parts that a scene leaves out.
 struct Fitted {
     bool voxel_size = false;
     bool bounds = false;

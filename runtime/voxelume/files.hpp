@@ -19,7 +19,7 @@
 
 namespace voxelume::v1 {
 
-/// How a mesh becomes voxels.
+/// The options of voxelizing a mesh.
 struct VoxelizeOptions {
     double voxel_size = 0;  ///< metres; 0: `resolution` decides
     int resolution = 0;     ///< voxels along the longest side; 0: 256, or 254 where an output is a
@@ -46,7 +46,7 @@ struct VoxelizeReport {
     double voxel_size = 0;      ///< metres
     uint64_t bricks = 0;        ///< stored bricks of 16 x 16 x 16 voxels
     double seconds = 0;         ///< seconds, without writing files
-    /// What formats couldn't hold, as sentences.
+    /// Sentences on what formats couldn't hold.
     std::vector<std::string> notes{};
 };
 
@@ -58,7 +58,7 @@ VoxelizeReport voxelize(const std::filesystem::path& mesh,
                         const std::vector<std::filesystem::path>& outputs, const Device& device,
                         const VoxelizeOptions& options = {});
 
-/// How the world of a scene becomes voxels.
+/// The options of voxelizing the world of a scene.
 struct VoxelizeSceneOptions {
     double voxel_size = 0;  ///< metres; 0: `resolution` decides
     int resolution = 0;     ///< voxels along the longest side of all that is shown; 0: the scene's

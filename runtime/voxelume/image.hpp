@@ -65,7 +65,7 @@ inline constexpr Channels kNoChannels{false, false, false, false, false};
 /// Colour alone: what a picture shows.
 inline constexpr Channels kColorAlone{true, false, false, false, false};
 
-/// How light that is brighter than a screen can show becomes a colour of the screen.
+/// The way in which light that is too bright for a screen becomes a colour of the screen.
 enum class ViewTransform {
     srgb,    ///< the colour as it is, cut off at 1
     none,    ///< the colour as it is, stored linearly, for programs that expect light
@@ -159,7 +159,7 @@ struct ChannelDifference {
     double mae = 0;          ///< mean of |a - b|
     double mrse = 0;         ///< mean of ((a - b) / (|b| + 0.01))^2
     uint64_t differing = 0;  ///< pixels whose values are unequal
-    uint64_t unmatched = 0;  ///< those of these pixels with a value that isn't finite; in no mean
+    uint64_t unmatched = 0;  ///< pixels of these with a value that isn't finite; in no mean
     uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; numbers of
                              ///< objects: unequal ones
     bool is_id = false;      ///< true for ids, those of Cryptomatte among them: values are equal or

@@ -58,7 +58,7 @@ struct Slab {
 
 struct Part;
 
-/// How parts are combined.
+/// The operation that combines parts.
 enum class Operation {
     union_of,      ///< all points in any part
     intersection,  ///< the points in all parts

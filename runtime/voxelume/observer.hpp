@@ -37,7 +37,7 @@ struct BoxDisplay {
     double near = 0;  ///< metres: where the box begins
 };
 
-/// How the voxels of a volumetric image lie.
+/// The layout of the voxels of a volumetric image.
 enum class VolumeLayout {
     rays,    ///< (u, v, k): sight ray by step; u to the image's right, v down, k away
     lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E and Z_E

@@ -74,8 +74,8 @@ struct InstanceCounts {
 struct FrameStatistics {
     int frame = 1;                          ///< its number
     size_t device = 0;                      ///< its index in Statistics::devices
-    WorldReuse world = WorldReuse::built;   ///< what was done to the world
-    ImageReuse image = ImageReuse::traced;  ///< what was done for the image
+    WorldReuse world = WorldReuse::built;   ///< change of the world
+    ImageReuse image = ImageReuse::traced;  ///< work for the image
     uint64_t meshes_read = 0;               ///< files of models
     uint64_t voxelized = 0;                 ///< models, and exact objects
     uint64_t models_from_cache = 0;         ///< models whose voxels were on the disk

@@ -14,7 +14,7 @@ struct InstanceReport {
     uint32_t instances = 0, models = 0;
     uint32_t moved = 0;  ///< instances that have another place than in the frame before, or are new
     uint32_t indexed = 0;            ///< models whose pyramid was built for this frame
-    uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
+    uint64_t voxels = 0, bytes = 0;  ///< voxels and bytes of the models, each counted once
     double seconds = 0;              ///< indexing and joining models, placing instances
 };
 

@@ -37,7 +37,7 @@ struct WorldReport {
     uint64_t meshes_read = 0;
     uint64_t culled = 0;          ///< visible objects that no ray can meet, which aren't voxelized
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
-    uint64_t from_cache = 0;      ///< those of them whose voxels were in the model cache
+    uint64_t from_cache = 0;      ///< number of those whose voxels were in the model cache
     uint64_t painted_bricks = 0;  ///< bricks of the world that were painted
     WorldChange change = WorldChange::built;
     bool is_from_cache = false;  ///< true if an earlier run built it

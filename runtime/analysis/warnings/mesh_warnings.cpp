@@ -86,7 +86,7 @@ std::string missed_materials(const Object& object, const MeshSummary& mesh) {
     return object.material == 0 ? fmt::format("{} {} read", library, verb) : "";
 }
 
-/// What is wrong with each library.
+/// A clause on the fault of each library.
 std::string faults_of_libraries(const std::vector<std::string>& faults) {
     const std::span<const std::string> shown(faults.data(), std::min(faults.size(), kMaxNotes));
     if (faults.size() == shown.size() && shown.size() > 1)

@@ -12,7 +12,7 @@
 
 namespace voxelume::api {
 
-/// What a caller's callback threw, on its way through the library.
+/// An exception of a caller's callback, on its way through the library.
 struct CallerException {
     std::exception_ptr exception;
 };

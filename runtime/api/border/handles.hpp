@@ -24,7 +24,7 @@ namespace voxelume {
 
 namespace api {
 
-/// What was read to fit a scene, for the first that renders or plans it.
+/// The files that were read to fit a scene, for the first call that renders or plans it.
 class ReadAssets {
   public:
     ReadAssets(AssetStore store, v1::CacheOptions cache)

@@ -12,7 +12,7 @@ namespace voxelume::api {
 
 using Report = nlohmann::ordered_json;
 
-/// What is in a mesh file, and how many voxels it would become.
+/// The content of a mesh file, and the number of voxels that it would become.
 Report describe_mesh(const std::filesystem::path& path);
 
 /// A volumetric image: a deep OpenEXR, OpenVDB or NRRD file, or a JSON header of voxelume. `kind`

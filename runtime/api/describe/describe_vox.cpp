@@ -9,7 +9,7 @@
 namespace voxelume::api {
 namespace {
 
-constexpr size_t kMaxRows = 1000;  // of a list
+constexpr size_t kMaxRows = 1000;  // maximum length of a list
 
 Report numbers(const glm::ivec3& v) {
     return {v.x, v.y, v.z};

@@ -56,7 +56,7 @@ std::string whole_file(const PrivateFolder& folder, const std::string& name) {
     return text;
 }
 
-/// What a folder has under a key.
+/// The entry that a folder has under a key.
 struct Found {
     std::optional<std::string> bytes;
     bool is_damaged = false;

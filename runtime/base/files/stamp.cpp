@@ -35,11 +35,11 @@ uint32_t crc_of(std::string_view bytes) {
     return ~sum;
 }
 
-/// Where a stamp's check is, and how many bytes from there on no hash covers.
+/// The position of a stamp's check, and the number of bytes from there on that no hash covers.
 struct StampPlace {
     size_t hash = 0, check = 0;
     size_t blank = kCheckDigits;
-    std::optional<size_t> chunk;  ///< of a PNG: where the type of the text's chunk begins
+    std::optional<size_t> chunk;  ///< in a PNG: start of the type of the text's chunk
 };
 
 bool is_hex(std::string_view text) {

@@ -20,9 +20,9 @@ inline constexpr int kHelperInput = 0, kHelperAnswer = 3;
 class HelperFailure : public std::runtime_error {
   public:
     enum class Cause {
-        missing,   ///< it couldn't be started, or is another program than expected
+        missing,   ///< the program couldn't be started, or is another one than expected
         died,      ///< a signal ended it, or it answered what can't be
-        too_long,  ///< it met its limit of time
+        too_long,  ///< the helper met its limit of time
     };
 
     /// `clause` is the part of a sentence that follows "the file ...: ".

@@ -11,12 +11,12 @@ namespace voxelume {
 /// The turn of the normal, in degrees, at and above which an edge counts as sharp.
 inline constexpr double kSharpAngle = 40;
 
-/// How sharply a surface turns around an edge.
+/// The sharpness of a surface's turn around an edge.
 struct EdgeTurn {
     /// Metres across the edge in which the surface turns by kSharpAngle; 0 if it does so at the
     /// edge itself.
     double width = std::numeric_limits<double>::infinity();
-    double share = 0;  ///< of the turn; all edges across a rounded one together have 1
+    double share = 0;  ///< part of the turn; all edges across a rounded one have 1 together
 };
 
 /// Follows the surface from the middle of an edge to both sides, in the plane that the edge is

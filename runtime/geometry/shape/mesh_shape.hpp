@@ -25,7 +25,7 @@ inline constexpr double kThinPartVoxels = 1;
 /// third, pictures take less time than those of triangles alone, and with half, more.
 inline constexpr double kMaxThinShare = 0.35;
 
-/// What surface_for needs to know of a mesh besides its summary.
+/// The properties of a mesh that surface_for needs besides its summary.
 struct MeshShape {
     MeshCreases creases;  ///< their length is below 0 if they aren't measured
     MeshThickness thickness;

@@ -18,7 +18,7 @@ Solid union_of(Solid a, Solid b) {
 
 /// Joins those of a term's shapes that have faces in one plane.
 void join_flush_shapes(SolidTerm& term) {
-    // What lies outside of several shapes at once is what lies outside of their union.
+    // The points outside of several shapes at once are those outside of their union.
     const bool of_complements = term.link == FieldLink::largest;
     const auto is_open = [&](const SolidTerm& inner) {
         return inner.is_shape() && inner.is_complement == of_complements;

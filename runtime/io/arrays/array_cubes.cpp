@@ -78,7 +78,7 @@ class ArrayCubes {
   private:
     struct Bricks {                   ///< the results of one thread
         std::vector<uint32_t> found;  ///< numbers of bricks
-        std::vector<uint64_t> bits;   ///< of their voxels, in the same order
+        std::vector<uint64_t> bits;   ///< bits of their voxels, in the same order
     };
 
     /// Makes the table of the bits in a leaf of four neighbours along the file's first axis.

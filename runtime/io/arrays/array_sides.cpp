@@ -136,7 +136,7 @@ ArraySides sides_of_array(const CellArray& array, const InputFile& file,
     if (values.may_be_infinite()) sides.finite = CellBits(array.counts);
     sides.min = INFINITY;
     sides.max = -INFINITY;
-    std::mutex mutex;  // of the range
+    std::mutex mutex;  // guards the range
     for_layer_ranges(array, 1, [&](int first, int end) {
         ArraySlabs slabs(array, file, 1, first, end);
         LayerReader reader(array, values, sides);

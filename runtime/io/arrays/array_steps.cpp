@@ -62,7 +62,7 @@ class StepMeter {
     const SurfaceValues& values_;
     const ArraySides& sides_;
     const glm::vec3 weight_;
-    std::vector<uint64_t> pairs_;  ///< of a row
+    std::vector<uint64_t> pairs_;  ///< pairs of a row
     float steepest_ = 0;
 };
 

@@ -25,7 +25,7 @@ constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // a few bytes may 
 
 /// The model's positions of the cells along one of the file's axes.
 struct AxisPlaces {
-    int axis = 0;  ///< of the model
+    int axis = 0;  ///< axis of the model
     bool is_mirrored = false;
     std::vector<int> node;      ///< node of the model, by the file's cell
     std::vector<size_t> brick;  ///< by the file's cell: what it adds to the number of the brick

@@ -24,7 +24,7 @@ size_t bytes_in_memory(CellType type);
 std::string_view name_of(CellType type);
 bool is_float(CellType type);
 
-/// How the bytes of values are stored; `text` is numbers as words.
+/// The encoding of values; `text` is numbers as words.
 enum class DataEncoding : uint8_t { raw, gzip, bzip2, text };
 
 /// The array's values, and where its cells lie. Axes of the file are numbered from the one whose
@@ -49,7 +49,7 @@ struct CellArray {
     glm::dvec3 voxel_edge{1};        ///< metres along the model's axes
     glm::dvec3 first_corner{0};      ///< the model's smallest corner, metres
     std::string orientation;         ///< in words, for people
-    std::vector<std::string> notes;  ///< what was assumed, and what isn't shown
+    std::vector<std::string> notes;  ///< notes on assumptions, and on unshown content
 
     bool is_compressed() const {
         return encoding == DataEncoding::gzip || encoding == DataEncoding::bzip2;

@@ -15,7 +15,7 @@ inline constexpr uint64_t kMaxGltfElements = uint64_t{1} << 31;
 /// The values of an accessor, element after element.
 struct GltfValues {
     uint64_t count = 0;
-    int components = 1;         ///< of an element; those of a matrix column by column
+    int components = 1;         ///< components of an element; those of a matrix are in column order
     std::vector<float> values;  ///< normalized integers as 0..1 or -1..1
 };
 

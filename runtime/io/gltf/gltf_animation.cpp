@@ -18,7 +18,7 @@ namespace {
 struct Path {
     std::string_view name;
     GltfPath path;
-    int components;  ///< of its accessor
+    int components;  ///< number of its accessor's components
 };
 
 constexpr std::array<Path, 4> kPaths = {{{"translation", GltfPath::translation, 3},

@@ -20,7 +20,7 @@ struct GltfTrack {
     Keyframes keys;  ///< frames are seconds; rotations are quaternions
 };
 
-/// What the format calls an animation.
+/// A clip, which the format calls an animation.
 struct GltfClip {
     std::string name;
     double seconds = 0;  ///< the time of the last key

@@ -71,7 +71,7 @@ CodecJob meshopt_job(const GltfFile& file, const GltfValue& view, const GltfValu
 /// A primitive whose accessors Draco's data fill.
 struct DracoPrimitive {
     CodecJob job;
-    std::vector<size_t> accessors;  ///< of the indices, then of the attributes
+    std::vector<size_t> accessors;  ///< accessors of the indices, then of the attributes
 };
 
 constexpr std::array kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};

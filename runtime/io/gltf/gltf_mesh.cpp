@@ -242,7 +242,7 @@ class MeshBuilder {
     GltfTextures textures_;
     Mesh mesh_;
     std::map<int, uint32_t> groups_;
-    std::vector<float> alphas_;  ///< of the vertices of the current primitive
+    std::vector<float> alphas_;  ///< alphas of the current primitive's vertices
     size_t skipped_ = 0;
 };
 

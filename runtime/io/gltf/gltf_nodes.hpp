@@ -14,8 +14,8 @@ namespace voxelume {
 struct GltfNode {
     std::string name;  ///< the node's, or else that of what it shows; may be empty
     glm::dmat4 world_from_node{1};
-    int number = 0;                    ///< of the node in the file
-    glm::dmat4 node_from_instance{1};  ///< of EXT_mesh_gpu_instancing; part of world_from_node
+    int number = 0;                    ///< number of the node in the file
+    glm::dmat4 node_from_instance{1};  ///< map of EXT_mesh_gpu_instancing; part of world_from_node
     int mesh = -1, camera = -1, light = -1;  ///< numbers in the file; -1: none
     int skin = -1;  ///< number in the file; its joints, not the node, place the mesh
 };

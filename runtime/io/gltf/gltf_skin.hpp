@@ -17,7 +17,7 @@ inline constexpr uint64_t kMaxSkinWeights = uint64_t{1} << 27;
 struct SkinWeights {
     size_t per_vertex = 0;         ///< 4 for each pair of JOINTS_n and WEIGHTS_n
     std::vector<uint32_t> joints;  ///< numbers in the skin
-    std::vector<float> weights;    ///< those of a vertex add up to 1, or all are 0: it stays
+    std::vector<float> weights;    ///< the weights of a vertex add up to 1, or are all 0: it stays
 };
 
 /// A mesh's vertices under a skin, while a clip moves the joints. Nothing moves in an empty clip:
@@ -46,8 +46,8 @@ class GltfSkin {
     GltfClip clip_;
     GltfMotion motion_;
     SkinWeights weights_;
-    std::vector<Bounds> boxes_;              ///< of vertices by joint, and of those that none moves
-    std::vector<int> joints_;                ///< nodes
+    std::vector<Bounds> boxes_;  ///< boxes of vertices by joint, and of those that none moves
+    std::vector<int> joints_;    ///< nodes
     std::vector<glm::dmat4> inverse_binds_;  ///< joint from mesh
 };
 

@@ -17,7 +17,7 @@ namespace voxelume {
 /// UINT.
 enum class ColorDepth { float16, float32 };
 
-/// How an image is stored.
+/// The storage format of an image.
 struct ExrStorage {
     ColorDepth color = ColorDepth::float16;
     bool is_multi_part = false;  ///< each layer is a part of its own, see exr_layers.hpp

@@ -11,7 +11,7 @@ namespace voxelume {
 /// The format of a PNG: grey, or colours with or without opacity.
 struct PngShape {
     int width = 0, height = 0;
-    int bits = 8;      ///< of a number, 8 or 16; those of fewer bits are spread over 0..255
+    int bits = 8;      ///< bits of a number, 8 or 16; fewer bits are spread over 0..255
     int channels = 1;  ///< 3 for colours, 4 with an opacity, both of 8 bits
 
     size_t bytes() const { return size_t(width) * size_t(height) * size_t(channels * bits / 8); }

@@ -14,7 +14,7 @@ namespace voxelume {
 
 /// A texture of a material, with the options that are supported.
 struct MtlTexture {
-    std::string file;  ///< as the library has it; empty: none
+    std::string file;  ///< name in the library; empty: none
     bool clamps = false;
     glm::dvec2 offset{0}, scale{1};  ///< UV on the texture: `offset` + `scale` · (u, v)
 

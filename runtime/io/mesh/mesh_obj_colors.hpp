@@ -53,7 +53,7 @@ class ObjColors {
   private:
     static constexpr float kBytes = 255;
     static constexpr float kMinBytes = 16;  ///< maximum of values, from which on they are bytes
-    static constexpr glm::vec3 kNone{-1};   ///< of vertices without a colour, which are white
+    static constexpr glm::vec3 kNone{-1};   ///< marks vertices without a colour, which are white
 
     float max_ = 0;
     bool is_whole_ = true;

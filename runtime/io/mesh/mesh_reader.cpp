@@ -82,7 +82,7 @@ void leave_out_normals_of_no_use(Mesh& mesh) {
 /// One format. A new format is a row of kFormats and the functions of the row, which lie in a file
 /// of their own.
 struct MeshFormat {
-    const char* extension;                         ///< of file names, in lower case
+    const char* extension;                         ///< extension of file names, in lower case
     bool (*looks_like)(const std::string& bytes);  ///< null where the content has no mark
     Mesh (*parse)(const MeshSource& source);
 };

@@ -21,7 +21,7 @@ enum class ReaderAnswer : uint32_t {
 
 /// The limits of a reader.
 struct ReaderLimits {
-    uint64_t reading_bytes = 0;  ///< of address space, while OpenVDB reads
+    uint64_t reading_bytes = 0;  ///< bytes of address space, while OpenVDB reads
     uint64_t model_bytes = 0;    ///< while the voxels of a model are listed
     uint64_t computing_seconds = 0;
     double seconds = 0;  ///< by the clock, which includes waiting for a slow disk or a busy machine

@@ -27,7 +27,7 @@ struct CubeList {
     std::vector<glm::ivec3> cells;  ///< from (0, 0, 0) to size - 1, Y up, in any order
     std::vector<uint32_t> colors;   ///< 0xTTBBGGRR, transparency on top; empty: all are white
     std::vector<CubeMaterial> materials;
-    std::vector<uint16_t> material_numbers;  ///< of each voxel; empty: all are plain
+    std::vector<uint16_t> material_numbers;  ///< material of each voxel; empty: all are plain
 };
 
 /// The number of voxels along each axis of the smallest box that contains a model. Throws

@@ -125,7 +125,7 @@ class QbReader {
     const InputFile file_;
     std::string bytes_;
     QbHeader header_{};
-    glm::ivec3 size_{0}, first_{0};  ///< of the current matrix
+    glm::ivec3 size_{0}, first_{0};  ///< box of the current matrix
     glm::ivec3 low_{1 << 30}, high_{-(1 << 30)};
     uint64_t colored_ = 0;  ///< cells of compressed matrices, which may be many for few bytes
     CellBricks* bricks_ = nullptr;

@@ -14,7 +14,7 @@ namespace voxelume {
 struct VoxelArt {
     VoxelModel model;
     glm::ivec3 size{0};              ///< cells, as the file counts them
-    std::vector<std::string> notes;  ///< what was assumed, and what isn't shown
+    std::vector<std::string> notes;  ///< notes on assumptions, and on unshown content
 };
 
 /// A Qubicle file: all of its matrices, of which later ones cover earlier ones.

@@ -61,7 +61,7 @@ void for_brick_ranges(size_t count, const Use& use) {
 
 /// The step from a voxel of the file to the next one.
 struct Row {
-    bool is_one = false;  ///< they are neighbours along an axis
+    bool is_one = false;  ///< the voxels are neighbours along an axis
     size_t axis = 0;
     bool is_up = true;
 };

@@ -92,7 +92,7 @@ struct VoxFile {
     std::array<uint32_t, 256> palette{};
     bool has_palette = false;  ///< false: MagicaVoxel's default palette
     std::array<VoxMaterial, 256> materials;
-    int frames = 1;  ///< of the animation
+    int frames = 1;  ///< frames of the animation
     int layers = 0, hidden_layers = 0;
     std::vector<VoxCamera> cameras;
     VoxRender render;

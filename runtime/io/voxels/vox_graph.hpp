@@ -19,8 +19,8 @@ struct VoxNode {
     bool hidden = false;
     int layer = -1;
     std::vector<int> children;    ///< numbers of nodes
-    std::vector<VoxPose> poses;   ///< of a transform node
-    std::vector<VoxShown> shown;  ///< of a shape node
+    std::vector<VoxPose> poses;   ///< poses of a transform node
+    std::vector<VoxShown> shown;  ///< models of a shape node
 };
 
 struct VoxGraph {

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kNoColor = 0xFFFFFF;  // of cells without a voxel
+constexpr uint32_t kNoColor = 0xFFFFFF;  // colour of cells without a voxel
 
 /// The models of a part, with their placements.
 std::vector<VoxStanding> standing_in(const VoxFile& vox, int part, const InputFile& file) {

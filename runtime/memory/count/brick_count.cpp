@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kMaxMarked = 1 << 28;   ///< bricks of a lattice that are told apart
 constexpr double kMaxCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
-constexpr size_t kSampledBricks = 256;   ///< whose leaves of 4³ voxels are counted
-constexpr size_t kSampledLeaves = 512;   ///< of these, whose voxels are counted
+constexpr size_t kSampledBricks = 256;   ///< bricks whose leaves of 4³ voxels are counted
+constexpr size_t kSampledLeaves = 512;   ///< leaves of these whose voxels are counted
 
 /// The maximum distance of a surface from a voxel that still counts as in it, in edges: 0.18 along
 /// the axes, and 0 at corners, where solids are voxelized.

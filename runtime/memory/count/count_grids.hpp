@@ -8,7 +8,7 @@
 
 namespace voxelume {
 
-/// What voxelizing a model is expected to find.
+/// The expected results of voxelizing a model.
 struct GridCounts {
     GridFrame frame;
     Surface surface = Surface::cubes;
@@ -21,8 +21,8 @@ struct GridCounts {
     size_t bricks = 0;          ///< stored bricks
     size_t voxels = 0;          ///< voxels that the surface passes through
     size_t listed = 0;          ///< entries of the lists of primitives of an exact surface's voxels
-    size_t vertices = 0, triangles = 0;  ///< of a mesh
-    size_t shapes = 0;                   ///< of an analytic solid
+    size_t vertices = 0, triangles = 0;  ///< counts of a mesh
+    size_t shapes = 0;                   ///< shapes of an analytic solid
     size_t parts = 1;       ///< ... or of a cut mesh whose distances are stored separately
     size_t cut_bricks = 0;  ///< bricks of a cut mesh's other parts
 };

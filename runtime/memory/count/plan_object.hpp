@@ -46,7 +46,7 @@ class ObjectExtents {
     GridFrame frame_;
     SolidBounds box_;  ///< the world's
     std::map<int, SurfaceArea> areas_;
-    std::map<const Object*, double> parts_;  ///< of meshes, in the world
+    std::map<const Object*, double> parts_;  ///< parts of meshes in the world
     std::vector<VoxelBox> boxes_;            ///< empty until it is first asked for
 };
 

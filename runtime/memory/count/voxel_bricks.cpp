@@ -60,7 +60,7 @@ class LeafCounter {
 
     glm::ivec3 last_;
     glm::dvec3 origin_, reach_;  ///< in the world's voxels
-    glm::dmat3 axes_{1};         ///< of the file's voxels
+    glm::dmat3 axes_{1};         ///< axes of the file's voxels
     std::vector<std::array<int, 3>> bricks_;
     size_t max_waiting_ = 1 << 16;
 };

@@ -13,7 +13,7 @@ namespace voxelume {
 
 /// One row of questions or answers.
 struct KnownRow {
-    const char* what;  ///< what the row is of, in words for people
+    const char* what;  ///< subject of the row, in words for people
     std::array<uint32_t, VXL_KNOWN_COLUMNS> words;
 };
 

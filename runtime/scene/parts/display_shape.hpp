@@ -26,17 +26,17 @@ enum class VolumeLayout : uint8_t {
 
 /// The surfaces of the world that a lattice shows.
 enum class Visibility : uint8_t {
-    observer,  ///< those that E sees
-    outside,   ///< those that can be seen from somewhere outside of the world
+    observer,  ///< surfaces that E sees
+    outside,   ///< surfaces visible from somewhere outside of the world
     all        ///< all
 };
 
 /// The sight lines for which opacities are computed: along these, a lattice's voxels together cover
 /// as much as the surfaces that they show.
 enum class SeenAlong : uint8_t {
-    observer,  ///< those of E
-    facing,    ///< those along the axis that the surface faces most, voxel by voxel
-    x,         ///< those along X_E
+    observer,  ///< sight lines of E
+    facing,    ///< lines along the axis that the surface faces most, voxel by voxel
+    x,         ///< lines along X_E
     y,
     z
 };
@@ -79,7 +79,7 @@ std::span<const ValueRow<DisplayParameters>> display_rows();
 /// The surroundings on which a display's measures depend.
 struct DisplaySetting {
     double world_end;        ///< metres from the observer to the world's farthest corner
-    glm::dvec2 proportions;  ///< of the sides of its image
+    glm::dvec2 proportions;  ///< proportions of the image's sides
 };
 
 /// The relation between pixels and sight rays.

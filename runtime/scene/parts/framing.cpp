@@ -54,7 +54,7 @@ glm::dmat3 view_axes(const ViewFrom& from) {
     const double longitude = glm::radians(from.longitude), latitude = glm::radians(from.latitude);
     const glm::dvec3 z(-std::sin(longitude) * std::cos(latitude), -std::sin(latitude),
                        -std::cos(longitude) * std::cos(latitude));
-    // This also works for views along Y, where a cross product with Y would vanish.
+    // Views along Y work, too; a cross product with Y would vanish for these.
     const glm::dvec3 x(-std::cos(longitude), 0, std::sin(longitude));
     return {x, glm::cross(z, x), z};
 }

@@ -46,7 +46,7 @@ struct Light {
 /// The parameters of a light in a scene, for all types.
 struct LightParameters {
     glm::dvec3 position{0};               ///< metres
-    std::optional<glm::dvec3> direction;  ///< of any length but 0
+    std::optional<glm::dvec3> direction;  ///< direction of any length but 0
     std::optional<glm::dvec3> look_at;    ///< metres; a point instead of a direction
     std::optional<glm::dvec3> up;
     glm::vec3 color{1};

@@ -56,7 +56,7 @@ enum MaterialEffect : uint32_t {
     kReflects = 1,        ///< sends rays back
     kRefracts = 2,        ///< sends rays on into the object
     kIsSeenThrough = 4,   ///< covers only a part of what lies behind
-    kHasReflectance = 8,  ///< of Fresnel: by the angle
+    kHasReflectance = 8,  ///< Fresnel reflectance, by the angle
     kAbsorbs = 16,        ///< dims light on its way inside
     kEmits = 32,
     kIsPhysical = 64,  ///< physically based

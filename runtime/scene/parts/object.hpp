@@ -64,7 +64,7 @@ struct Model {
     VoxelValues values;          ///< for a file of values: those that are voxels
     double fit = 0;              ///< metres of the file's longest side; 0: as in the file
     FileMap object_from_file;    ///< for both files, and for the final mesh of a morph
-    std::optional<Morph> morph;  ///< of a mesh
+    std::optional<Morph> morph;  ///< morph of a mesh
     std::vector<Solid> cuts;     ///< solids that are removed from a mesh that isn't exact
     std::optional<Solid> solid;  ///< has a value exactly when both files are empty
     glm::dvec3 voxel_size{0};    ///< metres in object space, > 0; 0 when `resolution` decides
@@ -77,10 +77,10 @@ struct Model {
     std::string surface_reason;    ///< why make_choices() chose the surface, as half a sentence
     double thin_edge = 0;  ///< for a smooth mesh: parts that are too thin for voxels of this size,
                            ///< metres in object space, are exact; 0: no parts
-    bool is_thin_part = false;                 ///< the exact model of these thin parts alone
-    VoxelSet set = VoxelSet::supercover;       ///< for `cubes`
-    Shading shading;                           ///< of an exact mesh, or of cubes with its normals
-    CubeNormals normals = CubeNormals::faces;  ///< of `cubes`
+    bool is_thin_part = false;            ///< the exact model of these thin parts alone
+    VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
+    Shading shading;  ///< normals of an exact mesh, or of cubes with its normals
+    CubeNormals normals = CubeNormals::faces;  ///< normals of `cubes`
     /// Box in object space outside of which no object shows the model: the world's bounds as seen
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for an unused
     /// model.
@@ -96,7 +96,7 @@ std::optional<Model> thin_part_of(const Model& model);
 
 /// The material of one group of faces of an object's mesh.
 struct GroupMaterial {
-    std::string group;  ///< as named in the mesh file
+    std::string group;  ///< name in the mesh file
     int material = 0;
     SourcePlace where;
 
@@ -117,7 +117,7 @@ struct Object {
     std::vector<GroupMaterial> groups;
     int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
     Placement placement = Placement::automatic;
-    std::optional<int> light_samples;  ///< of its emission; none: by its size
+    std::optional<int> light_samples;  ///< number for its emission; none: by its size
     glm::dmat4 world_from_object{
         1};               ///< affine and safely invertible; mirrors and shears are allowed
     bool moves = false;   ///< some track changes the placement

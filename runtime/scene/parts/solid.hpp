@@ -22,8 +22,8 @@ enum class SolidKind : uint8_t {
     torus,
     capsule,
     slab,
-    union_of,         ///< of all parts
-    intersection_of,  ///< of all parts
+    union_of,         ///< union of all parts
+    intersection_of,  ///< intersection of all parts
     difference_of,    ///< the first part without all others
 };
 
@@ -47,7 +47,7 @@ struct Solid {
     glm::dvec3 size{0};    ///< box: whole edges. > 0
 
     glm::dmat4 parent_from_solid{1};  ///< affine; identity at the root
-    std::vector<Solid> parts;         ///< of a combination; empty for a shape
+    std::vector<Solid> parts;         ///< parts of a combination; empty for a shape
 
     bool operator==(const Solid&) const = default;
 };

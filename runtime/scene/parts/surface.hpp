@@ -56,8 +56,8 @@ enum class VoxelSet : uint8_t {
 
 /// The normals by which light falls on cubes.
 enum class CubeNormals : uint8_t {
-    faces,    ///< those of the cubes' own faces
-    surface,  ///< those of the surface that the cubes stand for
+    faces,    ///< normals of the cubes' own faces
+    surface,  ///< normals of the surface that the cubes represent
 };
 
 }  // namespace voxelume

@@ -16,7 +16,7 @@ namespace voxelume {
 /// A value for a path of the scene's document.
 struct SceneChange {
     std::string path;    ///< "objects.ball.position", "lights[0].intensity"
-    std::string value;   ///< as `parse_value` reads it
+    std::string value;   ///< text for `parse_value`
     std::string origin;  ///< the change in messages: "--set objects.ball.position=0,1"
 };
 

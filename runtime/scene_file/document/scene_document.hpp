@@ -29,7 +29,7 @@ struct JsonValue {
 
 struct JsonMember {
     std::string key;
-    TextPosition at;  ///< of the key
+    TextPosition at;  ///< position of the key
     JsonValue value;
 };
 

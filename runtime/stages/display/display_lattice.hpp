@@ -120,7 +120,7 @@ class DisplayLatticeStage {
     const Pyramid& world_;
     Buffer<float4> views_;
     uint32_t groups_;
-    Buffer<uint32_t> in_object_;  ///< of a batch's rays; empty: points in objects have views, too
+    Buffer<uint32_t> in_object_;  ///< flags of rays; empty: points in objects have views, too
     Buffer<uint32_t> mask_;       ///< one bit for every voxel of the lattice
     Program program_;
     Kernel aim_, objects_, note_, mark_, count_, list_, choose_, take_, keep_;

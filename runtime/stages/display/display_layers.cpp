@@ -61,7 +61,7 @@ class Assembly {
 
     void add_record(const LayerRecords& layer, size_t n) {
         const glm::ivec2 pixel = pixel_of(word(layer, n, VXL_LAYER_RAY), size_.x);
-        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // of a tile beyond the image
+        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // outside the image
         const uint64_t column = uint64_t(pixel.x) + uint64_t(size_.x) * uint64_t(pixel.y);
         glm::dvec3 light = numbers(layer, n, VXL_LAYER_LIGHT);
         const bool in_medium = word(layer, n, VXL_LAYER_IN_MEDIUM) != 0;

@@ -10,9 +10,9 @@ namespace voxelume {
 
 /// The properties; empty if all surfaces are opaque.
 struct LineSurfaces {
-    Buffer<uint32_t> ranks;   ///< of each object, see object_ranks
+    Buffer<uint32_t> ranks;   ///< rank of each object, see object_ranks
     Buffer<float> opacities;  ///< of each material: 1 opaque, 2 if it refracts light from behind
-    Buffer<uint32_t> logs;    ///< of each material, see log_clear
+    Buffer<uint32_t> logs;    ///< logarithm for each material, see log_clear
 };
 
 LineSurfaces line_surfaces(const Device& device, const Scene& scene);

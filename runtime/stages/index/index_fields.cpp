@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kCounts = 3;      // of each brick: voxels, primitives, listed fields
+constexpr size_t kCounts = 3;      // counts per brick: voxels, primitives, listed fields
 constexpr size_t kEntryWords = 3;  // a brick of a field, its object's rank, its brackets
 
 /// VXL_ENTRY_PARAMETERS of index_fields.cl, and further data of the world's bricks.

@@ -36,7 +36,7 @@ struct Extent {
 
 struct Parts {
     bool colors = false, fields = false, exact = false;
-    bool voxel_normals = false, normals = false;  ///< of cubes, of triangles' corners
+    bool voxel_normals = false, normals = false;  ///< normals of cubes, of triangles' corners
     JoinedTextures textures;
 };
 

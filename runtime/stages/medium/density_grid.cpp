@@ -121,7 +121,7 @@ class BrickWriter {
     ConstantTable& constants_;
     size_t next_slot_;
     DensityGrid& grid_;
-    std::vector<float> waiting_, colors_;  ///< of bricks that are written together
+    std::vector<float> waiting_, colors_;  ///< values of bricks that are written together
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ struct DensityPlan {
     bool is_zero = false;  ///< known to be 0 everywhere: no grid is made
     DensitySize size = {};
     double stored_bricks = 0;  ///< maximum number, without constants
-    double buffer_bytes = 0;   ///< of the larger buffer
+    double buffer_bytes = 0;   ///< bytes of the larger buffer
     double bytes = 0;          ///< on the device
     double host_bytes = 0;     ///< in main memory while it is made
 };

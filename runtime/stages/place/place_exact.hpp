@@ -11,7 +11,7 @@ namespace voxelume {
 
 /// The sizes of the triangles and solids of a world's exact surfaces.
 struct SourceCounts {
-    size_t floats = 0;  ///< of triangles' corners
+    size_t floats = 0;  ///< floats of triangles' corners
     size_t solid_words = 0;
     bool normals = false;  ///< some triangle has normals
     JoinedTextures textures;

@@ -46,7 +46,7 @@ class MatteStage {
     static std::vector<Field> fields_of(const ImageChannels& channels);
 
     Camera camera_;
-    std::vector<Field> fields_;  ///< of packed attributes, of each matte
+    std::vector<Field> fields_;  ///< field of packed attributes of each matte
     std::vector<MatteArrays> arrays_;
     std::optional<Program> program_;
     std::optional<Kernel> rank_;

@@ -159,7 +159,7 @@ DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& py
 }
 
 std::optional<DilationLevel> dilation_for(double voxels_a_pixel) {
-    const double radius = 1.5 * voxels_a_pixel;  // of the bundle of rays through 4 x 4 pixels
+    const double radius = 1.5 * voxels_a_pixel;  // radius of the rays of 4 x 4 pixels
     if (radius <= VXL_BEAM_RADIUS) return DilationLevel::leaves;
     if (radius <= 4 * VXL_BEAM_RADIUS) return DilationLevel::bricks;
     return std::nullopt;

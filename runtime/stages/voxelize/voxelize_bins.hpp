@@ -42,7 +42,7 @@ void bind(KernelArguments& to, const TriangleBins& bins);
 struct BinCounts {
     size_t bins = 0;      ///< bins of the frame, and of the column left of it
     size_t occupied = 0;  ///< bins with triangles
-    size_t stored = 0;    ///< those of them in the frame
+    size_t stored = 0;    ///< bins with triangles in the frame
     size_t pairs = 0;     ///< pairs of a triangle and a bin
 };
 

@@ -81,7 +81,7 @@ void list_primitives(VoxelizeJob& job, const Program& exact);
 
 /// The values that voxels take from the mesh's groups, colours and normals.
 struct MeshLabels {
-    uint32_t attributes = 0;                    ///< of voxels without a triangle
+    uint32_t attributes = 0;                    ///< value for voxels without a triangle
     std::vector<uint32_t> triangle_attributes;  ///< empty: one value for all triangles
     const Mesh* mesh = nullptr;                 ///< mesh with the colours
     bool has_normals = false;                   ///< cubes get normals of the surface

@@ -15,7 +15,7 @@ inline constexpr const char* kCornerUvs = "texture corners";
 
 /// The textures; empty for a mesh without.
 struct DeviceTextures {
-    Buffer<uint32_t> texels;   ///< of all textures and levels
+    Buffer<uint32_t> texels;   ///< texels of all textures and levels
     Buffer<uint32_t> records;  ///< four a texture; shared/texture.h
     Buffer<uint32_t> words;    ///< one a triangle; shared/texture.h
 };
@@ -27,7 +27,7 @@ uint32_t texture_level(double texels, double voxels, int levels);
 /// Kernels gather by signed indices.
 inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
 
-/// Whether the alpha of textures counts where rays meet them.
+/// The effect of textures' alpha where rays meet them.
 enum class TextureAlpha : uint8_t { counts, is_ignored };
 
 /// Written textures: the start of each, relative to the first, and a hash of all.

@@ -63,7 +63,7 @@ struct BenchRow {
     bool is_best = false;  ///< true on the Pareto front of total time and depth RMS in its scene
 };
 
-/// How fast the errors of one scene and surface decrease with the size of voxels.
+/// The rates at which the errors of one scene and surface decrease with the size of voxels.
 struct BenchFit {
     std::string scene;
     Surface surface = Surface::cubes;
@@ -86,7 +86,7 @@ struct BenchReport {
     std::vector<BenchRow> rows;
     std::vector<BenchFit> fits;
     std::vector<BenchPeerRow> peers;
-    std::vector<GlobalRow> global_rows;  ///< of each scene ours, then those of other programs
+    std::vector<GlobalRow> global_rows;  ///< rows of each scene: ours, then those of other programs
     std::vector<GlobalFit> global_fits;
 };
 

@@ -45,7 +45,7 @@ struct GlobalRow {
     int samples = 0;          ///< per pixel
     double relative_mse = 0;  ///< see `relative_mse`
     double light = 0;         ///< mean light over that of the references; 0: not known
-    double seconds = 0;       ///< of the picture alone, without building the world
+    double seconds = 0;       ///< time of the picture alone, without building the world
     BenchTimes times{};       ///< of this program's picture, with its world, which counts neither
                               ///< among `kernels` nor `programs`
     uint64_t peak_bytes = 0;  ///< maximum of bytes on the device at once; 0: not known

@@ -72,7 +72,7 @@ void for_each_facet(double cosine, double width, const std::function<void(const 
 }
 
 void for_each_cosine(const std::function<void(double share, double cosine)>& add) {
-    constexpr int kSteps = 4096;  // of the cosines' logarithms
+    constexpr int kSteps = 4096;  // steps of the cosines' logarithms
     constexpr double kMin = 1e-6;
     const auto at = [](double step) { return std::pow(kMin, 1 - step / kSteps); };
     for (int step = 0; step < kSteps; ++step)
