@@ -16,7 +16,7 @@ namespace voxelume {
 /// An entry of Mesh::triangle_normals for a corner without a normal.
 inline constexpr uint32_t kNoNormal = 0xFFFFFFFFu;
 
-/// An entry of Mesh::triangle_uvs for a corner without a place on a texture.
+/// An entry of Mesh::triangle_uvs for a corner without texture coordinates.
 inline constexpr uint32_t kNoUv = 0xFFFFFFFFu;
 
 /// Triangles with optional colours and normals at their corners and named groups of faces.

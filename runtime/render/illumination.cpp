@@ -53,7 +53,7 @@ Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features&
     return medium_overflows;
 }
 
-/// The numbers of the first records of the solids that let light through, but for those of
+/// The numbers of the first records of the solids that let light through, except those of
 /// instances' models, which come after the world's.
 Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
                                      const Pyramid& world) {

@@ -23,7 +23,7 @@ inline uint32_t next_side(uint32_t side) {
 }
 
 /// The edges of a mesh at which two faces or more meet, in the order of their ends. Vertices at one
-/// place are one; sides without length and faces without area have no edges. Faces of several
+/// position are one; sides without length and faces without area have no edges. Faces of several
 /// bodies that lie in one another and look to the same side count as one, as where parts of a mesh
 /// overlap with equal corners.
 class MeshEdges {

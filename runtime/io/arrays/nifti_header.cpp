@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The header of a NIfTI file.
 //
-// 348 bytes (version 1) or 540 (version 2) with numbers at fixed places, in the order of the
+// 348 bytes (version 1) or 540 (version 2) with numbers at fixed offsets, in the order of the
 // machine that wrote them: the first number is the header's size, which tells the order. X goes to
 // the patient's right, Y to the front, Z to the head.
 #include <algorithm>

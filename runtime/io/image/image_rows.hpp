@@ -12,7 +12,7 @@ namespace voxelume {
 /// The number of an OpenEXR chunk's rows. All bands of an image but the last have a multiple of it.
 inline constexpr int kBandRows = 16;
 
-/// The pixels of an image, and their place in a picture that they are a part of.
+/// The pixels of an image, and their position in a picture that they are a part of.
 struct ImageWindow {
     glm::ivec2 size;
     glm::ivec2 first{0}, frame{0};  ///< as an Image has them

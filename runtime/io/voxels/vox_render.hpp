@@ -14,7 +14,7 @@ namespace voxelume {
 enum class VoxCameraKind : uint8_t { perspective, free, orthographic, isometric, panoramic, other };
 
 /// A camera that looks at a point. With all angles 0 it looks along +Y of the file. Roll turns it
-/// about its sight line, counterclockwise as it sees it, then pitch lifts the sight line, then yaw
+/// about its sight line, counterclockwise as it sees it, then pitch raises the sight line, then yaw
 /// turns it to the left.
 struct VoxCamera {
     VoxCameraKind kind = VoxCameraKind::perspective;
