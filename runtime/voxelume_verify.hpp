@@ -29,11 +29,11 @@ struct StressTest {
 /// All tests, in the order in which they run.
 std::vector<StressTest> stress_tests();
 
-/// Which cases of a test are tried. A case depends on the seed and its number alone.
+/// The choice of a test's cases. A case depends on the seed and its number alone.
 struct StressOptions {
     uint64_t seed = 1;
     uint64_t first = 0;  ///< number of the first case
-    uint64_t count = 0;  ///< of cases
+    uint64_t count = 0;  ///< number of cases
     /// Called after every batch with the number of its cases.
     std::function<void(uint64_t cases)> progress{};
     std::stop_token stop{};  ///< ends the run after the batch it is in
@@ -48,7 +48,7 @@ struct StressExample {
 struct StressResult {
     uint64_t cases = 0;
     uint64_t mismatches = 0;
-    std::vector<StressExample> examples{};  ///< of the first kMaxStressExamples mismatches
+    std::vector<StressExample> examples{};  ///< examples of the first kMaxStressExamples mismatches
 };
 
 inline constexpr size_t kMaxStressExamples = 5;
@@ -67,7 +67,7 @@ struct KernelName {
 /// All kernels, by file.
 std::vector<KernelName> kernel_names();
 
-/// How often each kernel was launched since the device was opened.
+/// The number of launches of each kernel since the device was opened.
 std::map<std::string, uint64_t> launches_of(const Device& device);
 
 /// Repeats the self-test of an open device: arithmetic and walks whose answers are known. Returns
@@ -85,7 +85,7 @@ struct BenchScene {
 /// All scenes, in the order in which they are measured.
 std::vector<BenchScene> bench_scenes();
 
-/// What is measured: every surface of every scene at every voxel size.
+/// The measurements to make: every surface of every scene at every voxel size.
 struct BenchOptions {
     /// Empty: all that are available, or with `own_scenes` none.
     std::vector<std::string> scenes{};
@@ -105,10 +105,10 @@ struct BenchOptions {
     std::vector<int> global_samples{1, 4, 16, 64, 256};  ///< rays a pixel in global light
 };
 
-/// How many rows the options ask for. Throws Error::usage for an unknown scene.
+/// The number of rows that the options ask for. Throws Error::usage for an unknown scene.
 size_t count_bench_rows(const BenchOptions& options);
 
-/// What was measured, in every form in which it is read.
+/// The results in every form in which they are read.
 struct BenchReport {
     std::string device;
     std::string driver;

@@ -120,7 +120,7 @@ bool is_shown_instance(const Scene& scene, const Object& object) {
     return object.visible && is_instanced(scene, object);
 }
 
-/// How many times as long a map makes lengths at most, in voxels of the world a metre.
+/// The maximum factor by which an object's map stretches lengths, in world voxels per metre.
 double voxels_per_metre(const Scene& scene, const Object& object) {
     const glm::dmat3 map(object.world_from_object);
     const double stretch =
@@ -163,7 +163,7 @@ double origin_offset(const Scene& scene, const Object& object, AssetStore& meshe
     return mesh->longest_edge * voxels_per_metre(scene, object);
 }
 
-/// The largest of all objects; those `unread` have files that aren't read.
+/// The maximum origin offset of all objects. `unread` marks objects whose files aren't read.
 double max_origin_offset(const Scene& scene, AssetStore& meshes, const std::vector<bool>& unread) {
     double offset = 0;
     if (scene.render.shadows && traces_light(scene))
@@ -172,8 +172,9 @@ double max_origin_offset(const Scene& scene, AssetStore& meshes, const std::vect
     return offset;
 }
 
-/// Adds the objects that rays may reach in a frame to those of earlier frames, whose boxes no
-/// longer matter. Those `unread` are among these, because their files aren't read.
+/// Marks the objects that rays may reach in one frame, in addition to those that earlier frames
+/// marked. Objects marked before count as visible everywhere in the world, so their files may be
+/// `unread`.
 void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<bool>& unread,
                              std::vector<bool>& potentially_visible) {
     const std::vector<Object> objects = scene.objects;
@@ -212,11 +213,12 @@ void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<
             potentially_visible[i] || (instances && is_shown_instance(scene, objects[i]));
 }
 
-/// Where moments are more than these, all objects count as potentially visible: looking at each
+/// Above this number of moments, all objects count as potentially visible: looking at each moment
 /// would take as long as rendering.
 constexpr size_t kMaxSeenMoments = 1 << 16;
 
-/// The objects of models that change. Their files may be many, and aren't read before their frames.
+/// True for each object whose model changes. Such models may have many files, which aren't read
+/// before their frames.
 std::vector<bool> objects_of_moving_models(const Scene& scene) {
     std::vector<bool> found(scene.objects.size());
     if (!moves(scene)) return found;

@@ -11,9 +11,9 @@
 namespace voxelume {
 
 /// Sets Object::potentially_visible of all objects for a run of these `frames`, with the moments
-/// that their samples show: where these are more than 65,536, all objects count as potentially
-/// visible. A culled object isn't voxelized. No bit of a picture or volume that the observer sees
-/// in these frames depends on culling.
+/// that their samples show. With more than 65,536 moments, all objects count as potentially
+/// visible. A culled object isn't voxelized. Culling changes no bit of a picture or volume that the
+/// observer sees in these frames.
 ///
 /// In a frame where nothing potentially visible reflects or lets light through, rays stay within
 /// the convex hull of what the display sees of the world and, with shadows, of the lights. An

@@ -14,17 +14,17 @@
 namespace voxelume {
 namespace {
 
-/// From how many triangles for a face of its voxels on a mesh is divided. Up to here the world
-/// takes about as long.
+/// A mesh with more triangles than this per face of its voxels gets finer voxels. With fewer,
+/// pictures of the undivided mesh take about as long.
 constexpr double kDenseTriangles = 16;
 
-/// Triangles for a face of the voxels that dense meshes get.
+/// The number of triangles per voxel face for which the voxels of dense meshes are sized.
 constexpr double kSparseTriangles = 2;
 
-/// The most of these along the mesh's longest side: triangles may differ in size.
+/// The maximum number of such voxels along the mesh's longest side: triangles may differ in size.
 constexpr double kMaxSparseVoxels = 1024;
 
-/// How near sides of boxes are that count as flush, in voxels of the world.
+/// The maximum distance, in voxels of the world, between sides of boxes that count as flush.
 constexpr double kFlush = 0.01;
 
 double triangles_per_face(const MeshSummary& mesh, double edge) {

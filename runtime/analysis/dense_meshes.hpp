@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact meshes with many triangles in each of the world's voxels, all of which a ray there tests.
+// Exact meshes with many triangles in each of the world's voxels. A ray tests all of a voxel's
+// triangles.
 //
-// Instances of them have finer voxels of their own, so that each lists few triangles.
+// Instances of such meshes have finer voxels of their own, so that each lists few triangles.
 #pragma once
 
 #include "runtime/assets/asset_store.hpp"
@@ -9,8 +10,8 @@
 
 namespace voxelume {
 
-/// Triangles of an exact mesh for an area of its surface that is as large as a face of the world's
-/// voxels; 0 for an object that shows anything else.
+/// The number of triangles of an exact mesh per area of one face of the world's voxels; 0 for an
+/// object that shows anything else.
 double triangles_per_voxel(const Scene& scene, const Object& object, AssetStore& meshes);
 
 /// True for an object that is faster, and looks the same, as an instance of finer voxels: it shows
@@ -19,8 +20,8 @@ double triangles_per_voxel(const Scene& scene, const Object& object, AssetStore&
 /// instances have no priority.
 bool is_better_divided(const Scene& scene, const Object& object, AssetStore& meshes);
 
-/// A mesh that stays in the world with more triangles a voxel than this is warned of: a picture
-/// takes about three times as long as of an instance.
+/// A mesh that stays in the world with more triangles per voxel than this gets a warning: a picture
+/// of it takes about three times as long as a picture of an instance.
 inline constexpr double kTooDenseTriangles = 128;
 
 /// The edges, in metres, of a model's voxels, which are made smaller where instances would have

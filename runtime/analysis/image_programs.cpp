@@ -33,9 +33,9 @@ bool follows(const Features& f) {
     return f.paths && !f.global;
 }
 
-/// The kernels that most images take. The process that renders compiles the others itself: those of
-/// lights nearby, of mattes, of a medium's lights with an area, and of lights without one beside
-/// such in global light.
+/// The kernels that most images take. The process that renders compiles the others itself: those
+/// for near lights, for mattes, for area lights in a medium, and for lights without an area that
+/// shine together with area lights in global light.
 constexpr KernelRow kKernels[] = {
     {"sight.cl", {"cast_sight"}, always},
     {"trace.cl", {"trace_closest"}, always},
@@ -71,8 +71,8 @@ bool is_made_at_once(const Scene& scene) {
            !adds_samples(render) && scene.observer.shutter == 0;
 }
 
-/// True if two boxes overlap as those of a floor and of what stands on it: one lies within the
-/// other but for one axis, on which neither does.
+/// True if two boxes overlap like those of a floor and an object on it: along two axes one lies
+/// within the other, and along the third neither does.
 bool stand_on_each_other(const VoxelBox& a, const VoxelBox& b) {
     if (!overlap(a, b)) return false;
     int a_within = 0, b_within = 0;
@@ -87,15 +87,15 @@ VoxelBox grown(const VoxelBox& box, double by) {
     return {box.low - by, box.high + by};
 }
 
-/// Whether some voxel lists distances, as those do that several objects share. Objects that stand
-/// on others are taken to share some, objects a voxel apart to share none. Of others, and of very
-/// many, only building the world will tell.
+/// True if some voxel lists distance fields, as voxels shared by several objects do. Objects that
+/// stand on each other are assumed to share voxels, objects a voxel apart to share none. The result
+/// is empty where only building the world can tell: for other objects, and for very many objects.
 std::optional<bool> lists_fields(const Scene& scene, const Pyramid& world) {
     struct Placed {
         VoxelBox box;
         bool is_smooth;
     };
-    constexpr size_t kMost = 300;  // each is compared with each
+    constexpr size_t kMost = 300;  // each object is compared with each other
     std::vector<Placed> placed;
     bool may_meet = false;
     const auto is_smooth_model = [](const Model& model) { return stores_distances(model.surface); };

@@ -17,20 +17,20 @@ std::vector<const char*> sight_files(const Features& features, const Scene& scen
                                      const Pyramid& world, bool makes_image,
                                      bool has_dilated_occupancy);
 
-/// What the image of a scene will be compiled of.
+/// The programs and kernels that the image of a scene is expected to need.
 struct ForeseenImage {
     Features features;
     std::vector<const char*> files;
     std::vector<ForeseenKernel> kernels;
 };
 
-/// Foresees the image of a scene. `world` may be one of a counting device, and has no parts of
-/// solids. Without files where only building the world will tell whether several surfaces share a
-/// voxel, and for images that are made in several ways, one after another: with passes, by noise,
-/// adaptively, or of moments.
+/// Foresees the programs of a scene's image. `world` may be one of a counting device, and has no
+/// parts of solids. The result has no files where only building the world can tell whether several
+/// surfaces share a voxel, and for images that are made in several ways one after another: with
+/// passes, with a target of noise, adaptively, or of several moments.
 ForeseenImage foreseen_image(const Scene& scene, const Pyramid& world);
 
-/// Has it compiled while the world is built: see Program::foresee.
+/// Compiles the foreseen programs while the world is built; see Program::foresee.
 void compile_ahead(const Device& device, const RenderSettings& render, const ForeseenImage& image);
 
 }  // namespace voxelume

@@ -42,8 +42,9 @@ int max_overlapping(const Scene& scene, const Pyramid& world, const Features& fe
     return int(maximum);
 }
 
-/// How far rays begin from the observer's own because they come through a lens, along each axis,
-/// voxels. At the depth `near` the lens's disk has become smaller, or larger behind its focus.
+/// The maximum distance along each axis, in voxels, between the start of a ray through the lens and
+/// the start of the observer's central ray. Rays begin at depth `near`, where the lens's disk is
+/// scaled by |1 - near / focus|.
 glm::dvec3 lens_reach(const Observer& observer, const GridFrame& world) {
     if (!(observer.aperture > 0)) return glm::dvec3(0);
     const glm::dvec3 ahead = observer.world_from_observer[2];

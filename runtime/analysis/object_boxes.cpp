@@ -12,8 +12,8 @@
 namespace voxelume {
 namespace {
 
-/// The distance by which surfaces may lie away from a model's own, in voxels of the model or the
-/// world.
+/// The distance by which shown surfaces may lie off the model's own surface, in voxels of the model
+/// or the world.
 constexpr double kMargin = 1;
 
 VoxelBox in_voxels(const glm::dvec3& min, const glm::dvec3& max, const GridFrame& world) {

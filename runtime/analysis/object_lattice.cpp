@@ -17,14 +17,16 @@
 namespace voxelume {
 namespace {
 
-/// Copies of a model from which on they share a grid, since each one's own would be kept while all
-/// are placed.
+/// The number of copies of a model from which the copies share a grid: grids of their own would all
+/// be kept while the copies are placed.
 constexpr uint32_t kManyCopies = 8;
 
-/// Steps of shared voxels' sizes in an octave, so that objects of all scales share few grids.
+/// The number of sizes of shared voxels per octave. Few sizes let objects of all scales share few
+/// grids.
 constexpr double kStepsPerOctave = 4;
 
-/// Relative differences that decimal numbers in a scene and rounded maps have.
+/// The relative difference up to which sizes count as equal: decimal numbers in scenes and maps are
+/// rounded.
 constexpr double kSameSize = 1e-9;
 
 bool has_own_voxels(const Model& model) {
@@ -80,7 +82,8 @@ Lattice ObjectLattices::lattice_of(const Object& object) {
                : Lattice::world;
 }
 
-/// The model with voxels in object space that are no smaller than the world's are there.
+/// The model with voxels in object space that are no smaller than the world's voxels seen from
+/// there.
 Model ObjectLattices::shared_model(const Object& object) const {
     Model model = scene_.models[size_t(object.model)];
     const double scale = stretch_of(glm::dmat3(object.world_from_object)).min;

@@ -15,7 +15,7 @@
 
 namespace voxelume {
 
-/// Where the voxels lie that an object is placed with.
+/// The space of the voxels that an object is placed with.
 enum class Lattice : uint8_t {
     model,   ///< in object space, as the model says: cubes, files, and fields that are coarser than
              ///< the world's or lie on its nodes
@@ -42,8 +42,9 @@ class ObjectLattices {
     /// Throws as AssetStore does.
     Lattice lattice_of(const Object& object);
 
-    /// `box` is the object's of object_boxes(), and not empty. Throws Error::scene for a file with
-    /// a field that is finer than the world, besides what model_frame() throws.
+    /// The voxels of an object as they are made and placed. `box` is the object's box from
+    /// object_boxes() and isn't empty. Throws as model_frame() does, and Error::scene for a file
+    /// with a field that is finer than the world.
     ObjectLattice of(const Object& object, const VoxelBox& box);
 
     /// The frame of an object's voxels in object space; it isn't on the world's own lattice.
@@ -55,7 +56,7 @@ class ObjectLattices {
 
     const Scene& scene_;
     AssetStore& meshes_;
-    std::vector<uint32_t> copies_;  ///< of each model: objects in the world
+    std::vector<uint32_t> copies_;  ///< number of each model's objects in the world
 };
 
 /// True for an object whose file has a field too fine to be resampled into the world.

@@ -19,7 +19,7 @@ Model whole(Model model) {
     return model;
 }
 
-/// An object of the scene as it is placed, but for its grid.
+/// An object of the scene as it is placed, except for its grid.
 PlacedObject placed_object(const Scene& scene, uint32_t number, const Model& model,
                            const ObjectLattice& lattice, AssetStore& meshes) {
     const Object& object = scene.objects[number];

@@ -17,13 +17,13 @@ namespace voxelume {
 
 using SharedGrid = std::shared_ptr<const BrickGrid>;
 
-/// Gives an object, that shows `model`, its grid: on a lattice, or on its model's own.
+/// Returns the grid of an object that shows `model`, on a lattice.
 using PlacedGridSource = std::function<SharedGrid(const Object& object, const Model& model,
                                                   const ObjectLattice& lattice)>;
 using GridSource = std::function<SharedGrid(const Object& object, const Model& model)>;
 
-/// The scene's objects that lie in the world, by their `boxes`, but for instances; `grids` keeps
-/// what they name. Throws as ObjectLattices does.
+/// The scene's objects that lie in the world according to their `boxes`, without instances. `grids`
+/// keeps the grids that the objects refer to. Throws as ObjectLattices does.
 std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
                                          std::span<const VoxelBox> boxes,
                                          const PlacedGridSource& grid_of,
@@ -31,14 +31,14 @@ std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
 
 /// A scene's instances with the grids of their models.
 struct ListedInstances {
-    std::vector<SharedGrid> grids;  ///< of the models, each once, numbered as in `list`
+    std::vector<SharedGrid> grids;  ///< the grid of each model, numbered as in `list`
     std::vector<Instance> list;
-    std::vector<uint32_t> materials;  ///< of their groups
+    std::vector<uint32_t> materials;  ///< the materials of the models' groups
 };
 
-/// Lists a scene's instances with the grids that `grid_of` gives their models, whole, in their own
-/// frames. Throws as that and materials_of_groups do, and Error::scene for a model some of whose
-/// voxels let light through.
+/// Lists a scene's instances with the grids that `grid_of` returns for their models, whole, in
+/// their own frames. Throws as `grid_of` and materials_of_groups do, and Error::scene for a model
+/// some of whose voxels let light through.
 ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const GridSource& grid_of);
 
 }  // namespace voxelume

@@ -64,8 +64,9 @@ bool is_within_world(const Scene& scene, const Object& object, const MeshSummary
     return true;
 }
 
-/// Why a mesh may not be smooth in one part and exact in another, which overlap; empty if it may.
-/// Only opaque surfaces that don't shine and are seen from outside alone hide the overlap.
+/// The reason why a mesh can't be smooth in one part and exact in another, overlapping part; empty
+/// if it can. Only opaque surfaces that don't shine and are seen from outside alone hide the
+/// overlap.
 std::string refusal_of_parts(const Scene& scene, size_t number, const MeshSummary& mesh) {
     if (std::string refusal = voxelume::refusal_of_parts(mesh); !refusal.empty()) return refusal;
     if (scene.models[number].morph || may_change(scene, number)) return "it changes or moves";
@@ -135,13 +136,13 @@ void choose_surfaces(Scene& scene, AssetStore& meshes) {
     }
 }
 
-/// True if rays go through some cubes of the model, of which only its file tells.
+/// True if the model's file has cubes that rays go through.
 bool has_clear_cubes(const Model& model, AssetStore& meshes) {
     return !model.voxels.empty() && shows_voxels(model.surface) && meshes.voxels(model).transparent;
 }
 
-/// True for cubes with a surface's normals that are coarser than the world's. In the world each
-/// would be several, above whose steps rays to lights couldn't begin.
+/// True for cubes with surface normals that are coarser than the world's voxels. In the world each
+/// cube would become several voxels, with steps too high for rays to lights to begin above them.
 bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore& meshes) {
     const Model& model = scene.models[size_t(object.model)];
     if (!shows_voxels(model.surface) || model.normals != CubeNormals::surface ||
@@ -153,19 +154,20 @@ bool is_coarser_soft_cubes(const Scene& scene, const Object& object, AssetStore&
     return own > kCoarser * longest(scene.world.voxel_size);
 }
 
-/// True for a plain object in the world that is an instance for its mesh's many triangles.
+/// True for a plain object in the world that becomes an instance because its mesh has many
+/// triangles per voxel.
 bool is_dense(const Scene& scene, const Object& object, AssetStore& meshes) {
     return is_plain(scene, object) && is_better_divided(scene, object, meshes) &&
            is_within_world(scene, object, *meshes.summary_of(scene.models[size_t(object.model)]));
 }
 
-/// Copies of a mesh from which on they are instances: in the world, each is voxelized again. The
-/// pictures differ in rounding alone, and a first frame takes less time and memory, but for meshes
-/// of a few triangles, which take as long.
+/// The number of copies of a mesh from which they become instances: in the world, each copy would
+/// be voxelized again. The pictures differ in rounding alone. A first frame takes less time and
+/// memory, except for meshes of a few triangles, which take as long.
 constexpr uint32_t kInstancedCopies = 8;
 
-/// The number of plain objects that show each model as meshes that are `exact`, if in parts; 0
-/// where cubes are in the world, which hide what shares their voxels.
+/// For each model, the number of plain objects that show it as a mesh that is wholly or partly
+/// `exact`. All numbers are 0 if the world has cubes, which hide what shares their voxels.
 std::vector<uint32_t> count_copies(const Scene& scene) {
     std::vector<uint32_t> copies(scene.models.size());
     for (const Object& object : scene.objects) {
@@ -213,8 +215,9 @@ glm::dvec3 sides_of(const Model& model, AssetStore& meshes) {
     return box.is_empty() ? glm::dvec3(0) : box.max - box.min;
 }
 
-/// By how much the largest instance of each model is larger than the model, along each axis: 1 or
-/// more, in steps. Frames that move objects count as far as some of them, spread over all, show it.
+/// For each model, the factor by which its largest instance is larger than the model along each
+/// axis, at least 1, in steps. Where frames move objects, some frames are looked at, spread over
+/// all.
 class LargestScales {
   public:
     explicit LargestScales(const Scene& scene)
@@ -255,10 +258,10 @@ class LargestScales {
     bool may_appear_;
 };
 
-/// Gives `smooth` and `exact` instances that are larger than their models voxels that are as large
-/// as the world's where they stand, if the scene says no size. What is larger than the world has as
-/// many voxels as that, and exact meshes of many triangles have more. Cubes keep their size: large
-/// ones are a style.
+/// Sets the voxel sizes of models for which the scene gives none. A `smooth` or `exact` instance
+/// that is larger than its model gets voxels that are as large as the world's where it stands, but
+/// no more voxels along an axis than the world has; exact meshes of many triangles get more. Cubes
+/// keep their size: large cubes are a style.
 void size_instances(Scene& scene, AssetStore& meshes) {
     const double max_voxels = longest(glm::dvec3(scene.world.voxels));
     const LargestScales scales(scene);
@@ -285,7 +288,7 @@ void make_choices(Scene& scene, AssetStore& meshes) {
     size_instances(scene, meshes);
     choose_surfaces(scene, meshes);
     choose_placements(scene, meshes);
-    size_instances(scene, meshes);  // of those that became instances, too
+    size_instances(scene, meshes);  // sizes objects that became instances, too
 }
 
 }  // namespace voxelume

@@ -13,7 +13,7 @@ namespace voxelume {
 /// An object whose hits are looked up in the mesh that it was made of.
 struct SourceObject {
     uint32_t object = 0;  ///< its number in the scene
-    uint32_t model = 0;   ///< its place in ListedSources::models
+    uint32_t model = 0;   ///< index into ListedSources::models
 };
 
 struct ListedSources {

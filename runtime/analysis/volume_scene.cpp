@@ -9,7 +9,8 @@
 namespace voxelume {
 namespace {
 
-/// The samples of a voxel where those of a scene are as many as a noise may need.
+/// The maximum number of samples per voxel for scenes whose images sample until a target of noise
+/// is met.
 constexpr int kSamplesWithNoise = 64;
 
 bool asks_for_light_of_layers(const Scene& scene) {

@@ -9,23 +9,24 @@
 
 namespace voxelume {
 
-/// The scene with the default channels; what it asks for are a flat image's. In global light no
-/// medium scatters, for the voxels of a medium have only its own light, and with a noise to reach
-/// all voxels have a few samples: none is measured.
+/// The scene with the default channels, since the channels that it asks for belong to the flat
+/// image. In global light no medium scatters, because voxels of a medium hold only the medium's own
+/// light. With a target of noise each voxel takes a limited number of samples, because its noise
+/// isn't measured.
 Scene volume_scene(Scene scene);
 
-/// Where a display can't show global light, the scene is in local light: in the layout `rays` the
-/// layers of objects that let light through would need the light of each alone.
+/// The scene, in local light where its display can't show global light: in the layout `rays`, each
+/// layer of objects that let light through would need light of its own.
 Scene volume_scene(const Scene& scene, const Pyramid& world);
 
 /// True if the scene's objects rule out global light, wherever they are in a frame. In a world,
 /// textures and voxels that are seen through may rule it out, too.
 bool drops_global_light(const Scene& scene);
 
-/// What the caller of an image that drops it is told.
+/// The warning for callers that ask for global light and get a volumetric image in local light.
 Warning local_volume_warning(const Scene& scene);
 
-/// The features of a scene that `volume_scene` gave.
+/// The features of a scene that `volume_scene` returned.
 Features volume_features(const Scene& scene, const Pyramid& world);
 
 }  // namespace voxelume

@@ -26,15 +26,15 @@ std::string noise_text(const NoiseReached& noise);
 /// Writes an image's files band by band. They appear under their names when all is there.
 class BandFiles final : public BandSink {
   public:
-    /// `texts` are those of the files' headers. Where its noise is one of them, it is told at the
-    /// end.
+    /// `texts` are the texts of the files' headers. If the image's noise is one of them, its value
+    /// is written at the end.
     BandFiles(const ImageWindow& window, Attributes texts, const v1::FrameFiles& files,
               const v1::ImageFileOptions& options, BandChange change);
 
     void add(const std::shared_ptr<const Image>& band) override;
     void finish(const RenderReport& report) override;
 
-    double seconds() const { return seconds_; }  ///< that writing took
+    double seconds() const { return seconds_; }  ///< seconds that writing took
 
   private:
     ImageWindow window_;

@@ -8,7 +8,7 @@
 
 namespace voxelume {
 
-/// Lets a caller hear of compiling as long as it lives.
+/// Reports compilations to a caller as long as this object lives.
 class CompilerWatch {
   public:
     CompilerWatch(std::span<const Device> devices, const CompileListener& listener)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voxels from a file of one format to one of another, for callers.
+// Conversion of voxel files from one format to another, for callers.
 #include <algorithm>
 
 #include "runtime/api/border/guarded.hpp"
@@ -66,8 +66,8 @@ CubeList cubes_of_volume(const std::filesystem::path& path) {
     return cubes;
 }
 
-/// The voxels of a model file, those of an array as pictures of the file have them, and the inside
-/// of a surface.
+/// The voxels of a model file: of an array, those that pictures of the file show; of a smooth
+/// surface, the cubes inside it.
 VoxelModel model_of(const std::filesystem::path& path, WriterNotes& notes) {
     const VoxelFileFormat* const format = voxel_file_format(path);
     const std::string ending = ending_of(path);

@@ -126,7 +126,7 @@ Report describe_model(const fs::path& path) {
     return report;
 }
 
-/// True if all of a voxelized model is as its checksums have it.
+/// True if all parts of a voxelized model match their checksums.
 bool is_model_whole(const fs::path& path) try {
     read_model_file(path);
     return true;

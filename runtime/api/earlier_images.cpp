@@ -18,7 +18,7 @@ namespace voxelume::api {
 namespace {
 
 // The texts in an image's header that tell of its samples.
-constexpr const char* kSamples = "samples";  ///< of each pixel; with a target of noise the most
+constexpr const char* kSamples = "samples";  ///< per pixel; with a target of noise the maximum
 constexpr const char* kNoiseTarget = "noise target";
 constexpr const char* kTimeTarget = "time target";
 
@@ -77,7 +77,7 @@ std::optional<Number> number_in(const ExrHeader& header, const char* attribute) 
     return number;
 }
 
-/// How an image's file says that it was sampled.
+/// The sampling of an image, as its file's header gives it.
 RenderSettings sampling_in(const std::filesystem::path& file) {
     const ExrHeader header = read_exr_header(file);
     RenderSettings render;
@@ -125,7 +125,7 @@ void check_samples(const std::filesystem::path& file, const RenderSettings& earl
                     file.string(), earlier.samples);
 }
 
-/// The scene as an earlier run was asked for it.
+/// The scene with the sampling of an earlier run.
 v1::Scene sampled(const v1::Scene& scene, const RenderSettings& as) {
     if (as.noise.is_given()) return scene.with_noise(as.noise.error, as.noise.seconds, as.samples);
     return scene.with_samples(as.samples);

@@ -11,8 +11,8 @@
 
 namespace voxelume::api {
 
-/// The texts for the header of an image of this scene from which it can be told what samples are
-/// missing. None where they are those of pixels that contrast with others.
+/// The texts for the header of an image of this scene that tell which samples are missing. Empty
+/// for adaptive sampling, where pixels get more samples by their contrast with others.
 Attributes sampling_texts(const Scene& scene);
 
 /// The files of a job's frames that were rendered with fewer samples.
@@ -23,7 +23,7 @@ class EarlierFiles {
     /// of two, or more noise.
     EarlierFiles(const v1::Scene& scene, const v1::FrameJob& job, const v1::Channels& channels);
 
-    /// Empty where no frame has one.
+    /// The earlier images of frames; empty if no frame has one.
     EarlierImages images() const;
 
   private:

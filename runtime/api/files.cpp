@@ -39,7 +39,7 @@ bool asks_for_cubes(const v1::VoxelizeOptions& options) {
     return options.surface && shows_voxels(static_cast<Surface>(*options.surface));
 }
 
-/// What the voxels of a mesh show.
+/// The surface that the voxels of a mesh show.
 Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOptions& options) {
     const bool has_points = has_points_alone(mesh);
     if (!options.surface) return has_points ? Surface::cubes : Surface::smooth;
@@ -50,7 +50,7 @@ Surface surface_of(const fs::path& path, const Mesh& mesh, const v1::VoxelizeOpt
     return static_cast<Surface>(*options.surface);
 }
 
-/// Voxels along the longest side where the options don't say how many.
+/// The number of voxels along the longest side where the options give none.
 int usual_resolution(const std::vector<fs::path>& outputs) {
     int voxels = 256;
     for (const fs::path& output : outputs)
@@ -58,7 +58,7 @@ int usual_resolution(const std::vector<fs::path>& outputs) {
     return voxels;
 }
 
-/// What a scene would say of the mesh.
+/// The model that a scene would define for the mesh.
 Model model_of(const fs::path& path, const Mesh& mesh, Surface surface,
                const v1::VoxelizeOptions& options, int usual) {
     Model model;
@@ -107,14 +107,14 @@ void add_notes(const std::vector<std::string>& notes, v1::VoxelizeReport& report
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
 }
 
-/// What a file of cubes alone loses where voxels aren't cubes.
+/// A note on what file formats of cubes alone lose where voxels aren't cubic.
 std::string note_of_edges(const fs::path& output, const glm::dvec3& edge) {
     if (check_voxel_output(output).keeps_edges || (edge.x == edge.y && edge.y == edge.z)) return {};
     return fmt::format("{}: voxels of {:.4g} x {:.4g} x {:.4g} m became cubes",
                        output.filename().string(), edge.x, edge.y, edge.z);
 }
 
-/// What is lost of materials in files of voxels that know colours alone.
+/// Notes on what files of voxels that hold colours alone lose of materials.
 std::vector<std::string> notes_of_materials(const std::vector<fs::path>& outputs,
                                             std::span<const CubeMaterial> materials) {
     const bool keeps = std::ranges::all_of(
@@ -125,7 +125,7 @@ std::vector<std::string> notes_of_materials(const std::vector<fs::path>& outputs
         "than .vox"};
 }
 
-/// What is lost of the colours of a mesh's own materials and textures.
+/// Notes on what is lost of the colours of a mesh's own materials and textures.
 std::vector<std::string> notes_of_paint(const Mesh& mesh, std::span<const Material> materials,
                                         bool has_cubes) {
     const MeshPaint paint = paint_of(mesh);

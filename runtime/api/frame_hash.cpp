@@ -27,10 +27,10 @@
 namespace voxelume::api {
 namespace {
 
-/// Where hashes of files are asked for.
+/// The functions that add the hashes of files.
 struct FileHashes {
-    std::function<void(const std::filesystem::path&)> add_mesh;    ///< with all that it leads to
-    std::function<void(const std::filesystem::path&)> add_voxels;  ///< likewise
+    std::function<void(const std::filesystem::path&)> add_mesh;    ///< with its companion files
+    std::function<void(const std::filesystem::path&)> add_voxels;  ///< with its companion files
     std::function<void(const Model&)> add_given;                   ///< voxels in memory
 };
 
@@ -51,7 +51,7 @@ void add_files(const Scene& scene, const FileHashes& hashes) {
     if (scene.world.sky && !scene.world.sky->file.empty()) hashes.add_voxels(scene.world.sky->file);
 }
 
-/// True if some file may be another one at other moments.
+/// True if some file may be replaced by another one at other moments.
 bool files_change(const Scene& scene) {
     return any_part_changes(scene, [](const MovingPart& part) {
         return !part.sequences.empty() || std::ranges::any_of(part.tracks, [](const Track& track) {
@@ -61,7 +61,7 @@ bool files_change(const Scene& scene) {
 }
 
 /// The hash of a mesh's file and of the libraries, textures and buffers that it leads to; empty for
-/// a file that can't be read, of which rendering says why.
+/// a file that can't be read, for which rendering reports the reason.
 std::string read_mesh_hash(const std::filesystem::path& file) {
     try {
         return mesh_source(read_mesh_bytes(file), file);

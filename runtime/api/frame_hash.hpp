@@ -18,8 +18,9 @@ class FrameHashes {
   public:
     explicit FrameHashes(const v1::Scene& scene) : scene_(scene) {}
 
-    /// 32 hexadecimal digits: of the version, the scene, its settings, and the bytes of all files
-    /// that the frame shows, with those that they lead to. Throws Error::scene as `scene_at` does.
+    /// Returns a hash of 32 hexadecimal digits over the version, the scene, its settings, and the
+    /// bytes of all files that the frame shows, with those that they lead to. Throws Error::scene
+    /// as `scene_at` does.
     std::string of(int frame) { return hash(frame, false); }
     /// Hashes what the frame's volumetric image shows, in which a crop of the picture doesn't
     /// count.

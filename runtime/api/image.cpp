@@ -29,7 +29,7 @@ const Plane<float>& plane_of(const Image& image, std::string_view channel) {
                 suggest(channel, names));
 }
 
-/// Nothing where the image has no such numbers.
+/// The numbers in a plane of ids; empty where the image has no such plane.
 std::span<const uint32_t> ids_of(const Image& image, const char* plane) {
     const auto found = image.id_planes.find(plane);
     if (found == image.id_planes.end()) return {};
@@ -117,7 +117,7 @@ void merge_image_files(const std::vector<std::filesystem::path>& parts,
         voxelume::Image whole = join_images(std::move(images));
         api::Attributes attributes = std::exchange(whole.attributes, {});
         attributes.erase(api::kStamp);
-        attributes.erase("noise");  // of the first part alone
+        attributes.erase("noise");  // the noise of the first part alone
         attributes[api::kFrameHash] = hash;
         const Image image = api::handle_of(
             std::make_shared<const voxelume::Image>(std::move(whole)), std::move(attributes));

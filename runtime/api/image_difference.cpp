@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kColors[] = {"R", "G", "B"};
 
-/// Codes as the light that they stand for.
+/// Turns codes into the light that they stand for.
 void make_linear(Image& image) {
     for (const char* name : kColors)
         if (const auto plane = image.planes.find(name); plane != image.planes.end())
@@ -40,7 +40,7 @@ bool has_numbers(const Image& image) {
     });
 }
 
-/// What is stored for each pixel while FLIP is computed, bytes.
+/// The bytes per pixel that are stored while FLIP is computed.
 constexpr double kFlipBytes = 200;
 
 bool has_room_for_flip(const Image& image) {
@@ -55,7 +55,7 @@ Image colors_of(const Image& image, bool are_codes) {
     return colors;
 }
 
-/// What FLIP is of each pixel; nothing without colours, for colours that aren't numbers, and where
+/// The FLIP value of each pixel; empty without colours, for colours that aren't numbers, and where
 /// memory has no room for it.
 std::optional<std::vector<float>> flip_of(const Image& a, const Image& b, bool are_codes) {
     if (!has_colors(a) || !has_colors(b) || !has_numbers(a) || !has_numbers(b)) return {};

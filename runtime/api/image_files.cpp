@@ -91,7 +91,8 @@ const ImageFormatEntry& format_of(std::string_view ending, const std::string& na
                 image_endings(&ImageFormatEntry::write));
 }
 
-/// Calls `write` with the image that has the channels asked for, and how the format stores it.
+/// Calls `write` with the image of the channels that are asked for, and with the way in which the
+/// format stores them.
 template <class Write>
 auto with_storage(const v1::Image::Implementation& image, const ImageFormatEntry& format,
                   const v1::ImageFileOptions& options, const Write& write) {
@@ -133,7 +134,7 @@ const ImageFormatEntry& format_in_file(const std::filesystem::path& file) {
     input.read(0, start.data(), size);
     const ImageFormatEntry* format = image_format_of(std::span<const uint8_t>(start.data(), size));
     if (format != nullptr && format->read != nullptr) return *format;
-    return *image_format_of(std::string_view(".exr"));  // whose reader says what is wrong
+    return *image_format_of(std::string_view(".exr"));  // its reader reports what is wrong
 }
 
 void write_image(const std::filesystem::path& file, const v1::Image::Implementation& image,

@@ -21,8 +21,8 @@ const ImageFormatEntry& format_of_image(const std::filesystem::path& file);
 /// Error::input for a file that can't be read.
 const ImageFormatEntry& format_in_file(const std::filesystem::path& file);
 
-/// Writes the channels that the options name. Throws Error::usage for options and names that are
-/// wrong, Error::output.
+/// Writes the channels that the options name. Throws Error::usage for wrong options and names, and
+/// Error::output.
 void write_image(const std::filesystem::path& file, const v1::Image::Implementation& image,
                  const v1::ImageFileOptions& options);
 

@@ -44,7 +44,8 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     return inside;
 }
 
-/// The file itself, where a link leads to it: scenes name files below their own folder only.
+/// The file that a link leads to, or the file itself: scenes name files below their own folder
+/// only.
 fs::path find_file(const fs::path& file) {
     if (!is_model_file(file))
         throw Error(ErrorKind::usage, "{} isn't the name of a model file", quote(file.string()));

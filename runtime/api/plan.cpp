@@ -54,7 +54,7 @@ v1::GridPlan grid_for_callers(const Scene& scene, const GridPlan& grid) {
             grid.object < 0 ? instances_of(scene, grid.model) : 0};
 }
 
-/// Why the frame doesn't fit, where it doesn't.
+/// The error that says why the frame doesn't fit; empty if it fits.
 std::optional<v1::Error> refusal_of(const Scene& scene, const FramePlan& planned,
                                     const DeviceInfo& device) {
     try {

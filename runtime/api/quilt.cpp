@@ -59,14 +59,14 @@ void check_views(const std::vector<Image>& views, const Quilt& quilt) {
                               count);
 }
 
-/// Progress of one view as that of all.
+/// The options with the progress of one view reported as a part of that of all views.
 RenderOptions options_of_view(const RenderOptions& options, int number, int views) {
     RenderOptions of_view = options;
     if (options.progress)
         of_view.progress = [&options, number, views](double done, int frame) {
             options.progress((number + done) / views, frame);
         };
-    if (number > 0) of_view.warn = {};  // which would say the same
+    if (number > 0) of_view.warn = {};  // other views would repeat the warnings
     return of_view;
 }
 

@@ -15,14 +15,14 @@
 
 namespace voxelume::api {
 
-/// How a reader of scenes gets at files.
+/// The sources of the files that a reader of scenes needs.
 struct SceneFiles {
     AssetFolders assets;
     const FileBoxes& boxes;
     const std::function<AssetStore&()> store;  ///< made when it is first asked for
     std::vector<SceneChange> changes;
     double orbit = 0;   ///< degrees
-    std::string& hash;  ///< to be set to that of the scene's document
+    std::string& hash;  ///< set by the reader to the hash of the scene's document
     GivenVoxels given;
 };
 

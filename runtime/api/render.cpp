@@ -49,7 +49,7 @@ api::Attributes attributes_of(const Scene& scene, int frame) {
     return attributes;
 }
 
-/// What a job asks for, of all of its frames.
+/// The results that a job asks for in any of its frames.
 struct Wanted {
     bool images = false, volumes = false;  ///< in memory or as files
     v1::Channels channels;
@@ -161,7 +161,7 @@ class Run {
                     fmt::format("{}: {}{}", found[0].where, found[0].text, more));
     }
 
-    /// The texts of an image's files. An image in bands hears of its noise when all have it.
+    /// The texts for an image's files, without the noise while bands are missing.
     api::Attributes texts_of_image(int frame, const NoiseReached* noise) {
         api::Attributes texts = attributes_of(scene_, frame);
         if (!noise && measures_noise(scene_)) texts["noise"] = api::noise_text({});
@@ -174,7 +174,7 @@ class Run {
         return texts;
     }
 
-    /// Who writes a frame's image in bands.
+    /// The sink that writes a frame's image in bands.
     std::shared_ptr<BandSink> band_files(const v1::FrameFiles& files) {
         const RenderSettings& render = scene_.render;
         const std::lock_guard lock(hashes_mutex_);
@@ -206,7 +206,7 @@ class Run {
         if (job_.deliver) api::callback(job_.deliver)(rendered);
     }
 
-    /// The image, with its motion where that is asked for, and without what only that needed.
+    /// The image with its motion where that is asked for, without what only the motion needed.
     std::shared_ptr<const Image> with_motion(const std::shared_ptr<const Image>& image,
                                              int frame) const {
         const v1::Channels& channels = wanted_.channels;

@@ -12,7 +12,7 @@
 
 namespace voxelume::api {
 
-/// What is rendered for the channels; motion is found from points and objects.
+/// The channels to render for these channels; motion is found from points and objects.
 inline ImageChannels inside(const v1::Channels& channels) {
     return {.color = channels.color,
             .depth = channels.depth,
@@ -33,10 +33,10 @@ inline ImageChannels inside(const v1::Channels& channels) {
             .variance = channels.variance};
 }
 
-/// What one frame took.
+/// The statistics of one frame.
 v1::FrameStatistics statistics_of(const FrameReport& frame);
 
-/// What a run of frames took on its devices, without its files and seconds.
+/// The statistics of a run of frames on its devices, without its files and seconds.
 v1::Statistics statistics_of(std::span<const FrameReport> frames, std::span<const Device> devices);
 
 }  // namespace voxelume::api

@@ -26,10 +26,10 @@ namespace {
 /// Throws Error::input for a file whose name isn't that of a scene and which doesn't begin as one.
 void refuse_other_files(const std::filesystem::path& file) {
     std::string ending = ending_of(file);
-    if (ending == ".gz") ending = ending_of(file.stem()) + ending;  // of some files, not of all
+    if (ending == ".gz") ending = ending_of(file.stem()) + ending;  // such as .nii.gz
     if (ending.empty() || ending == ".json" || !std::filesystem::is_regular_file(file)) return;
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) return;  // reading says why
+    if (!stream) return;  // reading reports the reason
     char first = 0;
     stream >> first;
     if (first == '{' || first == '\xEF') return;

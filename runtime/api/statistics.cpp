@@ -128,7 +128,7 @@ v1::Statistics api::statistics_of(std::span<const FrameReport> frames,
         sum.devices.push_back({info.name, info.driver, info.compute_units, device.lanes()});
         add_counters(device.counters(), sum);
     }
-    // Nobody misses what the last frame of a device doesn't keep.
+    // The last frame of a device has no later frame that could use what it keeps.
     for (auto frame = sum.frames.begin(); frame != sum.frames.end(); ++frame)
         frame->keeps_nothing &= std::any_of(
             frame + 1, sum.frames.end(),

@@ -16,7 +16,7 @@ Json seconds_of(const StageSeconds& seconds) {
             {"index", seconds.index}, {"cache", seconds.cache},       {"image", seconds.image}};
 }
 
-/// What a frame computed, and what it took over from the frame before.
+/// The work of a frame, and the parts that it reused from the frame before.
 Json json_of(const FrameStatistics& frame) {
     return {{"frame", frame.frame},
             {"device", frame.device},

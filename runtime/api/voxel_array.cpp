@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kNoColor = 0xFFFFFF;  // of cells without a voxel
+constexpr uint32_t kNoColor = 0xFFFFFF;  // colour of cells without a voxel
 
 std::array<std::ptrdiff_t, 3> strides_of(const v1::VoxelArray& array) {
     if (array.strides) return *array.strides;

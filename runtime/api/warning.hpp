@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Warnings of the inside for callers.
+// Warnings of the library's inside -> warnings for callers.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of main memory that what was read of a file takes.
+// The bytes of main memory that the loaded contents of a file take.
 #pragma once
 
 #include <cstdint>

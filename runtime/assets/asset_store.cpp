@@ -29,7 +29,7 @@ const std::string& AssetStore::source_of_file(const std::filesystem::path& path)
     return source;
 }
 
-/// The bytes of a file, which are those that its source was made of.
+/// The bytes of a file. Throws if they aren't those that the file's source was made from.
 std::string AssetStore::bytes_of_file(const std::filesystem::path& path) {
     std::string bytes = read_mesh_bytes(path);
     if (!cache_.is_open()) return bytes;
@@ -68,7 +68,7 @@ const Mesh& AssetStore::mesh(const std::filesystem::path& path, const FileMap& m
     if (mesh) return *mesh;
     const LoadTimer timer(load_seconds_);
     if (!map.is_identity() && file.mesh) {
-        // What was read to measure the file is moved instead of read again or copied.
+        // A mesh that was read to measure the file is moved instead of read again or copied.
         mesh = std::move(file.mesh);
         file.mesh.reset();
     } else {
@@ -78,7 +78,8 @@ const Mesh& AssetStore::mesh(const std::filesystem::path& path, const FileMap& m
     return *mesh;
 }
 
-/// What is known of a mesh, from memory, the cache or `make`, which reads the mesh, in that order.
+/// A value known of a mesh: from memory, else from the cache, else from `make`, which reads the
+/// mesh.
 template <typename Value, typename Make>
 const Value& AssetStore::known(std::optional<Value>& value, const std::string& source,
                                CacheGetter<Value> cached, const Make& make) {

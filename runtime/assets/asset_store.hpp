@@ -39,7 +39,8 @@ class AssetStore {
     const GltfFile& gltf_file(const std::filesystem::path& file);
     /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
     const VoxelModel& voxels(const Model& model);
-    /// What a MagicaVoxel file holds besides its voxels. Throws Error::input as read_vox_file does.
+    /// The content of a MagicaVoxel file without its voxels. Throws Error::input as read_vox_file
+    /// does.
     const VoxFile& vox_file(const std::filesystem::path& file);
     /// The mesh that is voxelized for a model: its own or thin parts of that, or the triangles of a
     /// file of exact voxels. Null for other models.
@@ -49,11 +50,13 @@ class AssetStore {
     /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
     /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
-    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
+    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache has the
+    /// number.
     double winding_of(const Model& model, const glm::dvec3& point);
-    /// What the surface that suits a model's mesh file depends on; a morph doesn't count.
+    /// The properties of a model's mesh file that decide which surface suits it; a morph doesn't
+    /// count.
     MeshShape shape_of(const Model& model);
-    /// The part of it that takes a sixth of the time.
+    /// The thickness part of shape_of(), which takes a sixth of the time.
     MeshThickness thickness_of(const Model& model);
     /// The surface that a model's file of voxels holds, with the reason. An OpenVDB file has cubes,
     /// and without those a level set. Throws as voxels() does.

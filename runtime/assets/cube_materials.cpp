@@ -22,7 +22,7 @@ float roughness_of(const Material& m) {
     return float(std::pow(2 / (double(m.shininess) + 2), 0.25));
 }
 
-/// A voxel's colour is that of its light.
+/// The material of a voxel that emits light; the voxel's colour is that of the light.
 CubeMaterial emissive(const Material& m) {
     const float largest = std::max({m.emission.r, m.emission.g, m.emission.b});
     CubeMaterial emissive;
@@ -35,7 +35,7 @@ CubeMaterial emissive(const Material& m) {
     return emissive;
 }
 
-/// Light through eight voxels of glass has the voxels' colour.
+/// The material of a voxel of glass: light has the voxels' colour after eight voxels.
 CubeMaterial glass(const Material& m, double edge) {
     const float weight = float(m.transmission.value_or(double(m.refraction)));
     const glm::vec3 through = glm::exp(m.absorption * float(-8 * edge) / weight);

@@ -10,11 +10,11 @@
 
 namespace voxelume {
 
-/// What shows most of each material: light that it gives off, glass, or metal. Voxels have edges of
-/// `edge` metres, which are 1 m in the file. The inverse of what a .vox is imported as.
+/// Reduces each material to what shows most: emitted light, glass or metal. An edge of a voxel is
+/// `edge` metres in the scene and 1 m in the file. This is the inverse of the import of .vox files.
 std::vector<CubeMaterial> cube_materials(std::span<const Material> materials, double edge);
 
-/// True if one of them is more than a plain colour.
+/// True if some material is more than a plain colour.
 bool has_more_than_colors(std::span<const CubeMaterial> materials);
 
 }  // namespace voxelume

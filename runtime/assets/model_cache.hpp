@@ -26,7 +26,8 @@ std::string part_source(const std::string& source, int part);
 /// Names the mesh of a source after a map.
 std::string mapped_source(const std::string& source, const FileMap& map);
 
-/// Names the mesh of a source without what is too thin for voxels of some edge, or these parts.
+/// Names the mesh of a source without its parts that are too thin for voxels of `voxel_edge`, or
+/// the mesh of these parts alone.
 std::string thin_source(const std::string& source, double voxel_edge, bool is_thin_part);
 
 /// Names a mesh that is morphed from one source to another; `to` is empty for a sphere.
@@ -76,7 +77,8 @@ class ModelCache {
                               std::optional<uint64_t> megabytes);
 
     bool is_open() const { return is_open_; }
-    /// See DiskCache. The folder of a cache that isn't open isn't to be used.
+    /// The reason why nothing can be written, as DiskCache has it; empty for a cache that isn't
+    /// open, whose folder isn't used.
     std::string refusal() const { return is_open_ ? store_.refusal() : std::string(); }
     const std::filesystem::path& folder() const { return store_.folder(); }
     bool keeps_worlds() const { return is_open_ && keeps_worlds_; }
@@ -84,7 +86,7 @@ class ModelCache {
     std::optional<MeshSummary> summary(const std::string& source) const;
     void keep(const std::string& source, const MeshSummary& summary, double seconds) const;
 
-    /// These do the same for what a mesh's surface depends on.
+    /// The next two do the same for the shape of a mesh, on which its surface depends.
     std::optional<MeshShape> shape(const std::string& source) const;
     void keep(const std::string& source, const MeshShape& shape, double seconds) const;
 
@@ -95,8 +97,8 @@ class ModelCache {
     /// cache isn't kept: a few of them would displace all other entries.
     void keep(const std::string& key, const BrickGrid& grid, double seconds) const;
 
-    /// These do the same for worlds without instances. Worlds count by the bytes that they take on
-    /// the device.
+    /// The next two do the same for worlds without instances. Worlds count by the bytes that they
+    /// take on the device.
     std::optional<Pyramid> world(const Device& device, const std::string& key) const;
     void keep(const std::string& key, const Pyramid& world, double seconds) const;
     /// True if a world that took `seconds` to make is worth keeping for its time, but exceeds the

@@ -87,7 +87,7 @@ std::string cbor_of(const nlohmann::json& json) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// What `read` makes of the bytes; nothing where they aren't what was written.
+/// The value that `read` makes of the bytes; empty where they aren't what was written.
 template <typename Value>
 std::optional<Value> value_of(const std::string& bytes, Value (*read)(const nlohmann::json&)) {
     try {

@@ -12,7 +12,7 @@ namespace voxelume {
 
 std::string bytes_of(const MeshSummary& summary);
 std::string bytes_of(const MeshShape& shape);
-/// Empty where the bytes aren't those of a summary or a shape.
+/// The summary or the shape in these bytes; empty where they hold none.
 std::optional<MeshSummary> summary_of_bytes(const std::string& bytes);
 std::optional<MeshShape> shape_of_bytes(const std::string& bytes);
 

@@ -33,7 +33,7 @@ glm::vec3 linear_color(uint32_t code) {
     return linear_from_srgb(glm::dvec3(code & 255, code >> 8 & 255, code >> 16 & 255) / 255.0);
 }
 
-/// What a voxel of a colour covers.
+/// The opacity of a voxel with this colour code.
 float opacity_of(uint32_t code) {
     return float(255 - (code >> VXL_TRANSPARENCY_SHIFT)) / 255;
 }

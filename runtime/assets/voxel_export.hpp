@@ -28,12 +28,12 @@ class VoxelExport {
   public:
     VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surface, VoxelSet set);
 
-    /// Cubes; `model` is left without arrays.
+    /// Takes cubes; `model` is left without arrays.
     explicit VoxelExport(VoxelModel model);
 
     /// The voxels of cubes, with their colours and the numbers of their groups of faces.
     VoxelModel cubes() const;
-    /// Both of these throw Error::output.
+    /// Writes a .vxm file or an OpenVDB file. Both functions throw Error::output.
     void write_model(const std::filesystem::path& path) const;
     void write_vdb(const std::filesystem::path& path) const;
 
@@ -60,8 +60,8 @@ class VoxelExport {
     std::vector<float> triangles_;
 };
 
-/// Writes cubes as the name asks for. Returns sentences on what the format couldn't hold. Throws
-/// Error::output, and Error::limit for more voxels than the format has.
+/// Writes cubes in the format of the file's name. Returns sentences on what the format couldn't
+/// hold. Throws Error::output, and Error::limit for more voxels than the format can hold.
 std::vector<std::string> write_cubes(const std::filesystem::path& path, const VoxelExport& voxels);
 
 }  // namespace voxelume

@@ -177,7 +177,8 @@ VoxelModel read_coded_model(const std::filesystem::path& path, Surface surface, 
             return read_voxel_file(*format, path, surface, values);
     if (values.is_there()) file.refuse("has voxels and no values: leave out \"iso\" and \"label\"");
     const bool is_model = start == kModelStart, is_vdb = start == std::string(" BDV\0\0\0\0", 8);
-    // The name counts where nothing is known to begin like this: the format's reader refuses it.
+    // Where the first bytes are unknown, the name decides, and its format's reader refuses the
+    // file.
     const std::string ending = is_model || is_vdb ? "" : ending_of(path);
     if (start.starts_with("VOX ") || ending == ".vox")
         return read_vox_model(read_vox_file(path), surface, part);

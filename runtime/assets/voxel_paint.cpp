@@ -21,7 +21,7 @@ class Paint {
     explicit Paint(const Material& material)
         : color_(color_of(material)), opacity_(material.opacity) {}
 
-    /// 0xTTBBGGRR times the material's colour and opacity.
+    /// The colour code 0xTTBBGGRR, multiplied by the material's colour and opacity.
     uint32_t of(uint32_t code) const {
         static const std::vector<float> levels = srgb_levels();
         uint32_t painted = 0;
@@ -37,8 +37,8 @@ class Paint {
     float opacity_;
 };
 
-/// The colour of a stored brick's voxel, where there is one: in the middle of its side at +X, or
-/// else any.
+/// The colour of a voxel in a stored brick: of the one in the middle of the side at +X if it is
+/// occupied, else of the first voxel; empty without voxels.
 std::optional<uint32_t> color_in(const VoxelModel& model, uint32_t slot,
                                  std::span<const uint32_t> colors) {
     constexpr glm::ivec3 kMiddle(kBrickSize - 1, kBrickSize / 2, kBrickSize / 2);
@@ -53,8 +53,8 @@ std::optional<uint32_t> color_in(const VoxelModel& model, uint32_t slot,
     return std::nullopt;
 }
 
-/// Gives full bricks, whose material isn't kept, the colour of what they touch at -X: the solid's
-/// that fills them.
+/// The colours of full bricks, for which no material is stored. A full brick takes the colour of
+/// the stored brick before it along X, which belongs to the same solid.
 std::vector<uint32_t> colors_of_full(const VoxelModel& model, std::span<const uint32_t> colors) {
     if (std::ranges::find(model.slots, kBrickInside) == model.slots.end()) return {};
     std::vector<uint32_t> full(model.slots.size());

@@ -10,9 +10,9 @@
 namespace voxelume {
 
 /// Multiplies the colours of cubes by those of their materials, which are numbered as in the
-/// model's attributes; `attribute` is that of all voxels of a model without. Their opacities are
-/// multiplied, too, and what is then less than 1/510 opaque is no voxel any more. The attributes go
-/// on telling the materials.
+/// model's attributes; `attribute` is the value for all voxels of a model without attributes.
+/// Opacities are multiplied, too, and voxels that are then less than 1/510 opaque disappear. The
+/// attributes still tell the materials.
 void paint_voxels(std::span<const Material> materials, uint32_t attribute, VoxelModel& model);
 
 }  // namespace voxelume

@@ -45,7 +45,7 @@ class Error : public std::runtime_error {
     Error(ErrorKind kind, const std::string& sentence)
         : std::runtime_error(sentence), kind_(kind) {}
 
-    /// The sentence of another error's place, which stays its own.
+    /// Makes an error whose sentence already names `place`.
     Error(const SourcePlace& place, ErrorKind kind, const std::string& sentence)
         : std::runtime_error(sentence),
           kind_(kind),
@@ -59,7 +59,7 @@ class Error : public std::runtime_error {
 
     ErrorKind kind() const noexcept { return kind_; }
     int exit_code() const noexcept { return static_cast<int>(kind_); }
-    /// Where the mistake stands; an empty place where that isn't known.
+    /// The place of the mistake; empty if it isn't known.
     SourcePlace place() const { return place_ ? *place_ : SourcePlace(); }
 
   private:

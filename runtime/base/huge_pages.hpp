@@ -14,8 +14,8 @@ namespace voxelume {
 /// 0.5 µs when it is first touched, which is as long as filling it takes.
 void advise_huge_pages(void* data, size_t bytes);
 
-/// Leaves elements of an array undefined where it grows, so that whoever fills it touches its
-/// memory first, in as many threads as he likes.
+/// Leaves elements of an array undefined where it grows, so that the code that fills it touches its
+/// memory first, in any number of threads.
 template <class Element>
 struct UnfilledMemory : std::allocator<Element> {
     template <class Other>

@@ -29,8 +29,8 @@ uint64_t limit_in(const fs::path& file) {
     return stream >> bytes ? bytes : kNoLimit;
 }
 
-/// The least limit of a group and of those that it is in. Containers often see their own group as
-/// the root, and its path as it is outside: folders that aren't there limit nothing.
+/// The lowest limit of a group and of the groups around it. A container often sees its own group as
+/// the root, while the group's path is the one outside: folders that don't exist set no limit.
 uint64_t limit_of_group(const fs::path& root, const fs::path& group, const char* file) {
     uint64_t min = limit_in(root / file);
     fs::path folder = root;
@@ -45,7 +45,7 @@ uint64_t process_limit(int resource) {
     return limit.rlim_cur;
 }
 
-/// What the machine and the system allow; doesn't change while a program runs.
+/// The memory that the machine and the system allow; doesn't change while a program runs.
 uint64_t allowed_memory() {
     const uint64_t machine = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
     return std::min({machine, control_group_memory("/proc/self/cgroup", "/sys/fs/cgroup"),

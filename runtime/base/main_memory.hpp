@@ -12,7 +12,7 @@ namespace voxelume {
 /// Slurm), its limits (`ulimit -d` and `-v`) or limit_main_memory() allow fewer.
 uint64_t main_memory();
 
-/// Has main_memory() tell at most this; 0: as much as there is. Any thread may call it.
+/// Makes main_memory() return at most `bytes`; 0 removes this limit. Any thread may call it.
 void limit_main_memory(uint64_t bytes);
 
 /// True if the process may take this many bytes in addition to what it holds (its resident memory).

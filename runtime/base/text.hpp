@@ -21,7 +21,7 @@ std::string quote(std::string_view text);
 /// `a "model"` or `an "observer"`.
 std::string with_article(std::string_view name);
 
-/// What a file's name ends with, in small letters: ".png" of "Bunny.PNG".
+/// The ending of a file's name, in lower case: ".png" of "Bunny.PNG".
 std::string ending_of(const std::filesystem::path& file);
 
 /// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. It begins

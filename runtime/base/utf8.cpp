@@ -7,7 +7,8 @@
 namespace voxelume {
 namespace {
 
-/// How many bytes continue a character that begins with `first`; -1 for a byte that begins none.
+/// The number of bytes that continue a character whose first byte is `first`; -1 for a byte that
+/// begins none.
 int bytes_after(uint8_t first) {
     if (first < 0x80) return 0;
     if (first >= 0xC2 && first < 0xE0) return 1;

@@ -12,28 +12,29 @@
 
 namespace voxelume {
 
-/// What a warning is about, in the order of v1::WarningKind.
+/// The subject of a warning, in the order of v1::WarningKind.
 enum class WarningKind : uint8_t {
     outside_world,        ///< an object of which nothing can lie in the world
-    no_voxels,            ///< an object that became no voxel
-    thinner_than_voxel,   ///< an object or a part of it
-    light_inside_object,  ///< an opaque one
-    observer_in_object,   ///< likewise
+    no_voxels,            ///< an object that has no voxels
+    thinner_than_voxel,   ///< an object, or a part of it, thinner than its voxels
+    light_inside_object,  ///< a light inside an opaque object
+    observer_in_object,   ///< an observer inside an opaque object
     nothing_in_view,      ///< no sight ray meets an object
     no_light,             ///< everything in view is black
-    finer_than_world,     ///< cubes by more than 4, where an object shows them, or the triangles of
-                          ///< an exact mesh
-    coarser_than_world,   ///< voxels of a `smooth` model by more than 4
-    open_mesh,            ///< where a closed one is needed
-    inside_out_mesh,      ///< likewise
+    finer_than_world,     ///< cubes that an object shows, more than 4 times finer than the world's
+                          ///< voxels, or the triangles of an exact mesh
+    coarser_than_world,   ///< voxels of a `smooth` model more than 4 times coarser than the world's
+    open_mesh,            ///< a mesh with holes where a closed one is needed
+    inside_out_mesh,      ///< a mesh with faces turned inwards where a closed one is needed
     unlikely_unit,        ///< a mesh far larger or smaller than the world
     ignored_materials,    ///< a material library, or textures
-    world_not_cached,     ///< it is too large for the cache
-    cache_not_writable,   ///< so that each run does everything again
-    ignored_scattering,   ///< the medium's, in local light
-    rounded_edges,        ///< of a smooth solid whose formula is too deep
-    local_volume,         ///< a volumetric image in local light, where global light is asked for
-    one_moment,           ///< of an open shutter
+    world_not_cached,     ///< a world that is too large for the cache
+    cache_not_writable,  ///< a cache folder that can't be written, so that each run does everything
+                         ///< again
+    ignored_scattering,  ///< scattering of the medium in local light
+    rounded_edges,       ///< edges of a smooth solid whose formula is too deep
+    local_volume,        ///< a volumetric image in local light, where global light is asked for
+    one_moment,          ///< an image that shows one moment of an open shutter
 };
 
 /// A finished sentence in two parts: where, and what is wrong and what to do. `text` begins with a
@@ -42,7 +43,7 @@ struct Warning {
     WarningKind kind = WarningKind::outside_world;
     SourcePlace where;
     std::string text;
-    std::string file = {};  ///< that it is about, where files of other folders may have its text
+    std::string file = {};  ///< the subject's file, where files of other folders may share its text
 };
 
 /// True if both are about the same, whatever numbers their texts have.

@@ -51,7 +51,7 @@ void BandedImage::put(int band, std::shared_ptr<const Image> image) {
         shown_.objects |= content.objects;
         shown_.light |= content.objects && content.light;
     }
-    lock.unlock();  // nobody else's turn comes meanwhile
+    lock.unlock();  // no other thread's turn comes meanwhile
     sink_.add(image);
     image.reset();
     lock.lock();

@@ -40,15 +40,15 @@ class BandedImage {
           progress_(std::move(progress)),
           done_(size_t(bands.count)) {}
 
-    /// Renders bands until none is left, and hands each on when those above it were. `scene` may be
-    /// that of any band, whose samples may show `moments`. Adds what they took to `report`.
+    /// Renders bands until none is left, and hands each on after those above it. `scene` may be
+    /// that of any band, whose samples may show `moments`. Adds what the bands took to `report`.
     void render(const Device& device, const Scene& scene, const BuiltWorld& world,
                 RenderReport& report, const Moments* moments = nullptr);
 
-    /// No more bands are wanted: devices end with the one that they have.
+    /// Ends the image early: devices take no further bands and drop the one that they have.
     void close();
 
-    /// What the bands show together.
+    /// The content of all bands together.
     const ShownContent& shown() const { return shown_; }
 
   private:
@@ -64,7 +64,7 @@ class BandedImage {
     std::condition_variable changed_;
     int taken_ = 0, given_ = 0;
     bool is_closed_ = false;
-    std::vector<double> done_;  ///< of each band
+    std::vector<double> done_;  ///< the part of each band that is done
     ShownContent shown_{false, false};
 };
 

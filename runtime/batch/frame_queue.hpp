@@ -16,10 +16,10 @@ namespace voxelume {
 /// Hands a rendered frame over.
 using OutputStep = std::function<void()>;
 
-/// What a device made of a frame.
+/// The result of a device for a frame.
 struct RenderedFrame {
     OutputStep output;
-    std::exception_ptr error;  ///< instead
+    std::exception_ptr error;  ///< thrown instead of an output
     bool is_limit = false;     ///< the error is one of memory, or another limit
 };
 
@@ -62,7 +62,7 @@ class FrameQueue {
         ++output_;
         changed_.notify_all();
     }
-    /// No more frames are wanted, not even those on their way.
+    /// Closes the queue: no more frames are wanted, not even those that are being rendered.
     void close() { closed_.request_stop(); }
     bool is_closed() const { return closed_.stop_requested(); }
     std::stop_token closed() const { return closed_.get_token(); }

@@ -10,15 +10,15 @@
 
 namespace voxelume {
 
-/// What frames are made of.
+/// The sources of frames.
 struct FrameSource {
     const Scene& scene;
-    ImageBands bands;              ///< that images are rendered in
+    ImageBands bands;              ///< the bands in which images are rendered
     const EarlierImages& earlier;  ///< empty: images have all samples
 };
 
 /// The steps of a run that give the scenes of these frames. What `source` refers to must outlive
-/// them. Each scene's image is the first of its bands, and has the samples alone that it lacks.
+/// the steps. Each scene's image is the first of its bands, with only the samples that are missing.
 FrameSteps steps_that_show(const FrameSource& source, std::vector<int> frames);
 
 }  // namespace voxelume

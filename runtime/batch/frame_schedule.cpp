@@ -15,18 +15,19 @@
 namespace voxelume {
 namespace {
 
-/// How each device takes its frames.
+/// The way in which each device takes its frames.
 enum class Mode {
     one_each,    ///< only the frame that has the device's index
     one_by_one,  ///< one after another
-    overlapped   ///< it builds the next frame's world, on a queue of its own, while one is rendered
+    overlapped   ///< the device builds the next frame's world, on a queue of its own, while one is
+                 ///< rendered
 };
 
-/// What the devices of a run share.
+/// The state that the devices of a run share.
 struct Run {
     const FrameSteps& steps;
     Mode mode;
-    size_t count;  ///< of frames
+    size_t count;  ///< number of frames
     FrameQueue queue;
     std::mutex scenes = {};                      ///< held while a scene is made
     std::optional<size_t> one_by_one_from = {};  ///< as in the outcome
@@ -88,8 +89,8 @@ class Lane {
         run_.queue.put(frame, attempt(frame, [&] { return build_and_render(frame); }));
     }
 
-    /// Two worlds at a time: the next is begun when this one is being rendered. Ends with the first
-    /// frame for which memory lacks then.
+    /// Keeps two worlds at a time: the next one is begun when this one is being rendered. Ends with
+    /// the first frame for which memory doesn't suffice for that.
     void overlap() {
         const auto build_next = [this]() -> std::optional<BuiltFrame> {
             const std::optional<size_t> frame = run_.queue.take();
@@ -116,7 +117,8 @@ class Lane {
         }
     }
 
-    /// Does what leads to a frame's output. An error is kept for its turn, with the frame's number.
+    /// Calls the action that leads to a frame's output. An error is kept, with the frame's number,
+    /// until the frame's turn.
     template <class Action>
     RenderedFrame attempt(size_t frame, const Action& action) {
         const FrameSteps& steps = run_.steps;
@@ -135,8 +137,8 @@ class Lane {
         return rendered;
     }
 
-    /// If the device has no memory for the frame and what is retained of those before, that is
-    /// forgotten, now and from then on.
+    /// Builds and renders a frame. If the device has no memory for it in addition to what is
+    /// retained of earlier frames, the latter is forgotten, now and from then on.
     OutputStep build_and_render(size_t frame) {
         if (has_any_ && !retains_) forget(false);
         try {
@@ -198,8 +200,8 @@ class Lane {
         return {scene, world};
     }
 
-    /// The world of a moment. Without memory for what is retained of those before, that is
-    /// forgotten.
+    /// Builds the world of a moment. Without memory for what is retained of earlier moments, that
+    /// is forgotten.
     BuiltWorld moment_world(const Scene& now, WorldReport& report) {
         const std::vector<bool> all(now.models.size(), true);
         try {
@@ -231,10 +233,10 @@ class Lane {
     Run& run_;
     ModelCache cache_;
     std::optional<WorldBuilder> builder_;
-    bool retains_;             ///< frames may leave something for those that follow
-    bool lacks_room_ = false;  ///< for that
-    bool has_any_ = false;     ///< of frames before
-    bool has_built_ = false;   ///< the world of a moment
+    bool retains_;             ///< frames may retain something for later frames
+    bool lacks_room_ = false;  ///< memory doesn't suffice for retaining anything
+    bool has_any_ = false;     ///< something of earlier frames is retained
+    bool has_built_ = false;   ///< the world of a moment is built
 };
 
 /// Threads that end, and are waited for, when the run does.
@@ -249,8 +251,8 @@ Mode mode_of(size_t devices, const ScheduleOptions& options) {
     return devices == 1 && options.overlap ? Mode::overlapped : Mode::one_by_one;
 }
 
-/// How many frames are on their way at most. Where one device overlaps them, one's world is built,
-/// one is rendered, one waits, and one is output.
+/// The maximum number of frames in progress. Where one device overlaps frames, one frame's world is
+/// built, one frame is rendered, one waits, and one is output.
 size_t frames_ahead(Mode mode, size_t devices) {
     if (mode == Mode::overlapped) return 4;
     return devices == 1 ? 1 : 2 * devices;
@@ -261,12 +263,12 @@ size_t frames_ahead(Mode mode, size_t devices) {
 ScheduleOutcome run_frames(const std::vector<Device>& devices, size_t count,
                            const FrameSteps& steps, ScheduleOptions options) {
     const size_t used = std::min(devices.size(), count);
-    if (steps.moment) options.overlap = false;  // which needs the builder for the next frame
+    if (steps.moment) options.overlap = false;  // overlapping needs the builder for the next frame
     const Mode mode = count > 1 ? mode_of(used, options) : Mode::one_by_one;
     Run run{steps, mode, count, FrameQueue(count, frames_ahead(mode, used))};
     const std::stop_callback cancel(options.stop, [&run] { run.queue.close(); });
     std::deque<Lane> lanes;
-    for (size_t i = used; i-- > 0;)  // what was read before counts once, for the first
+    for (size_t i = used; i-- > 0;)  // what was read before counts once, for the first device
         lanes.emplace_front(devices[i], i, run,
                             i > 0 ? options.meshes.recounted() : std::move(options.meshes));
     ScheduleOutcome outcome;

@@ -8,10 +8,10 @@
 
 namespace voxelume {
 
-/// What one device made of an image.
+/// The part of an image that one device rendered.
 struct ImagePart {
     Image image;                   ///< undefined outside of `tiles`
-    std::vector<TileRange> tiles;  ///< of 4 x 4 pixels
+    std::vector<TileRange> tiles;  ///< ranges of tiles of 4 x 4 pixels
     RenderReport report;
 };
 

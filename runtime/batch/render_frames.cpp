@@ -28,7 +28,7 @@ namespace {
 constexpr uint32_t kPartsPerDevice = 16;  // so that no device waits long for the last one
 constexpr double kSteps = 1 << 20;        // of a frame's progress: their sums are exact
 
-/// Leaves a frame that is not wanted any more; nobody hears of it.
+/// Thrown to leave a frame that is not wanted any more; no caller sees it.
 struct Cancelled {};
 
 [[noreturn]] void refuse_not_finite(uint32_t count) {
@@ -175,7 +175,7 @@ class Batch {
         return result;
     }
 
-    /// The only frame, by all devices.
+    /// Renders the only frame on all devices.
     BatchOutcome run_image_parts() {
         const size_t count = devices_.size();
         const uint32_t tiles = tile_count(scene_.render.size.x, scene_.render.size.y);
@@ -205,7 +205,7 @@ class Batch {
         return outcome;
     }
 
-    /// The only frame in bands, which all devices take in turn.
+    /// Renders the only frame in bands, which all devices take in turn.
     BatchOutcome run_image_bands() {
         const size_t count = devices_.size();
         const std::stop_token stop = options_.stop;
@@ -267,8 +267,8 @@ class Batch {
     const FrameOutput& output_;
     ImageBands bands_;
     std::mutex progress_mutex_;
-    std::vector<uint64_t> done_;  ///< of each frame, of kSteps
-    uint64_t sum_ = 0;            ///< of them
+    std::vector<uint64_t> done_;  ///< the part of each frame that is done, of kSteps
+    uint64_t sum_ = 0;            ///< sum of these parts
     std::optional<RunWarnings> warnings_;
 };
 

@@ -22,8 +22,8 @@ namespace voxelume {
 /// frame.
 using BatchProgress = std::function<void(double done, int frame)>;
 
-/// Is told warnings, each about something else: before the first frame those that need no
-/// rendering, after the last one the others. It may throw, which ends the run.
+/// Called with warnings that differ in subject: before the first frame with those that need no
+/// rendering, after the last one with the others. It may throw, which ends the run.
 using BatchWarnings = std::function<void(std::span<const Warning>)>;
 
 /// The image of a frame's samples before others are added to them.
@@ -38,22 +38,23 @@ using EarlierImages = std::function<EarlierImage(int frame)>;
 /// Several threads call it.
 using BandSinks = std::function<std::shared_ptr<BandSink>(size_t n)>;
 
-/// What to render of a scene.
+/// The results to render of a scene.
 struct BatchOptions {
     std::vector<int> frames = {1};  ///< their numbers, in the order of the results; one or more
     bool image = true;              ///< the observer's flat image of each frame
     bool volume = false;            ///< the volumetric image of each frame's display
     bool overlap = true;  ///< on one device, two worlds at a time; false: needs less memory
-    AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
-    bool is_part = false;  ///< other runs render the other frames: nothing counts as never shown
+    AssetStore meshes = AssetStore();  ///< meshes that were read already, and the cache of models
+    bool is_part = false;        ///< other runs render the other frames, so no warning says that
+                                 ///< something is never shown
     EarlierImages earlier = {};  ///< empty: images have all samples
     BandSinks bands = {};        ///< empty: images that are larger than memory are refused
     BatchProgress progress = {};
-    BatchWarnings warn = {};    ///< without it nothing is looked for
+    BatchWarnings warn = {};    ///< empty: no warnings are looked for
     std::stop_token stop = {};  ///< cancels the run
 };
 
-/// What one frame took, and where.
+/// The report on one frame, and its device.
 struct FrameReport {
     int frame = 1;
     size_t device = 0;  ///< index of the device; 0 where all devices share one image
@@ -64,20 +65,20 @@ struct FrameReport {
 struct FrameResult {
     FrameReport report;
     std::shared_ptr<const Image> image;  ///< null where none is asked for, or `bands` had it
-    std::shared_ptr<BandSink> bands;     ///< who took the image, finished; null: it is whole
-    ShownContent shown;                  ///< what those bands show
+    std::shared_ptr<BandSink> bands;     ///< sink that took the image, finished; null: it is whole
+    ShownContent shown;                  ///< content of those bands
     std::shared_ptr<Volume> volume;  ///< null where none is asked for; its attributes may be set
 };
 
 /// Takes the results, in the order of the frames, on the thread that called `render_frames`.
 using FrameOutput = std::function<void(const FrameResult&)>;
 
-/// How a run ended.
+/// The outcome of a run.
 struct BatchOutcome {
     size_t frames_done = 0;     ///< results that the output took
     bool is_cancelled = false;  ///< stopped before all frames were done
-    int bands = 1;              ///< of each image
-    double check_seconds = 0;   ///< finding potentially visible objects, planning, before frame one
+    int bands = 1;              ///< number of bands of each image
+    double check_seconds = 0;   ///< seconds of culling and planning before the first frame
     /// The frame from which on nothing overlapped, because memory suffices for one world only.
     std::optional<int> one_by_one_from;
 };

@@ -20,8 +20,8 @@
 namespace voxelume {
 namespace {
 
-/// The box around all visible objects in the world, metres; empty (min > max) without any. Those at
-/// the places `lost` became no voxels.
+/// The box around all visible objects in the world, metres; empty (min > max) without any. Objects
+/// at the places `lost` are left out, since they became no voxels.
 Bounds box_of_objects(Scene scene, AssetStore meshes, const std::vector<SourcePlace>& lost) {
     for (Object& object : scene.objects) {
         object.potentially_visible = true;
@@ -69,7 +69,7 @@ bool is_below_a_pixel(const Observer& observer, const glm::ivec2& image, const g
     return aside <= 1 && size < std::max(pixel.x, pixel.y);
 }
 
-/// What an observer who sees nothing should change. The objects' box isn't empty, and they are
+/// Advice for an observer who sees nothing. The box `objects` isn't empty, and the objects are
 /// `own_size` metres large.
 std::string view_advice(const Observer& observer, const glm::ivec2& image, const Bounds& objects,
                         double own_size) {

@@ -20,8 +20,8 @@ class RunWarnings {
     /// Takes note of a rendered frame.
     void add(const FrameResult& result);
 
-    /// Tells of what the frames had, and of what none of them shows, but not of the latter if the
-    /// frames are a part of a run, or the images parts of their frames.
+    /// Passes on the warnings that frames added, and warns of what no frame shows, unless the
+    /// frames are a part of a run or the images parts of their frames.
     void end(const Scene& scene, std::span<const int> frames, bool is_part);
 
   private:
@@ -30,7 +30,7 @@ class RunWarnings {
     void add_light_warning(const Scene& scene);
 
     std::vector<Warning> warnings_;
-    std::vector<SourcePlace> lost_;  ///< of objects that became no voxels in some frame
+    std::vector<SourcePlace> lost_;  ///< places of objects that had no voxels in some frame
     size_t told_ = 0;                ///< number of the first warnings, which `warn_` knows
     ModelCache cache_;
     BatchWarnings warn_;

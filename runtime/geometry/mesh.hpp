@@ -16,7 +16,7 @@ namespace voxelume {
 /// An entry of Mesh::triangle_normals for a corner without a normal.
 inline constexpr uint32_t kNoNormal = 0xFFFFFFFFu;
 
-/// An entry of Mesh::triangle_uvs for a corner without a place on a texture.
+/// An entry of Mesh::triangle_uvs for a corner without texture coordinates.
 inline constexpr uint32_t kNoUv = 0xFFFFFFFFu;
 
 /// Triangles with optional colours and normals at their corners and named groups of faces.
@@ -47,14 +47,14 @@ struct Mesh {
     /// Indices into `textures`, one per group of faces, kNoTexture for a group without one. Empty:
     /// there are no textures.
     std::vector<uint32_t> group_textures;
-    std::vector<std::string> material_libraries = {};  ///< what OBJ's mtllib statements name, once
+    std::vector<std::string> material_libraries = {};  ///< names of OBJ's mtllib, each once
     /// Names of groups whose materials none of the libraries has, and sentences on libraries that
     /// can't be read.
     std::vector<std::string> missing_materials = {}, library_faults = {};
-    std::string texture = {};  ///< of PLY's first comment TextureFile
-    /// What isn't shown of the file, a sentence each without its full stop.
+    std::string texture = {};  ///< name in PLY's first comment TextureFile
+    /// Sentences, each without its full stop, on what isn't shown of the file.
     std::vector<std::string> notes = {};
-    /// What was assumed where the file doesn't say it, as sentences for descriptions alone.
+    /// Sentences, for descriptions alone, on what was assumed where the file doesn't say it.
     std::vector<std::string> assumptions = {};
 };
 

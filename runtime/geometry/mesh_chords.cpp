@@ -20,15 +20,16 @@ namespace {
 /// Rows of lines that are looked at together, so that their crossings take little memory.
 constexpr int kRows = 64;
 
-/// How many crossings they may have: 1,024 for each line of a lattice of 64 x 64, 16 for each where
-/// a row has 4,096. A mesh with more layers has no inside.
+/// The maximum number of crossings on these rows: 1,024 for each line of a lattice of 64 x 64, 16
+/// for each where a row has 4,096. A mesh with more layers has no inside.
 constexpr size_t kMaxCrossings = size_t{1} << 22;
 
-/// Lines lie off the middles of their squares, where few meshes have edges.
+/// The position of a line in its square, off the middle: few meshes have edges there.
 constexpr double kOffset = 0.4142135623730950;
 
-/// Where a mesh's vertices lie between the lines along each axis: twice a line's number for those
-/// on it, one more for those behind it. Most triangles of large meshes lie between the same lines.
+/// The positions of a mesh's vertices relative to the lines along each axis: twice a line's number
+/// for vertices on it, one more for those behind it. Most triangles of large meshes lie between the
+/// same lines.
 class Places {
   public:
     Places(const Mesh& mesh, const Bounds& box, const glm::ivec3& lines) {

@@ -16,8 +16,9 @@
 namespace voxelume {
 namespace {
 
-/// Around a vertex of more faces each corner keeps its face's normal: at the tip of such a fan no
-/// normal is smooth, and the time to compare all faces with each other grows with their square.
+/// Above this number of faces around a vertex, each corner keeps its face's normal: at the tip of
+/// such a fan no normal is smooth, and comparing all faces with each other takes a time that grows
+/// with the square of their number.
 constexpr size_t kMaxFacesAround = 1024;
 
 /// The normals that the file gives.
@@ -36,7 +37,7 @@ std::vector<glm::vec3> given_normals(const Mesh& mesh) {
 /// A position, as what vertices are compared by.
 struct CornerPlace {
     std::array<float, 3> position;
-    uint32_t corner;  ///< 3 * triangle + its place there
+    uint32_t corner;  ///< 3 * triangle + its index in the triangle
 };
 
 /// The corners of a mesh in the order of their positions, so that those at one position stand
@@ -57,7 +58,7 @@ std::vector<CornerPlace> corners_by_position(const Mesh& mesh) {
 
 /// A face's normal and its angle at one of its corners.
 struct Wedge {
-    glm::dvec3 normal;  ///< of unit length, or 0
+    glm::dvec3 normal;  ///< unit vector, or 0
     double angle = 0;   ///< radians
     uint32_t corner = 0;
 };

@@ -23,10 +23,10 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v);
 std::vector<glm::vec3> corner_normals(const Mesh& mesh, const Shading& shading);
 
 /// The normals packed as in shared/normal.h, each multiplied by `map` first: the inverse transpose
-/// of what maps the mesh's space to voxels. A triangle with a corner without a normal has none. The
-/// normals of one whose mean points to the back of the face are turned over: files disagree about
-/// the side. A map that mirrors expects a mesh that is turned over: its faces look outwards in
-/// voxels.
+/// of the map from the mesh's space to voxels. A triangle with a corner without a normal has none.
+/// If the mean of a triangle's normals points to the back of its face, they are turned over: files
+/// disagree about the side. A map that mirrors expects a mesh that is turned over: its faces look
+/// outwards in voxels.
 std::vector<uint32_t> packed_normals(const Mesh& mesh, const std::vector<glm::vec3>& normals,
                                      const glm::dmat3& map);
 

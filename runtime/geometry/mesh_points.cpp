@@ -71,8 +71,8 @@ double voxel_edge_of_points(const Mesh& mesh, double finest) {
     if (!has_points_alone(mesh)) return finest;
     if (count_points(mesh).lines > 0) return 2 * finest;
     const Bounds box = mesh_bounds(mesh);
-    if (!(longest_side(box) > 0 && finest > 0)) return finest;  // a point, or many in one place
-    // Points in one place, as faces of points name them again and again, count once.
+    if (!(longest_side(box) > 0 && finest > 0)) return finest;  // a point, or many at one position
+    // Points at one position, as faces of points name them again and again, count once.
     const double points = double(FilledVoxels(mesh, box, longest_side(box) / (1 << 20)).count());
     double edge = finest;
     FilledVoxels voxels(mesh, box, edge);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points and lines -> triangles without area. Cubes hold all that a triangle meets, so they show
-// these as they show others; rays never hit them.
+// points and lines, too; rays never hit such triangles.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ inline glm::uvec3 line_triangle(uint32_t from, uint32_t to) {
 /// Makes each vertex a point.
 void show_vertices(Mesh& mesh);
 
-/// What of a mesh are points and lines, each of which is a triangle.
+/// The numbers of a mesh's points and lines, each of which is a triangle.
 struct PointCounts {
     uint64_t points = 0, lines = 0;
 };
@@ -30,12 +30,13 @@ PointCounts count_points(const Mesh& mesh);
 bool has_points_alone(const Mesh& mesh);
 
 /// The edge of voxels in which a scan's points look like a surface. It is `finest` or larger by
-/// powers of two, until voxels have kPointsPerVoxel places of points on average or the longest side
+/// powers of two, until voxels have kPointsPerVoxel distinct points on average or the longest side
 /// has fewer than 2 kFewestVoxels voxels. Lines are whole in voxels of any size; twice the finest
 /// keeps them from being thinner than a pixel. Meshes with real triangles have `finest`.
 double voxel_edge_of_points(const Mesh& mesh, double finest);
 
-/// A surface that is sampled at random leaves e^-3 of its voxels without a point: one in twenty.
+/// The mean number of points per voxel. A surface sampled at random then leaves e^-3 of its voxels,
+/// one in twenty, without a point.
 inline constexpr double kPointsPerVoxel = 3;
 inline constexpr double kFewestVoxels = 32;
 

@@ -33,7 +33,7 @@ double longest_edge(const Mesh& mesh) {
 
 Bounds mesh_bounds(const Mesh& mesh) {
     if (mesh.triangles.empty()) return kEmptyBounds;
-    // Floats are the same numbers as doubles.
+    // Floats lose nothing here: positions are floats.
     glm::vec3 min(INFINITY), max(-INFINITY);
     for (const glm::uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner) {
@@ -69,8 +69,8 @@ bool is_open(const MeshSummary& mesh) {
 }
 
 MeshSummary summary_of(const Mesh& mesh) {
-    // Each walks over all triangles: 4.5 million take some tenths of a second. Where no more
-    // threads are allowed, `async | deferred` does without.
+    // Each function walks over all triangles: 4.5 million take some tenths of a second. Where no
+    // more threads are allowed, `async | deferred` runs without one.
     constexpr size_t kManyTriangles = 1 << 16;
     const auto how = mesh.triangles.size() < kManyTriangles
                          ? std::launch::deferred

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// mesh -> what planning and messages need of it, so that a mesh in the model cache isn't read.
+// mesh -> what planning and messages need to know of it, so that a mesh in the model cache isn't
+// read.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,14 @@
 
 namespace voxelume {
 
-/// How much a mesh has of what colours its voxels.
+/// The amounts of a mesh's colours and textures.
 struct MeshPaint {
-    uint64_t colors = 0;             ///< linear ones
-    bool has_corner_colors = false;  ///< corners name them; otherwise vertices have one each
-    uint64_t texels = 0;             ///< of all levels of all textures
+    uint64_t colors = 0;             ///< number of linear colours
+    bool has_corner_colors = false;  ///< corners index colours; otherwise vertices have one each
+    uint64_t texels = 0;             ///< number of texels of all levels of all textures
     uint64_t textures = 0;
-    uint64_t uvs = 0;             ///< places on textures, if there are textures
-    bool has_corner_uvs = false;  ///< corners name them
+    uint64_t uvs = 0;             ///< number of positions on textures, if there are textures
+    bool has_corner_uvs = false;  ///< corners have indices of such positions
     bool has_alpha = false;       ///< the alpha of some texture counts
     uint64_t mapped = 0;          ///< textures that have maps
 
@@ -29,7 +30,7 @@ struct MeshPaint {
 
 struct MeshSummary {
     uint64_t triangles = 0;
-    uint64_t strokes = 0;  ///< those that are points or lines
+    uint64_t strokes = 0;  ///< number of those that are points or lines
     Bounds surface;        ///< the box around the triangles, metres
     Bounds vertices;       ///< box around all positions, those that no triangle uses included
     SurfaceArea area;      ///< in the mesh's own space
@@ -48,8 +49,8 @@ struct MeshSummary {
 MeshSummary summary_of(const Mesh& mesh);
 
 MeshPaint paint_of(const Mesh& mesh);
-/// The share of a mesh's area by which its holes matter. Smaller ones are closed by the winding
-/// number, as the scanned bunny's are.
+/// The share of a mesh's area from which its holes matter. Smaller holes are closed by the winding
+/// number, as those of the scanned bunny are.
 inline constexpr double kOpenShare = 0.03;
 
 /// True if a mesh has triangles that aren't points or lines.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that several targets pull at, each by a weight.
+// Meshes that are moved by several targets, each with a weight.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,8 +11,8 @@
 
 namespace voxelume {
 
-/// How far each vertex of a mesh is moved at a weight of 1, and its normal; each list is empty
-/// where nothing is.
+/// The offsets of a mesh's vertices and of its normals at a weight of 1; each list is empty where
+/// nothing moves.
 struct MorphTarget {
     std::vector<glm::vec3> positions, normals;
 };
@@ -22,7 +22,7 @@ struct MorphTarget {
 Mesh moved_by_targets(const Mesh& from, std::span<const MorphTarget> targets,
                       std::span<const double> weights, double scale);
 
-/// A box around all that a mesh in `box` may reach by the weights.
+/// A box around all positions to which the weights may move a mesh in `box`.
 Bounds box_of_targets(const Bounds& box, std::span<const MorphTarget> targets,
                       std::span<const double> weights);
 

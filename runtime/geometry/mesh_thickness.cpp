@@ -17,7 +17,8 @@ struct Thickness {
     double value, area;
 };
 
-/// The thickness that `area` of the chords doesn't reach; far above all where there are too few.
+/// The thickness up to which the thinnest chords stand for `area`; the largest number if all chords
+/// together stand for less.
 double quantile(std::vector<Thickness>& chords, double area) {
     double so_far = 0;
     std::ranges::stable_sort(chords, {}, &Thickness::value);

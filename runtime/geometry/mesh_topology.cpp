@@ -14,7 +14,7 @@ namespace {
 
 using PointBits = std::array<uint32_t, 3>;
 
-/// Equal for equal places: -0 is 0.
+/// The bits of a position, which are equal for equal positions: -0 is 0.
 PointBits bits_of(const glm::vec3& p) {
     return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
             std::bit_cast<uint32_t>(p.z + 0.0f)};
@@ -31,7 +31,7 @@ uint64_t hash_of(const PointBits& p) {
     return mixed(mixed(mixed(p[0]) ^ p[1]) ^ p[2]);
 }
 
-/// An edge from place to place, turned so that `low` < `high`.
+/// An edge from position to position, turned so that `low` < `high`.
 struct DirectedEdge {
     PointBits low, high;
     int direction;  ///< 1 or -1
@@ -39,12 +39,12 @@ struct DirectedEdge {
 
 /// An edge by the number of the triangle's corner that it begins at, over all triangles.
 struct NumberedEdge {
-    uint64_t hash;  ///< of both places, whichever is first
+    uint64_t hash;  ///< hash of both positions, in either order
     uint64_t corner;
-    bool is_forward;  ///< from the place whose hash is smaller
+    bool is_forward;  ///< from the position whose hash is smaller
 };
 
-/// The hash of each position: once for a place, not for each of the six triangles that meet there.
+/// The hash of each position, computed once and not for each of the six triangles that meet there.
 std::vector<uint64_t> place_hashes(const Mesh& mesh) {
     std::vector<uint64_t> hashes(mesh.positions.size());
     for (size_t i = 0; i < hashes.size(); ++i) hashes[i] = hash_of(bits_of(mesh.positions[i]));
@@ -68,7 +68,7 @@ void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_places, con
         for (size_t i = 0; i < 3; ++i, ++corner) {
             const uint64_t from = hashes[i], to = hashes[(i + 1) % 3];
             bool is_forward = from < to;
-            if (from == to) {  // one place, or two by a chance in 2^64
+            if (from == to) {  // one position, or two by a chance in 2^64
                 const DirectedEdge edge = edge_from(mesh, corner);
                 if (edge.low == edge.high) continue;
                 is_forward = edge.direction > 0;
@@ -80,12 +80,13 @@ void for_each_edge(const Mesh& mesh, const std::vector<uint64_t>& of_places, con
 }
 
 /// Edges with the same hash modulo kBuckets share a sum, to which both directions contribute with
-/// opposite signs. Where it is 0, all edges of the bucket are closed, but for one chance in 2^64.
+/// opposite signs. Where the sum is 0, all edges of the bucket are closed, but for one chance in
+/// 2^64.
 constexpr size_t kBuckets = size_t(1) << 16;
 
 class EdgeSums {
   public:
-    /// The buckets go by the bits of hashes from `shift` on.
+    /// The bucket of an edge is given by the bits of its hash from `shift` on.
     explicit EdgeSums(int shift) : shift_(shift), sums_(kBuckets) {}
 
     void add(const NumberedEdge& edge) {
@@ -150,7 +151,7 @@ glm::dvec3 point_of(const PointBits& p) {
             double(std::bit_cast<float>(p[2]))};
 }
 
-/// The rims of holes: sets of open edges that share places.
+/// The rims of holes: sets of open edges that share positions.
 class Rims {
   public:
     explicit Rims(const std::vector<OpenEdge>& edges) {

@@ -9,10 +9,10 @@
 namespace voxelume {
 
 struct MeshTopology {
-    /// Edges that aren't run along as often in one direction as in the other: 0 for a closed mesh.
-    /// Vertices at one place count as one.
+    /// The number of edges that triangles run along more often in one direction than in the other:
+    /// 0 for a closed mesh. Vertices at one position count as one.
     uint64_t open_edges = 0;
-    double hole_area = 0;  ///< of flat lids over all holes, square units of the mesh
+    double hole_area = 0;  ///< area of flat lids over all holes, square units of the mesh
     double volume = 0;     ///< negative where faces turn inwards; meaningful where holes are small
 
     friend bool operator==(const MeshTopology&, const MeshTopology&) = default;

@@ -104,7 +104,7 @@ uint64_t corner_hash(const std::vector<uint64_t>& places, const glm::uvec3& tria
     return (places[triangle.x] + places[triangle.y] + places[triangle.z]) * 0x9E3779B97F4A7C15u;
 }
 
-/// What a triangle adds to an area.
+/// The contribution of a triangle to an area.
 struct TriangleArea {
     glm::dvec3 shadows;
     double total;
@@ -152,7 +152,7 @@ class Duplicates {
     /// Calls `visit` with each triangle and whether it is a duplicate.
     template <class Visit>
     void for_each_triangle(const Visit& visit) {
-        // The words of slots lie anywhere in memory: asked for ahead of their use, they are there.
+        // The words of slots lie anywhere in memory, so they are prefetched before their use.
         constexpr size_t kBlock = 64;
         std::array<uint64_t, kBlock> slots{};
         const std::span<const glm::uvec3> all = mesh_.triangles;
@@ -173,7 +173,7 @@ class Duplicates {
 
   private:
     const Mesh& mesh_;
-    std::vector<uint64_t> hashes_;  ///< of each place once
+    std::vector<uint64_t> hashes_;  ///< one hash for each position
     std::vector<uint64_t> seen_;
     int shift_ = 0;
 };
@@ -273,7 +273,7 @@ SurfaceExtent surface_extent(const SurfaceArea& area, const glm::dmat4& frame_fr
     const double thickness = kBrickSize + 2 * band / kMeanShadow;
     const glm::dvec3 table(frame.bricks()), size(frame.size);
     double bricks = extent.voxels * thickness / (kBrickSize * kBrickSize * kBrickSize);
-    // Each point has a voxel of its own, and a brick, and each line has what it passes.
+    // Each point has a voxel and a brick of its own, and each line has those that it passes.
     if (area.total == 0) bricks = extent.voxels = std::min(extent.listed, size.x * size.y * size.z);
     extent.bricks = std::min(bricks + kFewestBricks, table.x * table.y * table.z);
     return extent;

@@ -7,9 +7,9 @@
 // and edges add lower terms, which are left out. For a patch that runs exactly between voxels, the
 // cubes on both sides belong to it; this is left out, too.
 //
-// A triangle alone meets more: of voxels at random places, as many as the Minkowski sum of it and a
-// voxel has volume, which is 1 + the sides of its box + its shadows, in voxels. Points and lines
-// are such triangles, without shadows.
+// A triangle alone meets more voxels. With voxels at random positions the mean number is the volume
+// of the Minkowski sum of the triangle and a voxel, which is 1 + the sides of its box + its
+// shadows, in voxels. Points and lines are such triangles, without shadows.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace voxelume {
 
-/// The areas of a surface, m², and what its triangles add where each counts, if it has any.
+/// The areas of a surface, m², and the sizes of its triangles, if it has any.
 struct SurfaceArea {
     glm::dvec3 shadows{0};  ///< sums of the patches' |area vectors|, per axis
     double total = 0;
@@ -32,7 +32,7 @@ struct SurfaceArea {
     double half_edges = 0;  ///< half of the sum of the triangles' edges, metres
 };
 
-/// What is left of an area without a part of it.
+/// An area without a part of it.
 inline SurfaceArea without(const SurfaceArea& area, const SurfaceArea& part) {
     return {glm::max(area.shadows - part.shadows, 0.0), std::max(area.total - part.total, 0.0),
             std::max(area.triangles - part.triangles, 0.0),
@@ -68,9 +68,9 @@ struct SurfaceExtent {
     double listed = 0;  ///< pairs of a voxel and a triangle that meets it; voxels without triangles
 };
 
-/// The extent of a surface that `frame_from_surface` maps into the space of `frame`. A turned
-/// surface's shadows don't follow from its own. They are taken as the smaller of what its shadows
-/// allow and what patches in all directions have.
+/// The extent of a surface that `frame_from_surface` maps into the space of `frame`. The shadows of
+/// a turned surface don't follow from its own shadows. They are taken as the smaller of what its
+/// own shadows allow and what patches in all directions have.
 SurfaceExtent surface_extent(const SurfaceArea& area, const glm::dmat4& frame_from_surface,
                              const GridFrame& frame, double band);
 

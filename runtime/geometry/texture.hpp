@@ -14,10 +14,10 @@ namespace voxelume {
 /// An entry of Mesh::group_textures for a group without a texture.
 inline constexpr uint32_t kNoTexture = 0xFFFFFFFFu;
 
-/// What lies outside of a texture; the numbers are those of the kernel.
+/// The continuation of a texture outside of its image; the numbers are those of the kernel.
 enum class TextureWrap : uint8_t { repeat, mirror, clamp };
 
-/// An image and its levels for distant looks, each of half the size of the one before.
+/// An image and its levels for distant views, each of half the size of the one before.
 struct TextureImage {
     int width = 0, height = 0;
     /// Level after level, each in rows from its upper left texel: 0xAABBGGRR, colours in sRGB.
@@ -30,7 +30,7 @@ inline int level_size(int size, int level) {
     return std::max(size >> level, 1);
 }
 
-/// How many levels an image has: the last one is of one texel.
+/// The number of an image's levels: the last one is of one texel.
 inline int level_count(const TextureImage& image) {
     return std::bit_width(unsigned(std::max(image.width, image.height)));
 }
@@ -52,17 +52,18 @@ inline constexpr uint32_t kAlphaOpaque = 0, kAlphaBlend = 256;
 /// (blue), and emission.
 inline constexpr size_t kGlossMap = 0, kEmissionMap = 1, kMapCount = 2;
 
-/// A texture that multiplies another value of the material than its colour, on the same triangles.
+/// A texture that multiplies a value of the material other than its colour, on the same triangles.
 struct TextureMap {
     uint32_t texture = kNoTexture;  ///< its number in the mesh
-    /// (u, v) of the texture that has it is (a u + b v + c, d u + e v + f) of the map.
+    /// Position (u, v) of the texture that has the map is (a u + b v + c, d u + e v + f) of the
+    /// map.
     std::array<float, 6> places = {1, 0, 0, 0, 1, 0};
 };
 
 struct Texture {
     std::shared_ptr<const TextureImage> image;  ///< never null
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    uint32_t alpha = kAlphaOpaque;  ///< what the texels' alpha means
+    uint32_t alpha = kAlphaOpaque;  ///< meaning of the texels' alpha
     std::array<TextureMap, kMapCount> maps{};
     bool is_of_vertices = false;  ///< no picture: it has the alpha of vertices
 

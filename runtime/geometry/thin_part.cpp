@@ -19,11 +19,11 @@ namespace {
 constexpr double kLinesPerVoxel = 2;
 constexpr double kMaxVoxels = 2048;
 
-/// The edge of the cells that walls are noted in, in voxels: triangles in cells around those count,
-/// too.
+/// The edge, in voxels, of the cells in which walls are noted. Triangles in neighbouring cells
+/// count, too.
 constexpr double kCell = 5;
 
-/// The chords that a wall must have to count, with others in cells that touch its own.
+/// The minimum number of chords for a wall to count, including those in cells that touch its own.
 constexpr size_t kMinChords = 12;
 
 /// Cells of a regular lattice, by their coordinates.

@@ -12,9 +12,9 @@ namespace voxelume {
 /// Walls of a body are thin below this many voxels.
 inline constexpr double kThinVoxels = 2;
 
-/// The parts of a mesh that distances don't show.
+/// The parts of a mesh that distances are too coarse to show.
 struct ThinPart {
-    Mesh mesh;  ///< the triangles around them, with all that the whole mesh says of these
+    Mesh mesh;  ///< the triangles around them, with their attributes of the whole mesh
     std::vector<glm::vec3> points;  ///< within the walls, two a voxel along each axis
 };
 

@@ -30,7 +30,7 @@ void VoxelModel::widen_colors() {
 
 namespace {
 
-/// The colours that codes stand for, written where kernels read them.
+/// The colours that codes stand for, written to where kernels read them.
 Buffer<uint32_t> widened(const Device& device, const VoxelModel& model) {
     Buffer<uint32_t> colors(device, "model colors", model.color_codes.size());
     colors.write_in_place([&](std::span<uint32_t> words) {

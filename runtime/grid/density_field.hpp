@@ -13,7 +13,7 @@
 
 namespace voxelume {
 
-/// What stands for the value of a scan where it has none.
+/// The value of a scan at points where it has none.
 inline constexpr float kOutsideScan = -std::numeric_limits<float>::max();
 
 /// The values in a box; none where `min` is above `max`.
@@ -22,8 +22,8 @@ struct ValueRange {
     bool reaches_out = false;  ///< there are points without a value
 };
 
-/// Densities are finite and >= 0. A scan also has values, which may be below 0, and which are its
-/// densities elsewhere.
+/// The density of a medium: finite and >= 0. A scan also has values, which may be below 0;
+/// elsewhere the values are the densities.
 class DensityField {
   public:
     virtual ~DensityField() = default;
@@ -38,7 +38,7 @@ class DensityField {
     virtual void sample(const glm::dvec3& first, const glm::dvec3& step,
                         std::span<float, 4096> densities) const = 0;
 
-    /// A range that the values in a box in metres don't leave.
+    /// A range that contains all values in a box in metres.
     virtual ValueRange range_in(const Bounds& box) const {
         const std::optional<float> constant = constant_in(box);
         if (constant) return {double(*constant), double(*constant)};

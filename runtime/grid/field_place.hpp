@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// How distances are joined to those before them: by the lesser or the larger of the two;
-/// kernels/shared/field_place.h has the numbers.
+/// The operation that joins a field's distances with those before it: the minimum (`least`) or
+/// maximum (`largest`) of the two; kernels/shared/field_place.h has the numbers.
 enum class FieldLink : uint8_t { none, least, largest };
 
 /// The depth to which the brackets of a formula may be nested.
@@ -22,16 +22,17 @@ inline constexpr size_t kMaxBrackets = VXL_BRACKET_MASK;
 /// A bracket of a formula.
 struct FieldBracket {
     uint32_t number = 0;               ///< from 1 on; differs from those of the formula's others
-    FieldLink link = FieldLink::none;  ///< to what stands before it
+    FieldLink link = FieldLink::none;  ///< link to what stands before the bracket
 
     friend bool operator==(const FieldBracket&, const FieldBracket&) = default;
 };
 
-/// The place of a part in its formula, whose parts are joined from left to right but for brackets.
-/// Any parts may be left out of a formula: a link counts only where something stands before it.
+/// The place of a part in its formula, whose parts are joined from left to right except for
+/// brackets. Any parts may be left out of a formula: a link counts only where something stands
+/// before it.
 struct FieldPlace {
-    FieldLink link = FieldLink::none;    ///< to what stands before the part in its bracket
-    std::vector<FieldBracket> brackets;  ///< that the part stands in, the outermost first
+    FieldLink link = FieldLink::none;    ///< link to what stands before the part in its bracket
+    std::vector<FieldBracket> brackets;  ///< the brackets around the part, the outermost first
 
     friend bool operator==(const FieldPlace&, const FieldPlace&) = default;
 

@@ -65,14 +65,14 @@ struct BrickGrid {
                                            ///< triangle has some
     Buffer<uint32_t> triangle_textures;    ///< VXL_WORN_WORDS per triangle, see shared/texture.h;
                                            ///< empty if no triangle wears a texture
-    Buffer<uint32_t> textures;             ///< those that triangles wear
+    Buffer<uint32_t> textures;             ///< the textures of triangles
     uint64_t texture_key = 0;              ///< a hash of `textures`
-    bool texture_alpha = false;            ///< true if the alpha of one of them counts
-    bool texture_maps = false;             ///< true if one of them has maps
+    bool texture_alpha = false;            ///< true if the alpha of one of these textures counts
+    bool texture_maps = false;             ///< true if one of these textures has maps
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 
-    FieldPlace place;             ///< of this grid among parts
-    std::vector<GridPart> parts;  ///< of a solid of several, all but the first, which this grid is
+    FieldPlace place;             ///< place of this grid among the parts of a solid
+    std::vector<GridPart> parts;  ///< the other parts of a solid of several; this grid is the first
 };
 
 /// A part of a solid, in the same frame as the solid's first.
@@ -81,7 +81,7 @@ struct GridPart {
     FieldPlace place;
 };
 
-/// A model that instances share, and the place of its voxels in a pyramid's buffers.
+/// A model that instances share, and its ranges of a pyramid's buffers.
 struct InstanceModel {
     GridFrame frame;
     uint32_t first_sector = 0;  ///< start of its table in Pyramid::sectors
@@ -102,21 +102,21 @@ struct Instance {
 struct InstanceSet {
     std::vector<InstanceModel> models;
     std::vector<Instance> list;
-    std::vector<size_t> counted;  ///< of worlds that are only counted: Pyramid::records() of models
+    std::vector<size_t> counted;  ///< in counted worlds: Pyramid::records() of each model
     float origin_offset = 0;      ///< PyramidShape::origin_offset
-    VoxelBox box;                 ///< around all of them where they are now
+    VoxelBox box;                 ///< around all instances at their present positions
     Buffer<InstanceRecord> records;
-    Buffer<InstanceNode> nodes;  ///< the tree over their boxes; the root is the first node
+    Buffer<InstanceNode> nodes;  ///< the tree over the instances' boxes; the root is the first node
     Buffer<uint32_t> materials;
 
     bool empty() const { return list.empty(); }
 };
 
 /// The meshes of smooth objects with textures, for rays that meet these objects; empty if no object
-/// has one.
+/// has such a mesh.
 struct SourceMeshes {
     Buffer<uint32_t> words;        ///< see shared/source_mesh.h
-    Buffer<SourceRecord> objects;  ///< by the objects' numbers in the scene
+    Buffer<SourceRecord> objects;  ///< one for each of the scene's objects
     bool has_maps = false;         ///< true if one of their textures has maps
 };
 
@@ -146,10 +146,10 @@ struct Pyramid {
     Buffer<uint32_t> normals;      ///< one per voxel, as in BrickGrid
     bool transparent = false;      ///< true if some of the voxels aren't opaque
     Buffer<uint32_t> fields;     ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
-    uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
-                                 ///< of voxels that several surfaces pass
-    bool has_chains = false;     ///< true if some of them are linked
-    uint32_t chain_depth = 0;    ///< brackets of their formulas that are within each other
+    uint32_t listed_fields = 0;  ///< number of records of fields, attributes and colours behind
+                                 ///< those of voxels: for voxels that several surfaces pass
+    bool has_chains = false;     ///< true if some listed fields are linked
+    uint32_t chain_depth = 0;    ///< maximum depth of nested brackets in the fields' formulas
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
     Buffer<uint32_t> primitives;       ///< this and the next eight are as in BrickGrid
     Buffer<float> triangles;
@@ -162,14 +162,14 @@ struct Pyramid {
     Buffer<uint32_t> solids;
     InstanceSet instances;
     SourceMeshes sources;
-    Buffer<float> cube_steps;  ///< of each of the scene's objects: runtime/analysis/cube_steps.hpp
-    Buffer<uint32_t> order;    ///< of each of the scene's objects, its coincidence_order(); empty
-                               ///< where no two exact surfaces can coincide
+    Buffer<float> cube_steps;  ///< nine per scene object: runtime/analysis/cube_steps.hpp
+    Buffer<uint32_t> order;  ///< coincidence_order() of each of the scene's objects; empty where no
+                             ///< two exact surfaces can coincide
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
                                          ///< unknown
-    bool clear = false;  ///< true if the space between them is known to hold no medium
+    bool clear = false;  ///< true if the space between the voxels is known to hold no medium
 
-    /// The values of `attributes`, `colors`, `normals` and (times 8) `fields`.
+    /// The number of records in `attributes`, `colors`, `normals` and (times 8) `fields`.
     uint32_t records() const { return voxel_count + listed_fields; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place of a grid's voxels in its space, and boxes of voxels.
+// The position of a grid's voxels in its space, and boxes of voxels.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ inline constexpr size_t kFloatsPerTriangle = 9;
 /// differences of a smooth surface lie inside it.
 inline constexpr int kModelMargin = 4;
 
-/// The place of a grid's voxels: voxel (i,j,k) fills origin + edge * [(i,j,k), (i,j,k)+1].
+/// The position and the size of a grid's voxels: voxel (i,j,k) fills origin + edge * [(i,j,k),
+/// (i,j,k)+1].
 struct GridFrame {
     glm::dvec3 origin{0};      ///< minimum corner of voxel (0,0,0), metres in the grid's space
     glm::dvec3 voxel_edge{1};  ///< metres

@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// What stands before the buffers.
+/// The header before the buffers.
 struct PackedHeader {
     GridFrame frame;
     std::array<uint32_t, 5> counts{};  ///< numbers whose meaning the caller knows

@@ -13,19 +13,19 @@ namespace voxelume {
 /// that holds the object.
 struct PlacedField {
     BrickGrid grid;             ///< packed attributes are the world's
-    glm::ivec3 first_brick{0};  ///< of the part, in the world's bricks
+    glm::ivec3 first_brick{0};  ///< minimum brick of this part, in the world's bricks
     uint32_t object = 0;        ///< the object's number in the scene
-    FieldPlace place;           ///< of a part among those of the object
-    bool is_first = true;       ///< false if the field before it is the same object's
+    FieldPlace place;           ///< place of this part among those of the object
+    bool is_first = true;       ///< false if the field before it belongs to the same object
     uint64_t version = 0;       ///< differs between any two fields that aren't the same
 };
 
-/// What `index` makes a pyramid of.
+/// The input of `index`.
 struct PlacedWorld {
-    BrickGrid voxels;                 ///< of all objects but those of `fields`
+    BrickGrid voxels;                 ///< voxels of all objects but those of `fields`
     std::vector<PlacedField> fields;  ///< fields of several objects never merge; the first in the
                                       ///< order of priorities comes first
-    std::vector<uint32_t> ranks;      ///< by objects' numbers: places in the order of priorities
+    std::vector<uint32_t> ranks;      ///< the rank of each object by priority, by objects' numbers
 };
 
 }  // namespace voxelume

@@ -61,7 +61,7 @@ uint32_t murmur_hash(std::string_view text) {
 uint32_t cryptomatte_bits(std::string_view name) {
     uint32_t bits = murmur_hash(name);
     const uint32_t exponent = bits >> 23 & 255;
-    if (exponent == 0 || exponent == 255) bits ^= 1u << 23;  // a denormal, infinite or no number
+    if (exponent == 0 || exponent == 255) bits ^= 1u << 23;  // a denormal number, infinity or NaN
     return bits;
 }
 

@@ -19,14 +19,14 @@ constexpr std::string_view kMatteKey = "cryptomatte/";
 /// MurmurHash3_x86_32 of a text, with the seed 0.
 uint32_t murmur_hash(std::string_view text);
 
-/// The bits of the float by which Cryptomatte names something: the hash, changed where it would be
-/// no normal number.
+/// The bits of the float by which Cryptomatte names something: the hash, changed where the float
+/// wouldn't be a normal number.
 uint32_t cryptomatte_bits(std::string_view name);
 
-/// What covers each pixel, rank after rank.
+/// The objects or materials that cover each pixel, rank after rank.
 struct RankedCoverage {
     std::vector<uint32_t> numbers;  ///< from 1 on; 0 for nothing
-    std::vector<float> shares;      ///< of the pixel
+    std::vector<float> shares;      ///< parts of the pixel
     uint32_t ranks = 0;
 };
 

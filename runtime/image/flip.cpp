@@ -118,7 +118,7 @@ struct Sensitivity {
     double a, b;
 };
 
-/// What the eye sees of an opponent channel: the channel filtered by the eye's two sensitivities.
+/// The opponent channel as the eye sees it: filtered by two Gaussians of the eye's sensitivity.
 ColorPlane seen(const ColorPlane& plane, std::array<Sensitivity, 2> both,
                 double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi, kWidest = 0.04;
@@ -175,7 +175,7 @@ Weights balanced(Weights all) {
     return all;
 }
 
-/// How strongly each pixel is part of an edge, or a point, in any direction.
+/// The strength with which each pixel belongs to an edge, or a point, in any direction.
 struct ImageFeatures {
     std::vector<double> edges, points;
 };

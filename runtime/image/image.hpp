@@ -31,7 +31,7 @@ struct Image {
 /// Files have it as a number of their own.
 inline constexpr const char* kPixelAspect = "pixelAspectRatio";
 
-/// The width of an image's pixels over their height, by its attributes: 1 without this one.
+/// The width of an image's pixels over their height, by its attributes: 1 without kPixelAspect.
 double pixel_aspect_in(const std::map<std::string, std::string>& attributes);
 
 }  // namespace voxelume

@@ -15,13 +15,13 @@ namespace voxelume {
 
 namespace {
 
-constexpr float kUnmatched = 65504.0f;  // as light that isn't finite couldn't be written
+constexpr float kUnmatched = 65504.0f;  // for values that aren't finite
 
 bool are_equal(float a, float b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-/// |a - b| as pictures of differences have it.
+/// The distance |a - b| as difference images show it.
 float distance_of(float a, float b) {
     if (are_equal(a, b)) return 0.0f;
     return std::isfinite(a) && std::isfinite(b) ? std::abs(a - b) : kUnmatched;

@@ -24,7 +24,7 @@ struct ChannelDifference {
     bool is_id = false;      ///< true if these are ids, which have no distance
 };
 
-/// Which differences count.
+/// The choice of differences that count.
 struct CompareOptions {
     std::vector<std::string> channels{};  ///< these alone; empty: all
     double threshold = 0.0;               ///< |a - b| up to this isn't above it
@@ -34,7 +34,7 @@ struct ImageDifference {
     std::vector<ChannelDifference> channels;  ///< in the order of their names, ids last
     std::vector<std::string> only_in_a;
     std::vector<std::string> only_in_b;
-    uint64_t pixels = 0;  ///< of each image
+    uint64_t pixels = 0;  ///< number of pixels of each image
     uint64_t above = 0;   ///< pixels above the threshold in some channel that both images have
 };
 

@@ -9,8 +9,9 @@
 
 namespace voxelume {
 
-/// An image of parts that lie one below the other, in any order, without gaps. It is a part itself
-/// if they aren't all of their picture. Its attributes are those of the first part.
+/// Joins parts that lie one below the other, in any order, without gaps. The result is a part
+/// itself if the parts don't cover all of their picture. Its attributes are those of the first
+/// part.
 ///
 /// Throws Error::input for parts of different pictures, columns or channels, and for rows that two
 /// parts have or that none between them has.

@@ -113,7 +113,7 @@ void ViewCanvas::draw_line(glm::dvec2 from, glm::dvec2 to) {
 
 void ViewCanvas::draw_frame(glm::dvec2 low, glm::dvec2 high) {
     low = glm::max(low, 0.0);
-    high -= 1.0 / kSamples;  // the last sample inside
+    high -= 1.0 / kSamples;  // the middle of the last sample inside
     draw_line(low, {high.x, low.y});
     draw_line(low, {low.x, high.y});
     draw_line(high, {high.x, low.y});

@@ -20,7 +20,7 @@ class ViewCanvas {
     void cover_hull(std::span<const glm::dvec2> points, const glm::vec3& color, float opacity);
     void cover_rectangle(glm::dvec2 low, glm::dvec2 high, const glm::vec3& color, float opacity);
 
-    /// Draws a thin line, or the four of a rectangle, in the colour of outlines.
+    /// Draws a thin line, or the four lines of a rectangle, in the colour of outlines.
     void draw_line(glm::dvec2 from, glm::dvec2 to);
     void draw_frame(glm::dvec2 low, glm::dvec2 high);
 

@@ -17,12 +17,12 @@ namespace {
 const double kMiddleStop = std::log2(0.18);
 constexpr double kStopsBelow = 10, kStopsAbove = 6.5;
 
-/// The light of Rec. 709 by primaries that lie 1.25 times as far from white, by columns. Greys
+/// The matrix, by columns, from Rec. 709 to primaries that lie 1.25 times as far from white. Greys
 /// stay.
 const glm::dmat3 kInset(0.84239893, 0.04239893, 0.04239893, 0.07843017, 0.87843017, 0.07843017,
                         0.07917091, 0.07917091, 0.87917091);
 
-/// A curve that rises through 0 with slope 1 and comes close to 1.
+/// A curve through 0 with slope 1 that approaches 1.
 double shoulder(double x, double power) {
     return x / std::pow(1 + std::pow(x, power), 1 / power);
 }
@@ -33,9 +33,9 @@ double shoulder_size(double length, double height, double slope, double power) {
     return std::pow(straight * (std::pow(slope * length / height, power) - 1), -1 / power);
 }
 
-/// Values of AgX's curve for lights whose floats begin with the same 16 bits, from kFirst on. Light
-/// between two of them has a value on the line between theirs, which is off by less than 1e-5.
-/// Rounding to 2^-22 keeps different mathematical libraries from being seen.
+/// Values of AgX's curve for lights whose floats begin with the same 16 bits, from kFirst on.
+/// Between two such lights the value is interpolated linearly, which is off by less than 1e-5.
+/// Rounding to 2^-22 hides the differences of mathematical libraries.
 class CurveTable {
   public:
     CurveTable() {
@@ -61,7 +61,7 @@ class CurveTable {
     }
 
     static constexpr uint32_t kShift = 16;
-    static constexpr uint32_t kFirst = 0x3900;  ///< of floats: 2^-13, below the darkest light
+    static constexpr uint32_t kFirst = 0x3900;  ///< bits of 2^-13, below the darkest light
     static constexpr uint32_t kEntries = 0x4200 - kFirst;  ///< up to 2^5
     std::array<float, kEntries> values_{};
 };
@@ -109,7 +109,7 @@ uint16_t ColorCodes::srgb(float linear) const {
 }
 
 std::array<uint16_t, 3> ColorCodes::operator()(const glm::vec3& linear) const {
-    constexpr float kBrightest = 1e6f;  // whose square is finite
+    constexpr float kBrightest = 1e6f;  // largest value; its square is finite
     const auto finite = [&](float v) { return std::isnan(v) ? 0.0f : std::min(v, kBrightest); };
     const glm::vec3 c(finite(linear.r), finite(linear.g), finite(linear.b));
     switch (transform_) {

@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// How light that is brighter than a screen becomes a colour of the screen.
+/// The way in which light that is brighter than a screen becomes a colour of the screen.
 enum class ViewTransform {
     srgb,    ///< what a screen shows, cut off at 1
     none,    ///< the light itself, cut off at 1: for programs that expect linear values
@@ -38,8 +38,8 @@ class ColorCodes {
     std::vector<float> thresholds_;
 };
 
-/// Where AgX's curve, of contrast 2.4 around middle grey, puts a position between its darkest and
-/// brightest light, 0 to 1 in stops.
+/// The value of AgX's curve, of contrast 2.4 around middle grey, at a position between its darkest
+/// and brightest light, 0 to 1 in stops.
 double agx_curve(double position);
 
 }  // namespace voxelume

@@ -13,8 +13,8 @@
 
 namespace voxelume {
 
-/// What a display voxel shows. Voxels behind a surface are `unseen`: nothing is known of them.
-/// Rendering lists none of these, but the formats have a number for them.
+/// The content of a display voxel. Voxels behind a surface are `unseen`: nothing is known of them.
+/// Rendering lists no such voxels, but the formats have a number for them.
 enum class VoxelKind : uint8_t { space, object, unseen };
 
 /// V, the lattice of display voxels, and its position.

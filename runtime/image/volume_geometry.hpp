@@ -18,7 +18,7 @@ inline constexpr int kMaxVolumeSide = 65536;  ///< maximum of voxels along one a
 /// The number of voxels: size.x * size.y * size.z.
 uint64_t voxel_count(const VolumeFrame& frame);
 
-/// The voxel whose number in `indices` is `place`.
+/// The voxel with index `place` in `indices`.
 glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place);
 
 /// True if depths count along Z_E, false if along the sight ray.
@@ -32,7 +32,8 @@ std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame);
 /// coordinates. `uv` = (i, j) + 0.5 is the middle of column i, row j. Only for layout `rays`.
 glm::dvec3 point_on_ray(const VolumeFrame& frame, glm::dvec2 uv, double depth);
 
-/// What the depth of a point on a sight ray is multiplied by for what image files say of it.
+/// The factors from the depth of a point on a sight ray to the values that image files store for
+/// it.
 struct DepthScales {
     double z = 1;         ///< for Z: along Z_E, or the distance where the display looks backwards
     double distance = 1;  ///< along the ray, from the observer or in a box from its plane
@@ -45,7 +46,7 @@ DepthScales depth_scales(const VolumeFrame& frame, glm::dvec2 uv);
 glm::dvec3 voxel_center(const VolumeFrame& frame, glm::ivec3 cell);
 
 /// Describes what is wrong with a volume, as a part of a sentence; empty if nothing is. Checks
-/// sizes, edges, numbers that aren't finite, arrays of different lengths, places out of order or
+/// sizes, edges, numbers that aren't finite, arrays of different lengths, indices out of order or
 /// range, and opacities outside 0..1.
 std::string find_fault(const Volume& volume);
 std::string find_fault(const VolumeFrame& frame);

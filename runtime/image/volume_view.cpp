@@ -201,7 +201,7 @@ Image view_slices(const Volume& volume, int first, int end, glm::ivec2 size) {
     const uint64_t layer = uint64_t(frame.size.x) * uint64_t(frame.size.y);
     const auto from = std::ranges::lower_bound(volume.indices, layer * uint64_t(first));
     const auto to = std::ranges::lower_bound(volume.indices, layer * uint64_t(end));
-    // The voxels behind come first: places ascend with k.
+    // Indices ascend with k, so the voxels behind come first in this order.
     for (auto place = to; place != from;) {
         const auto i = size_t(--place - volume.indices.begin());
         if (!is_shown(volume, i)) continue;

@@ -32,7 +32,7 @@ std::string json_size(const glm::dvec3& v) {
 
 double rounded(double x, int digits) {
     const std::string text = fmt::format("{:.{}g}", x, digits);
-    double value = x;  // stays where the decimal is beyond numbers of 64 bits
+    double value = x;  // the value if the decimal exceeds 64-bit floats
     std::from_chars(text.data(), text.data() + text.size(), value);
     return value + 0.0;  // -0 becomes 0
 }
@@ -59,7 +59,7 @@ std::string fit_member(const ImportOptions& options) {
 
 glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured) {
     const double edge = longest_side(box) / (is_textured ? 512 : 256);
-    // Rounded up, so that there are no more voxels than that.
+    // The edge is rounded up, so that there are no more voxels than that.
     return glm::dvec3(rounded(edge * 1.0005, 4));
 }
 

@@ -22,11 +22,11 @@ namespace voxelume {
 /// The observer of a file's camera.
 struct FileObserver {
     std::string text;   ///< `"observer": {...}`; empty: there is none
-    double height = 0;  ///< metres; the least of all frames
+    double height = 0;  ///< metres; the minimum over all frames
 };
 
-/// Local light sends a ray from each point to each light sample of each emissive object. Together
-/// they have three times the light samples of a studio's sun.
+/// The number of light samples that a file's emissive objects have together. Local light sends a
+/// ray from each point to each light sample; this is three times as many as a studio's sun has.
 inline constexpr size_t kEmissiveLightSamples = 72;
 
 struct Contents {
@@ -34,10 +34,10 @@ struct Contents {
     std::vector<std::string> models;     ///< members
     std::vector<std::string> objects;    ///< items: `{...}`
     std::vector<std::string> tracks;     ///< items; none: nothing moves
-    int frames = 1;                      ///< of the animation
+    int frames = 1;                      ///< frames of the animation
     double fps = 24;
     FileObserver observer;
-    ViewFrom from;                         ///< where others look from who see all of it
+    ViewFrom from;                         ///< direction of other observers, who see all of it
     std::vector<std::string> lights;       ///< items; none: those of a studio
     std::optional<FileLight> file_light;   ///< none: the studio's own
     bool has_glass = false;                ///< shadows are to let light through
@@ -45,24 +45,24 @@ struct Contents {
     /// If there are more emissive objects, pictures are in global light.
     size_t max_locally_emissive = 16;
     Bounds box;                ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};  ///< of the world, metres
+    glm::dvec3 voxel_size{0};  ///< voxels of the world, metres
     glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
 };
 
-/// Names that are taken, so that each new one is another.
+/// Names that are taken, so that each new name is unique.
 class NameList {
   public:
     explicit NameList(const std::vector<std::string>& taken) {
         for (const std::string& name : taken) names_.insert(name);
     }
-    /// The name, or with a number behind it if it is taken.
+    /// The name, with a number behind it if it is taken.
     std::string unique(const std::string& wanted);
 
   private:
     std::set<std::string> names_;
 };
 
-/// A file that becomes a scene.
+/// A file to be shown as a scene.
 struct ImportedFile {
     const std::filesystem::path& path;
     std::string name;  ///< in the scene's text
@@ -98,7 +98,7 @@ std::string json_list(const Vector& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
-/// "2", or a list where the numbers differ.
+/// "2", or a list where the three numbers differ.
 std::string json_size(const glm::dvec3& v);
 
 /// A number with at most this many digits, without those that binary fractions add.
@@ -115,7 +115,7 @@ std::string fit_member(const ImportOptions& options);
 /// where there are textures, which show in voxels.
 glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured);
 
-/// The size of a world's voxels for points, large enough for the points to make a surface. The
+/// The size of a world's voxels for points, large enough for the points to look like a surface. The
 /// contents have the size for meshes; they are `scale` times as large as the mesh.
 glm::dvec3 point_voxel_size(const Mesh& mesh, const Contents& contents, double scale);
 

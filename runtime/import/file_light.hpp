@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file says of the light around what it holds, and of what is behind it.
+// The light around a file's content and the background behind it, as the file says.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How rough surfaces and metals of other programs shine here.
+// The roughness and metals of other programs -> highlights of this one.
 #pragma once
 
 #include <string>

@@ -24,7 +24,7 @@
 namespace voxelume {
 namespace {
 
-/// A node that some axis of its map makes flat can't be placed.
+/// True unless the map flattens some axis: a flat node can't be placed.
 bool can_be_placed(const glm::dmat4& map) {
     double shortest = INFINITY, longest = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -50,8 +50,8 @@ GltfClip clip_of(const GltfFile& gltf, const std::string& wanted) {
 /// A model, which is written when all objects that show it are known.
 struct MeshModel {
     std::string name, surface;  ///< the latter as members
-    int number = 0;             ///< of the mesh in the file
-    double stretch = 0;         ///< largest of an object of points, or that moves; 0: none is
+    int number = 0;             ///< number of the mesh in the file
+    double stretch = 0;         ///< largest scale of its points or of what moves; 0: none
     GltfMorph morph;
 };
 
@@ -104,7 +104,7 @@ class SceneOfGltf {
     void add_object(const GltfNode& node) {
         const GltfValue mesh = root_.item("meshes", size_t(node.mesh));
         if (gltf_primitives(mesh).empty()) return;
-        // A mesh with a skin is placed by its joints alone.
+        // Its joints alone place a mesh that has a skin.
         const bool is_skinned = node.skin >= 0;
         std::vector<glm::dmat4> maps =
             is_skinned ? std::vector{motion_.world_from_file()} : frames_.maps_of(node);
@@ -134,7 +134,7 @@ class SceneOfGltf {
         }
     }
 
-    /// What places the object, whose tracks the contents get.
+    /// The keys that place the object. Its tracks are added to the contents.
     std::string place_text(const GltfNode& node, const std::string& name) {
         if (motion_.moves(node.number)) {
             GltfPlace place = gltf_place(motion_, node, name);
@@ -174,7 +174,8 @@ class SceneOfGltf {
         return models_.back();
     }
 
-    /// What moves keeps voxels of its own, and so do cubes; they are to be as large as the world's.
+    /// The model as text. What moves keeps voxels of its own, and so do cubes; their voxels are to
+    /// be as large as the world's.
     std::string model_text(const MeshModel& model) const {
         const std::string voxels =
             model.stretch > 0 ? fmt::format(", \"voxel_size\": {}",
@@ -212,7 +213,8 @@ class SceneOfGltf {
         });
     }
 
-    /// What is unlit lights nothing, unless it is one object with what shines.
+    /// The object's number of light samples as text. Unlit surfaces light nothing, unless they
+    /// belong to one object with emissive ones.
     std::string spots_member(const MeshSummary& summary) const {
         if (shines(summary)) return {};
         const bool has_unlit =

@@ -16,7 +16,7 @@ namespace voxelume {
 
 namespace {
 
-/// What weights and their keys make of a box.
+/// The box that a box becomes under weights and their keys.
 Bounds reach_of_targets(const GltfMorph& morph, const GltfFile& file, int mesh, const Bounds& box) {
     if (morph.weights.empty()) return box;
     std::vector<double> lowest = morph.weights, highest = morph.weights;

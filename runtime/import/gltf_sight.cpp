@@ -23,7 +23,7 @@ glm::dvec3 position_of(const GltfNode& node) {
     return glm::dvec3(node.world_from_node[3]);
 }
 
-/// Cameras and lights look along -Z.
+/// The direction of a node's sight: cameras and lights look along -Z.
 glm::dvec3 direction_of(const glm::dmat4& world_from_node) {
     return -unit(world_from_node[2]);
 }
@@ -31,13 +31,13 @@ glm::dvec3 direction_of(const GltfNode& node) {
     return direction_of(node.world_from_node);
 }
 
-/// True if a node's map still tells where its camera looks and what is up there.
+/// True if a node's map still defines its camera's sight direction and up direction.
 bool has_directions(const glm::dmat4& map) {
     return glm::length(glm::cross(direction_of(map), unit(map[1]))) > kMinUpSine;
 }
 
-/// The maps of a camera or light, of which those that a clip flattens keep the directions of the
-/// one before.
+/// The maps of a camera or light at all frames. A map that a clip flattens keeps the directions of
+/// the map before.
 std::vector<glm::dmat4> with_directions(std::vector<glm::dmat4> maps) {
     const auto first = std::ranges::find_if(maps, has_directions);
     if (first == maps.end()) return maps;
@@ -51,7 +51,7 @@ std::vector<glm::dmat4> with_directions(std::vector<glm::dmat4> maps) {
     return maps;
 }
 
-/// Appends a track of what a node's maps give, where they aren't all alike.
+/// Appends a track of the values of a node's maps, unless they are all alike.
 template <class Value>
 void add_track(const std::string& target, const std::vector<glm::dmat4>& maps, const Value& value,
                std::vector<std::string>& tracks) {
@@ -74,7 +74,7 @@ std::vector<GltfNode>::const_iterator first_camera(const std::vector<GltfNode>& 
     return std::ranges::find_if(nodes, [](const GltfNode& n) { return n.camera >= 0; });
 }
 
-/// How far before a camera its picture begins that has parallel rays.
+/// The distance before a camera at which its picture with parallel rays begins.
 double near_of(const GltfValue& camera) {
     if (camera.text("type") != "orthographic") return 0;
     return std::max(camera.at("orthographic").number("znear", 0), 0.0);
@@ -87,7 +87,8 @@ std::string perspective_display(const GltfValue& camera, const glm::ivec2& size)
                        rounded(std::clamp(angle, 1.0, 170.0), 8));
 }
 
-/// A box as deep as what the camera shows, behind its near plane.
+/// The display of a camera with parallel rays: a box as deep as the camera's range, behind its near
+/// plane.
 std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, double scale,
                              double depth) {
     const double height = 2 * scale * std::max(std::abs(camera.number("ymag", 1)), 1e-6);
@@ -96,7 +97,8 @@ std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, do
 }
 
 /// A light's luminous intensity or illuminance, in its colour. A metre of the file has `scale`
-/// metres in the scene, over which the light of a place falls off: it is stronger by the square.
+/// metres in the scene. Light from a position falls off over these, so its intensity grows by the
+/// square of `scale`.
 double brightness(const GltfValue& light, double scale) {
     const double own = std::clamp(light.number("intensity", 1), 0.0, 1e9);
     return light.text("type") == "directional" ? own : own * scale * scale;
@@ -109,7 +111,7 @@ double irradiance_at(const glm::dvec3& p, const GltfNode& node, const GltfValue&
     return brightness(light, scale) / (distance * distance);
 }
 
-/// The opening of a whole cone in degrees, for half of it in radians.
+/// The opening angle of a cone in degrees; `half` is half of it in radians.
 double opening(double half) {
     return std::clamp(2 * glm::degrees(half), 0.01, 179.9);
 }
@@ -180,7 +182,7 @@ FileObserver gltf_observer(const GltfFile& file, const std::vector<GltfNode>& no
     if (node == nodes.end()) return {};
     const double scale = frames.scale();
     const GltfValue camera = file.root().item("cameras", size_t(node->camera));
-    const bool is_flat = !has_directions(node->world_from_node);  // tracks say more, if it moves
+    const bool is_flat = !has_directions(node->world_from_node);  // its tracks may have them
     const glm::dvec3 towards = is_flat ? glm::dvec3(0, 0, -1) : direction_of(*node);
     const glm::dvec3 up = is_flat ? glm::dvec3(0, 1, 0) : unit(node->world_from_node[1]);
     glm::dvec3 position = position_of(*node);

@@ -22,7 +22,7 @@ struct GltfFrames {
     const GltfMotion& motion;
     int count = 1;
 
-    /// How many metres a metre of the file has.
+    /// The length of a file's metre in metres of the scene.
     double scale() const { return glm::length(glm::dvec3(motion.world_from_file()[0])); }
 
     glm::dmat4 map_at(const GltfNode& node, int frame) const {
@@ -33,19 +33,18 @@ struct GltfFrames {
     std::vector<glm::dmat4> maps_of(const GltfNode& node) const;
 };
 
-/// The observer of the file's first camera; empty where there is none. An image of another shape
-/// than the camera's keeps its height.
+/// The observer of the file's first camera; empty where there is none. If the image has another
+/// shape than the camera's, the height of the view stays.
 FileObserver gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
                            const Bounds& box, const glm::ivec2& size, const GltfFrames& frames);
 
-/// Appends the tracks of that observer, frame by frame, where its camera moves.
+/// Appends the tracks of gltf_observer()'s observer, frame by frame, where its camera moves.
 void add_observer_tracks(const GltfFile& file, const std::vector<GltfNode>& nodes,
                          const GltfFrames& frames, std::vector<std::string>& tracks);
 
-/// The file's lights, as bright in proportion to each other as they are there: together they give
-/// the middle of the box an irradiance of 1, for files have them in candela and lux and say
-/// nothing of exposure.
-/// Tracks of those that move are appended, frame by frame.
+/// The file's lights, with the file's ratios of brightness. Together they give the middle of the
+/// box an irradiance of 1, because files have lights in candela and lux and no exposure. Tracks of
+/// moving lights are appended, frame by frame.
 std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vector<GltfNode>& nodes,
                                           const Bounds& box, const GltfFrames& frames,
                                           std::vector<std::string>& tracks);

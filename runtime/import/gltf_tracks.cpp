@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<const char*, 5> kInterpolations = {"step", "linear", "cubic", "slerp",
                                                         "spline"};
 
-/// Nine digits tell apart all numbers of 32 bits, which the file has.
+/// A number as text; nine digits tell apart all 32-bit floats, which files have.
 std::string number_text(double value) {
     return fmt::format("{}", rounded(value, 9));
 }
@@ -25,8 +25,8 @@ std::string row_text(const std::vector<double>& values, size_t row, size_t width
     return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
-/// Scales that make things vanish leave a ten-thousandth of them: a flat map is none to place
-/// things by.
+/// Limits scales from below to a ten-thousandth of the largest one: scales near 0, which make
+/// things vanish, would give a flat map that can't place anything.
 Keyframes without_flatness(Keyframes keys) {
     double largest = 0;
     for (const double value : keys.values) largest = std::max(largest, std::abs(value));
@@ -36,7 +36,7 @@ Keyframes without_flatness(Keyframes keys) {
     return keys;
 }
 
-/// Members of a place, without braces, but for those whose values tracks have.
+/// The keys of a placement, without braces, except those that have tracks.
 std::string factor_members(const Factors& factors, const std::array<const GltfTrack*, 3>& tracks) {
     std::vector<std::string> members;
     if (!tracks[0] && factors.position != glm::dvec3(0))
@@ -48,9 +48,9 @@ std::string factor_members(const Factors& factors, const std::array<const GltfTr
     return fmt::format("{}", fmt::join(members, ", "));
 }
 
-/// A link of the way from the world to an object.
+/// A step of the path from the world to an object.
 struct Link {
-    int node = -1;  ///< that has tracks; -1: a matrix
+    int node = -1;  ///< node with tracks; -1: a matrix
     glm::dmat4 matrix{1};
 };
 

@@ -9,15 +9,15 @@
 
 namespace voxelume {
 
-/// Where an object stands, and what moves it.
+/// The placement of an object and its animation.
 struct GltfPlace {
-    std::string members;              ///< of the object: `, "position": ...`; empty at the origin
+    std::string members;  ///< keys of the object: `, "position": ...`; empty at the origin
     std::vector<std::string> tracks;  ///< items
 };
 
-/// The place of a node that `motion` moves, in an object of such a name. Each node with tracks is
-/// the object's own place or one of its parents, and has the file's own keys; what lies between is
-/// one matrix.
+/// The placement of a node that `motion` moves, in an object of this name. Each node with tracks
+/// becomes the object's own placement or one of its parents, and has the file's own keys; nodes
+/// between them become one matrix.
 GltfPlace gltf_place(const GltfMotion& motion, const GltfNode& node, const std::string& object);
 
 /// Rows of 4 numbers.

@@ -18,7 +18,7 @@ glm::dvec3 color_of(const GltfValue& value, const char* key, size_t count) {
     return glm::clamp(glm::dvec3(numbers[0], numbers[1], numbers[2]), 0.0, 1.0);
 }
 
-/// What the keys of either way of describing a material mean.
+/// The values of a material, from either of the two ways in which files describe it.
 struct Looks {
     glm::dvec3 color{1};
     double opacity = 1, metal = 1, rough = 1;
@@ -39,8 +39,8 @@ Looks looks_of(const GltfValue& material) {
         s.metal = 0;
         s.rough = 1 - std::clamp(from.number("glossinessFactor", 1), 0.0, 1.0);
     } else {
-        // Where a texture that isn't shown decides how much is metal, its factor says nothing of
-        // most of it.
+        // Where a texture that isn't shown decides how much is metal, the factor is meaningless for
+        // most of the surface.
         const bool has_map = from.has("metallicRoughnessTexture") && !gltf_has_gloss_map(material);
         s.metal = has_map ? 0 : std::clamp(from.number("metallicFactor", 1), 0.0, 1.0);
         s.rough = has_map ? 0.7 : std::clamp(from.number("roughnessFactor", 1), 0.0, 1.0);
@@ -67,14 +67,14 @@ std::string ior_member(const GltfValue& material) {
     return fmt::format(", \"ior\": {}", rounded(std::min(ior, 10.0), 4));
 }
 
-/// A factor between 0 and 1 of an extension, or what it is without one. Where a texture decides,
-/// the factor says nothing of most of the surface.
+/// A factor between 0 and 1 of an extension, `otherwise` without one or where a texture decides:
+/// the factor is then meaningless for most of the surface.
 double factor_of(const GltfValue& extension, const std::string& name, double otherwise) {
     if (extension.has((name + "Texture").c_str())) return otherwise;
     return std::clamp(extension.number((name + "Factor").c_str(), otherwise), 0.0, 1.0);
 }
 
-/// Members of a coat, and of a surface that reflects less than its index of refraction says.
+/// The keys of a coat, and of a surface that reflects less than its index of refraction implies.
 std::string layer_members(const GltfValue& material) {
     std::string text;
     const double specular = factor_of(material.extension("KHR_materials_specular"), "specular", 1);
@@ -87,7 +87,8 @@ std::string layer_members(const GltfValue& material) {
                               rounded(rough, 3));
 }
 
-/// Members of a body of glass. What has no volume is a pane, through which light goes straight on.
+/// The keys of a body of glass. A body without volume is a pane, through which light goes straight
+/// on.
 std::string glass_members(const GltfValue& material, const Looks& s, double transmission,
                           double scale) {
     if (!has_volume(material))
@@ -137,7 +138,7 @@ std::string gltf_values(const GltfValue& material, bool is_unlit, double scale) 
     if (transmission > 0) {
         text += glass_members(material, s, transmission, scale);
     } else if (material.has_extension("KHR_materials_unlit")) {
-        // It is matte: the colours of its vertices don't multiply emission.
+        // Unlit materials are matt: the colours of vertices don't multiply emission.
     } else {
         text +=
             ", " + metal_members(s.metal, s.rough) + ior_member(material) + layer_members(material);

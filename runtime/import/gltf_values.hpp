@@ -8,17 +8,17 @@
 
 namespace voxelume {
 
-/// The members of the scene's material, without braces; see gltf_unlit_materials() on `is_unlit`.
-/// The scene shows the file `scale` times as large as it is.
+/// The keys of the scene's material, without braces; see gltf_unlit_materials() on `is_unlit`. The
+/// scene shows the file enlarged by `scale`.
 std::string gltf_values(const GltfValue& material, bool is_unlit, double scale = 1);
 
-/// True if its base colour isn't black.
+/// True if the material's base colour isn't black.
 bool gltf_has_color(const GltfValue& material);
 
 /// True if the material has an emission of its own.
 bool gltf_shines(const GltfValue& material);
 
-/// True if light goes through what has the material.
+/// True if light goes through surfaces with the material.
 bool gltf_transmits(const GltfValue& material);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be asked of the scene that is made for a file.
+// The options of the scene that is made for a file.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// Which axis of a file's coordinates is up.
+/// The axis of a file's coordinates that points up.
 enum class UpAxis : uint8_t { automatic, y, z };
 
 struct ImportOptions {
@@ -24,7 +24,7 @@ struct ImportOptions {
     /// The file's own camera, where it has one, is the observer.
     bool has_own_camera = true;
     std::string clip{};  ///< name of a glTF file's; empty: its first
-    bool turns = false;  ///< all directions around show it from one distance, at one height
+    bool turns = false;  ///< views from all directions around have one distance and one height
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     std::optional<bool> has_ground{};       ///< none: as the file says, or else one
     std::optional<glm::vec3> background{};  ///< linear Rec. 709; the ground shows the same colour

@@ -16,7 +16,7 @@ Bounds z_up(const Bounds& box) {
     return {{box.min.x, box.min.z, -box.max.y}, {box.max.x, box.max.z, -box.min.y}};
 }
 
-/// A material of what has none in the file.
+/// The values of a material for surfaces that have none in the file.
 std::string plain_values(const MeshSummary& mesh) {
     return fmt::format("\"color\": {}, \"specular\": 0.1",
                        mesh.paint.is_there() ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]");
@@ -34,16 +34,16 @@ std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSumma
     std::vector<std::string> faults;  // the mesh's summary has them, too
     for (MtlMaterial material :
          read_material_libraries(file.path, mesh.material_libraries, faults)) {
-        if (mesh.paint.uvs == 0)  // nothing tells where the maps lie
+        if (mesh.paint.uvs == 0)  // without UVs the maps can't be placed
             material.emission_map = material.roughness_map = material.metallic_map = {};
         materials.push_back({material.name, mtl_values(material), mtl_transmits(material)});
     }
     return materials;
 }
 
-/// Adds the materials that the mesh's groups have in the file. Returns the members of the object
-/// that name them, and the material of all other groups, which is named as the model. Where the
-/// file's own is missing, that is the scene's "default", so that a warning asks for another one.
+/// Adds the materials that the mesh's groups have in the file. Returns the keys of the object that
+/// refer to them. All other groups have a material named like the model or, where the file's own
+/// material is missing, the scene's "default", so that a warning asks for another one.
 std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
                           const std::string& name, Contents& contents) {
     const std::vector<FileMaterial> materials = materials_of(file, mesh);

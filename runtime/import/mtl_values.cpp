@@ -11,7 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// The models of illumination in which reflected rays are traced, and those with refracted ones.
+/// True for models of illumination in which reflected rays are traced; refracts() is true for those
+/// with refracted rays.
 bool reflects(int illumination) {
     return illumination >= 3 && illumination <= 7;
 }
@@ -24,27 +25,28 @@ glm::dvec3 linear_color(const glm::dvec3& srgb) {
     return linear_from_srgb(glm::clamp(srgb, 0.0, 1.0));
 }
 
-/// Files without a texture's colour in Kd have black there.
+/// The base colour. Files with a texture of colours may have black in Kd, which counts as white.
 glm::dvec3 color_of(const MtlMaterial& m) {
     const bool is_left_out = !m.diffuse_map.file.empty() && m.diffuse == glm::dvec3(0);
     return is_left_out ? glm::dvec3(1) : linear_color(m.diffuse);
 }
 
-/// The share that a material covers. Programs disagree on which end of Tr is opaque, and nobody
-/// writes a material to be invisible, so 0 counts as opaque.
+/// The opacity of a material. Programs disagree on which end of Tr is opaque, and nobody writes a
+/// material to be invisible, so 0 counts as opaque.
 double opacity_of(const MtlMaterial& m) {
     const double opacity = std::clamp(m.opacity, 0.0, 1.0);
     return opacity > 0 ? opacity : 1;
 }
 
-/// The light that a material sends out, of which a texture says where. Files with one may have
-/// black in Ke.
+/// The emission of a material. Files with a texture of emission may have black in Ke, which counts
+/// as white.
 glm::dvec3 emission_of(const MtlMaterial& m) {
     const bool is_left_out = !m.emission_map.file.empty() && m.emission == glm::dvec3(0);
     return is_left_out ? glm::dvec3(1) : linear_color(m.emission);
 }
 
-/// Roughness and metalness. A map stands for its number, as programs that write both mean it.
+/// The roughness and metalness. Where there is a map, its number is 1: programs that write both
+/// mean the map alone.
 std::string physical_members(const MtlMaterial& m) {
     const auto value = [](const std::optional<double>& number, const MtlTexture& map,
                           double otherwise) {

@@ -12,7 +12,7 @@ namespace voxelume {
 /// colours, which the material's colour multiplies.
 std::string mtl_values(const MtlMaterial& material);
 
-/// True if light goes through what has the material.
+/// True if light goes through surfaces with the material.
 bool mtl_transmits(const MtlMaterial& material);
 
 }  // namespace voxelume

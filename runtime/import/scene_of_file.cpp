@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kFilledShare = 0.92;  // of the image's width or height: shadows need room, too
+constexpr double kFilledShare = 0.92;  // of the image: shadows need room, too
 constexpr int kSamples = 4;
 constexpr int kGlobalSamples = 64;
 constexpr double kAmbientInside = 0.15;
@@ -27,7 +27,7 @@ constexpr double kAmbientInside = 0.15;
 struct ModelFormat {
     std::string_view ending;
     Contents (*read)(const ImportedFile& file);
-    bool is_mesh = false;  ///< and no file of voxels
+    bool is_mesh = false;  ///< otherwise a file of voxels
 };
 
 constexpr std::array<ModelFormat, 8> kFormats = {{
@@ -41,7 +41,7 @@ constexpr std::array<ModelFormat, 8> kFormats = {{
     {".vox", vox_contents},
 }};
 
-/// What reads a file of such a name; null for one that isn't read.
+/// The reader for files of this name; null for files that aren't read.
 Contents (*reader_of(const std::filesystem::path& file))(const ImportedFile&) {
     const std::string ending = ending_of(file);
     for (const ModelFormat& format : kFormats)
@@ -57,7 +57,7 @@ std::string part(std::string_view name, char open, const std::vector<std::string
                        close);
 }
 
-/// The digits that are worth writing of a position seen from a distance.
+/// A position, rounded to the digits that can be seen from a distance.
 glm::dvec3 seen_from(const glm::dvec3& p, double distance) {
     const double step = std::pow(10.0, std::floor(std::log10(distance)) - 3);
     return rounded(glm::round(p / step) * step, 10);
@@ -65,7 +65,7 @@ glm::dvec3 seen_from(const glm::dvec3& p, double distance) {
 
 std::string observer_text(const glm::dvec3& position, const glm::dvec3& look_at,
                           const glm::dmat3& axes, const std::string& display) {
-    // Views along Y have no up of their own.
+    // Views along Y have no up direction of their own.
     const bool is_upright = std::abs(axes[2].y) > 0.999;
     return fmt::format(
         "  \"observer\": {{\"position\": {}, \"look_at\": {},{}\n"
@@ -87,7 +87,7 @@ std::string pyramid_observer(const Bounds& box, const ViewFrom& from,
                          fmt::format("\"shape\": \"pyramid\", \"angle\": {}", options.angle));
 }
 
-/// An observer with parallel rays who sees all of the box. His display reaches through all of
+/// An observer with parallel rays who sees all of the box. The display reaches through all of
 /// `around`.
 std::string parallel_observer(const Bounds& box, const Bounds& around, const ViewFrom& from,
                               const ImportOptions& options) {
@@ -120,7 +120,7 @@ std::string lattice_observer(const Bounds& box) {
                     json_list(size), json_list(voxels)));
 }
 
-/// The box that is as large as seen from every side.
+/// The box that encloses the content at every turn about Y.
 Bounds turned_box(const Bounds& box) {
     const glm::dvec3 middle = (box.min + box.max) / 2.0, half = (box.max - box.min) / 2.0;
     const double radius = std::hypot(half.x, half.z);
@@ -128,7 +128,7 @@ Bounds turned_box(const Bounds& box) {
     return {middle - reach, middle + reach};
 }
 
-/// Where the observer looks from.
+/// The direction from which the observer looks.
 ViewFrom view_from(const Contents& contents, const ImportOptions& options) {
     return {options.longitude.value_or(contents.from.longitude) + options.orbit,
             options.latitude.value_or(contents.from.latitude)};
@@ -161,7 +161,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
     return a;
 }
 
-/// The objects, of which emissive ones share kEmissiveLightSamples, where there are several.
+/// The objects. If several are emissive, they share kEmissiveLightSamples.
 std::vector<std::string> lit_objects(const Contents& contents) {
     std::vector<std::string> objects = contents.objects;
     const size_t count = contents.emissive_objects.size();
@@ -180,8 +180,8 @@ std::string scene_of(const Contents& contents, const ImportOptions& options) {
     const bool has_lights = !contents.lights.empty();
     // A file's own camera may be in a closed room, and its lights may leave much in the dark.
     const ViewFrom from = view_from(contents, options);
-    // How bright they make a ground isn't known, so one as bright as the background has to be asked
-    // for.
+    // The light on the ground isn't known beforehand, so a ground as bright as the background is
+    // made only if asked for.
     ImportOptions studio_options = options;
     if (has_lights && !options.has_ground) studio_options.has_ground = false;
     // A camera below the ground would see nothing but its underside.
@@ -239,7 +239,7 @@ std::vector<std::string> mesh_file_endings() {
 
 bool is_model_file(const std::filesystem::path& file) {
     if (reader_of(file) == nullptr || is_volume_nrrd(file)) return false;
-    // Radiance's pictures are named as scans are.
+    // Pictures of Radiance end in .hdr, as the headers of scans do.
     return ending_of(file) != ".hdr" || !std::filesystem::is_regular_file(file) ||
            voxel_file_format(file) != nullptr;
 }

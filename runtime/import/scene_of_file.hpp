@@ -12,10 +12,10 @@
 
 namespace voxelume {
 
-/// How names of files end that `scene_of_file` reads, `0001.png` of slices among them.
+/// The endings of the names of files that `scene_of_file` reads, `0001.png` of slices among them.
 std::vector<std::string> model_file_endings();
 
-/// How names of those that are meshes end.
+/// The endings of those that are meshes.
 std::vector<std::string> mesh_file_endings();
 
 /// True if a file's ending says that `scene_of_file` reads it.
@@ -27,7 +27,7 @@ bool is_model_file(const std::filesystem::path& file);
 std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
                           const ImportOptions& options, AssetStore& assets);
 
-/// The text of such a scene for voxels in memory, which it calls `name`.
+/// The text of a scene like scene_of_file()'s for voxels in memory, which it calls `name`.
 std::string scene_of_voxels(const std::shared_ptr<const VoxelModel>& voxels,
                             const std::string& name, const ImportOptions& options,
                             AssetStore& assets);

@@ -21,17 +21,18 @@ constexpr glm::dvec3 kSunColor{1, 0.97, 0.92}, kSkyColor{0.9, 0.95, 1};
 constexpr double kSun = 0.92;  // irradiance of a plane that faces it
 constexpr double kSky = 0.5;   // radiance
 constexpr glm::vec3 kBackground{0.8f, 0.8f, 0.8f};
-// So far away, in longest sides, that the light on the ground is even to half of a grey level.
+// The distance of lights, in longest sides of the box: the light on the ground is then even to half
+// of a grey level.
 constexpr double kDistance = 1000;
 constexpr double kFarthest = 4e8;   // metres
-constexpr double kBrightest = 5e8;  // the colour has what is more, as intensities end at 1e9
+constexpr double kBrightest = 5e8;  // the colour has the rest, as intensities end at 1e9
 
 /// A round light far away in a direction.
 struct FarLight {
     const char* name;
     glm::dvec3 towards;  ///< unit vector from the scene
     glm::dvec3 color;
-    double irradiance;  ///< of a plane that faces it
+    double irradiance;  ///< irradiance of a plane that faces the light
     double spread;      ///< degrees
     int samples;
 };
@@ -52,7 +53,7 @@ double irradiance_at(const Light& light, const glm::dvec3& p) {
     return sum;
 }
 
-/// Adds the light to a studio, and what it gives the ground, per colour, to `on_ground`.
+/// Adds the light to a studio, and adds what it gives the ground, per colour, to `on_ground`.
 void add_light(const FarLight& far, const Bounds& box, Studio& studio, glm::dvec3& on_ground) {
     const glm::dvec3 middle = (box.min + box.max) / 2.0;
     const double distance = std::min(kDistance * longest_side(box), kFarthest);
@@ -85,20 +86,21 @@ glm::dvec3 direction_of(double longitude, double latitude) {
     return -view_axes({longitude, latitude})[2];
 }
 
-/// The radius of a disk under the box that is as large as the shadows on it.
+/// The radius of a disk under the box that is large enough for the box's shadows.
 double ground_radius(const Bounds& box) {
     const glm::dvec3 size = box.max - box.min;
     return rounded(std::hypot(size.x, size.z) / 2 + 1.6 * size.y + longest_side(box) / 8, 3);
 }
 
-/// The largest radius of a disk for which a world of such voxels has room.
+/// The largest radius of a disk that fits a world with voxels of this size.
 double max_radius(const glm::dvec3& voxel_size) {
     constexpr double kMaxVoxels = 16000;
     return kMaxVoxels * std::min(voxel_size.x, voxel_size.z);
 }
 
-/// How far below what stands on it the ground lies: unseen, and more than rays are moved off a
-/// surface. Where they touched, rays out of glass passed through the ground here and there.
+/// The distance of the ground below the objects on it: invisible, but larger than the origin offset
+/// of rays. Where ground and glass touched, rays out of the glass passed through the ground here
+/// and there.
 double ground_gap(const Bounds& box, const glm::dvec3& voxel_size) {
     return rounded(std::max(voxel_size.y / 100, longest_side(box) / 8192), 3);
 }
@@ -130,7 +132,7 @@ std::string hidden_sky(const glm::dvec3& color) {
         json_list(rounded(color, 4)));
 }
 
-/// Light of the studio's own. Returns what reaches the ground of it, per colour.
+/// Adds the studio's own light. Returns the part of it that reaches the ground, per colour.
 glm::dvec3 add_own_light(const Bounds& box, double longitude, double ambient, Studio& studio) {
     const glm::dvec3 sky = kSky * kSkyColor;
     studio.sky = hidden_sky(sky);
@@ -142,7 +144,7 @@ glm::dvec3 add_own_light(const Bounds& box, double longitude, double ambient, St
     return on_ground;
 }
 
-/// The light of a file. A sun that doesn't stand above the horizon doesn't shine.
+/// Adds the light of a file. A sun that doesn't stand above the horizon doesn't shine.
 glm::dvec3 add_light_of(const FileLight& around, const Bounds& box, double longitude,
                         Studio& studio) {
     constexpr double kLowest = 0.02;  // sine of the sun's height

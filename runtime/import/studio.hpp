@@ -18,11 +18,11 @@ struct Studio {
     Bounds box;               ///< around what is shown and the ground
 };
 
-/// A room for what fills `box` in a world of such voxels, without a ground where that would be too
-/// large for the world. The sun comes from over the observer's left shoulder. Where light
-/// falls on the ground without hindrance, the ground has the radiance of the background, so that
-/// only shadows tell them apart. A file's light comes before all of that, and what the
-/// options say of ground and background before them. `ambient` is added to the room's own light.
+/// A room for what fills `box` in a world with voxels of this size, without a ground where that
+/// would be too large for the world. The sun comes from over the observer's left shoulder. Where
+/// light falls on the ground without hindrance, the ground has the radiance of the background, so
+/// that only shadows tell them apart. Light that the file has replaces the room's, and the ground
+/// and background of the options replace the file's. `ambient` is added to the room's own light.
 Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ViewFrom& from,
                    const ImportOptions& options, const std::optional<FileLight>& file_light,
                    double ambient);

@@ -69,7 +69,7 @@ std::string turn_text(const QuarterTurns& turns) {
 
 class VoxContents {
   public:
-    /// Voxels have edges of `edge` metres.
+    /// `edge` is the edge of voxels in metres.
     VoxContents(const ImportedFile& file, double edge)
         : file_(file), vox_(file.assets.vox_file(file.path)), parts_(file, vox_), edge_(edge) {}
 
@@ -90,7 +90,8 @@ class VoxContents {
     }
 
   private:
-    /// An object that shows several models in turn is one object each, of which one is visible.
+    /// Adds an object. If it shows several models in turn, each gets an object of its own, of which
+    /// one is visible.
     void add_object(const VoxObject& object) {
         for (size_t i = 0; i < object.shown.size(); ++i) {
             const VoxShown& shown = object.shown[i];

@@ -36,14 +36,14 @@ std::string members_of(const std::vector<std::string>& groups) {
     return members.empty() ? "" : fmt::format(", \"materials\": {{{}}}", fmt::join(members, ", "));
 }
 
-/// True for a medium that only takes light away, where it takes enough to be seen.
+/// True for a medium that absorbs enough light to be seen and does nothing else.
 bool is_clear_medium(const VoxMaterial& m, const glm::dvec3& linear) {
     constexpr double kFaint = 0.9;
     return m.kind == VoxMaterialKind::media && m.absorbs &&
            std::min({linear.x, linear.y, linear.z}) < kFaint;
 }
 
-/// Light through eight voxels of coloured glass has its colour.
+/// The absorption of coloured glass: light has the glass's colour after eight voxels.
 std::string absorption_member(const VoxMaterial& m, const glm::dvec3& linear, double voxel) {
     constexpr double kTint = 0.125, kDarkest = 0.02;
     const glm::dvec3 absorption = glm::log(1.0 / glm::max(linear, kDarkest)) *

@@ -16,13 +16,13 @@ class VoxParts {
   public:
     VoxParts(const ImportedFile& file, const VoxFile& vox) : file_(file), vox_(vox) {}
 
-    /// False for models without a voxel, of which scenes can have no models.
+    /// False for models without a voxel, which scenes can't have.
     bool has_voxels(int model);
-    /// The model's name in the scene, which has the model then.
+    /// The model's name in the scene. Adds the model to the scene.
     std::string name_of(int model);
     /// `, "materials": {...}` for the model's voxels that have a material of their own.
     std::string group_members(int model);
-    /// True if some of its voxels emit light.
+    /// True if some of the model's voxels emit light.
     bool is_emissive(int model);
     /// The box around the model's voxels.
     Bounds box_of(int model);
@@ -30,18 +30,18 @@ class VoxParts {
     /// True if light goes through a material that is needed.
     bool has_glass() const;
 
-    std::vector<std::string> models() const;  ///< members of those that were named
-    /// Members of the materials that they have, for voxels with edges of `voxel` metres.
+    std::vector<std::string> models() const;  ///< the models that were named, as keys of a scene
+    /// The materials of these models as keys of a scene, for voxels with edges of `voxel` metres.
     std::vector<std::string> materials(double voxel) const;
 
   private:
     const ImportedFile& file_;
     const VoxFile& vox_;
     std::map<int, std::string> names_;
-    std::set<int> entries_;  ///< of the palette whose materials are needed
+    std::set<int> entries_;  ///< palette entries whose materials are needed
 };
 
-/// The model that stands for a file's model: its voxels are those of a part.
+/// The model of a scene for a model of the file: its voxels are those of a part.
 Model vox_model(const ImportedFile& file, int part);
 
 /// A material of a scene that looks like a palette entry's: its values without braces.

@@ -16,7 +16,7 @@ namespace {
 
 // Radiance and irradiance of a strength of 1, measured in a picture of MagicaVoxel's.
 constexpr double kStrength = 1.3;
-constexpr double kSunSine = 0.55;     // of half the angle that a sun of area 1 fills
+constexpr double kSunSine = 0.55;     // sine of half the angle that a sun of area 1 fills
 constexpr double kFogDensity = 0.05;  // absorption per voxel of the thickest fog
 
 /// The axes X_E, up and backwards of a camera, with Y up.
@@ -44,7 +44,8 @@ double half_height(const VoxCamera& camera, double angle) {
     const bool is_parallel =
         camera.kind == VoxCameraKind::orthographic || camera.kind == VoxCameraKind::isometric;
     if (!is_parallel) return tangent;
-    // The frustum of a parallel camera is in voxels; that of one which was perspective, a tangent.
+    // The frustum of a parallel camera is in voxels; that of a camera that was perspective is a
+    // tangent.
     return camera.frustum > 1 ? camera.frustum : std::max(camera.radius * tangent, 0.5);
 }
 
@@ -65,7 +66,7 @@ std::string display_member(VoxCameraKind kind, double half, const glm::ivec2& si
     }
 }
 
-/// How far back an observer with parallel rays has to step to have all of the box before him.
+/// The distance by which an observer with parallel rays must step back to see all of the box.
 double step_back(const Bounds& box, const glm::dvec3& position, const glm::dvec3& backwards,
                  double voxel) {
     double back = 0;

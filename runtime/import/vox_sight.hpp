@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// The first camera that is used; null where the file has none.
+/// The first camera that is in use; null where the file has none.
 const VoxCamera* used_camera(const VoxFile& vox);
 
 /// `"observer": {...}` of the file's camera, who sees what is in the box; empty where it has none.
@@ -20,8 +20,8 @@ const VoxCamera* used_camera(const VoxFile& vox);
 FileObserver vox_observer(const VoxFile& vox, const Bounds& box, const glm::ivec2& size,
                           double voxel);
 
-/// The light of MagicaVoxel with the file's settings, or its usual ones where it has none. The
-/// scene's voxels have edges of `voxel` metres.
+/// The light of the file's settings, or of MagicaVoxel's defaults where it has none. The scene's
+/// voxels have edges of `voxel` metres.
 FileLight vox_file_light(const VoxRender& render, double voxel = 1);
 
 }  // namespace voxelume

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// The surface that a file has voxels of.
+/// The surface for which a file has voxels.
 Surface surface_in(const std::filesystem::path& path) {
     if (ending_of(path) == ".vxm") {
         const ModelSummary summary = read_model_summary(path);
@@ -27,8 +27,8 @@ Surface surface_in(const std::filesystem::path& path) {
     return Surface::cubes;
 }
 
-/// What of an array is shown: its colours, its labels, or the surface that parts its values best.
-/// Returns the members of the scene's model that say so.
+/// Chooses what is shown of an array: its colours, its labels, or the surface that separates its
+/// values best. Returns the keys of the scene's model for it.
 std::string choose_values(const CellArray& array, Model& model) {
     model.surface = Surface::cubes;
     if (array.is_color()) return {};
@@ -67,7 +67,7 @@ glm::dvec3 z_up(const glm::dvec3& p) {
     return {p.x, p.z, -p.y};
 }
 
-/// Turns all that is shown, so that Z is up. Returns the object's member that does it.
+/// Turns everything that is shown so that Z is up. Returns the object's key for it.
 const char* turn_up(Contents& contents) {
     const Bounds box = {z_up(contents.box.min), z_up(contents.box.max)};
     contents.box = {glm::min(box.min, box.max), glm::max(box.min, box.max)};
@@ -76,8 +76,8 @@ const char* turn_up(Contents& contents) {
     return ", \"turn\": [0, -90, 0]";
 }
 
-/// Sets voxels of such an edge apart as the options ask for. Returns the object's member that does
-/// it.
+/// Sets the distance between voxels of this edge as the options ask for. Returns the object's key
+/// for it.
 std::string set_apart(const glm::dvec3& edge, const ImportOptions& options, Contents& contents) {
     if (!options.spacing) return {};
     const glm::dvec3 scale = *options.spacing / edge;

@@ -17,7 +17,7 @@ namespace {
 using Frame = const VolumeFrame&;
 using Options = const VolumeOptions&;
 
-/// The maximum of a file's bytes that don't depend on how many voxels show something.
+/// The maximum of the bytes of a file that don't depend on the number of shown voxels.
 constexpr double kMaxFileBytes = 64.0 * 1024 * 1024 * 1024;
 /// The maximum size of a display's buffer, which is built in memory, in bytes.
 constexpr double kMaxBufferBytes = 4.0 * 1024 * 1024 * 1024;

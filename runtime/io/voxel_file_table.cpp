@@ -37,8 +37,8 @@ bool is_named(const VoxelFileFormat& format, const std::filesystem::path& path) 
     });
 }
 
-/// What files begin with that others read: OpenVDB, MagicaVoxel, this program's models, and
-/// Radiance's pictures, whose names end in .hdr, too.
+/// The first bytes of files that other readers read: OpenVDB, MagicaVoxel, this program's models,
+/// and pictures of Radiance, whose names end in .hdr, too.
 constexpr std::array<std::string_view, 4> kMarksOfOthers = {
     {{" BDV\0\0\0\0", 8}, "VOX ", "\x89VXM\r\n\x1a\n", "#?"}};
 
@@ -54,7 +54,7 @@ const VoxelFileFormat* voxel_file_format(const std::filesystem::path& path) {
     file.read(0, start.data(), start.size());
     for (const VoxelFileFormat& format : kVoxelFiles)
         if (!format.mark.empty() && start.starts_with(format.mark)) return &format;
-    // A name counts for a damaged mark, too, so that the format's own reader refuses the file.
+    // The name decides if the mark is damaged, so that the format's own reader refuses the file.
     const VoxelFileFormat* const named = voxel_format_named(path);
     const bool is_of_others = std::ranges::any_of(
         kMarksOfOthers, [&](std::string_view mark) { return start.starts_with(mark); });

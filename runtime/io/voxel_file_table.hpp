@@ -19,7 +19,7 @@ namespace voxelume {
 /// in a file of its own.
 struct VoxelFileFormat {
     std::string_view name;                    ///< for people: "numpy array"
-    std::array<std::string_view, 6> endings;  ///< of file names; those behind the last are empty
+    std::array<std::string_view, 6> endings;  ///< endings of file names, padded with empty ones
     std::string_view mark;                    ///< the file's first bytes; empty if it has none
     CellArray (*array)(const std::filesystem::path& path);  ///< null where it has voxels alone
     VoxelArt (*art)(const std::filesystem::path& path);     ///< null where it has an array

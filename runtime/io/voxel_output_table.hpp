@@ -13,19 +13,19 @@ namespace voxelume {
 
 /// One format. A new format is a row of the table and the function that its row names.
 struct VoxelOutputFormat {
-    std::string_view ending;  ///< of file names
-    /// Writes cubes; null for formats that hold surfaces, too, whose voxels VoxelExport writes.
+    std::string_view ending;  ///< ending of file names
+    /// Writes cubes; null for formats that also hold surfaces, which VoxelExport writes.
     WriterNotes (*write)(const std::filesystem::path&, const CubeList&);
-    bool keeps_edges;      ///< of voxels that aren't cubes
-    bool keeps_materials;  ///< such as metal and glass, not colours alone
-    /// Voxels along a mesh's longest side if nobody says how many; the set of them has up to two
+    bool keeps_edges;      ///< voxels may have edges of different lengths
+    bool keeps_materials;  ///< materials such as metal and glass are kept, not colours alone
+    /// The default number of voxels along a mesh's longest side; the set of voxels has up to two
     /// more.
     int usual_resolution = 256;
 };
 
 std::span<const VoxelOutputFormat> voxel_output_table();
 
-/// The format that a file's name stands for; null where the ending is of none.
+/// The format that a file's name stands for; null for other endings.
 const VoxelOutputFormat* voxel_output_format(const std::filesystem::path& path);
 
 /// The format that a file's name stands for. Throws Error::usage, naming all endings, where there

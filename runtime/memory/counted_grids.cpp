@@ -14,7 +14,7 @@ bool has_own_voxels(const Model& model) {
     return !model.voxels.empty() && !lists_primitives(model.surface);
 }
 
-/// A mesh that is voxelized in the world's own lattice is limited there.
+/// Refuses a mesh that is voxelized in the world's own lattice if the lattice is too large.
 void check_lattice(const Object& object, const Model& model, const glm::ivec3& size) {
     if (std::max({size.x, size.y, size.z}) <= kLatticeReach) return;
     const bool is_exact = lists_primitives(model.surface);
@@ -26,7 +26,7 @@ void check_lattice(const Object& object, const Model& model, const glm::ivec3& s
                 kLatticeReach);
 }
 
-/// Refuses a mesh some of whose vertices are surely too far from the lattice: each side of its box
+/// Refuses a mesh if some of its vertices are surely too far from the lattice: each side of its box
 /// holds one.
 void check_reach(const Object& object, const Bounds& box, const GridFrame& frame) {
     for (int side = 0; side < 6; ++side) {
@@ -49,12 +49,12 @@ void check_reach(const Object& object, const Bounds& box, const GridFrame& frame
     }
 }
 
-/// The voxels that rays must see of a grid, and the primitives that these list.
+/// The voxels of a grid that rays must see, and the primitives that these voxels list.
 WorldCounts indexed_counts(const GridCounts& grid) {
     return {grid.bricks, grid.voxels, grid.listed};
 }
 
-/// Makes the grid by `make`, and notes what that takes.
+/// Makes the grid by `make`, and notes the memory that this takes.
 template <class Make>
 void measure(const Device& device, CountedGrid& counted, const Make& make) {
     DeviceCounters& counters = device.counters();
@@ -89,7 +89,7 @@ CountedInstances CountedGrids::instances() {
 }
 
 std::vector<PlacedObject> CountedGrids::placed() {
-    std::vector<SharedGrid> shown;  // they stay in grids_, too
+    std::vector<SharedGrid> shown;  // the grids stay in grids_, too
     return placed_objects(
         scene_, meshes_, objects_.boxes(),
         [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
@@ -142,7 +142,7 @@ SharedGrid CountedGrids::make(CountedGrid counted, const Model& model) {
     return grids_.back().grid;
 }
 
-/// Follows GridCache.
+/// Makes a grid as GridCache does.
 BrickGrid CountedGrids::grid_of(const GridCounts& counts, const Model& model) {
     if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
     if (model.solid) return count_solid_grid(device_, counts);

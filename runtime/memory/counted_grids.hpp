@@ -11,11 +11,11 @@
 
 namespace voxelume {
 
-/// A grid with what making and keeping it takes of the device.
+/// A grid, and the device memory that making and keeping it takes.
 struct CountedGrid {
     int model = 0;
-    int object = -1;            ///< whose grid it is alone; -1 for a model's, which objects share
-    bool is_thin_part = false;  ///< it is that of the model's thin parts
+    int object = -1;  ///< the object that alone shows it; -1: a model's, which objects share
+    bool is_thin_part = false;  ///< true for the grid of the model's thin parts
     GridCounts counts;
     SharedGrid grid = {};
     double made_bytes = 0;  ///< the maximum while it is made, its own bytes included
@@ -24,13 +24,13 @@ struct CountedGrid {
     double largest_bytes = 0;
 };
 
-/// A mesh's grid, freed again.
+/// Counts making a mesh's grid, which is freed again.
 CountedGrid count_mesh(const Device& device, const GridCounts& counts);
 
-/// The scene's instances, and what the grids of their models hold.
+/// The scene's instances, and the counts of their models' grids.
 struct CountedInstances {
     ListedInstances listed;
-    std::vector<WorldCounts> models;  ///< of each of the listed grids
+    std::vector<WorldCounts> models;  ///< counts of each of the listed grids
 };
 
 class CountedGrids {
@@ -49,10 +49,11 @@ class CountedGrids {
 
     const std::vector<CountedGrid>& all() const { return grids_; }
 
-    /// Makes those grids again for which `is_changed` is true, while the old ones still stand.
+    /// Makes the grids again for which `is_changed` is true, while the old grids are still in
+    /// memory.
     std::vector<BrickGrid> make_again(const std::function<bool(const CountedGrid&)>& is_changed);
 
-    /// Frees the grids for which `is_old` is true; what they take is still known.
+    /// Frees the grids for which `is_old` is true; their numbers of bytes are kept.
     void forget_if(const std::function<bool(const CountedGrid&)>& is_old);
 
   private:
@@ -71,7 +72,7 @@ class CountedGrids {
     ObjectCounts& objects_;
     Estimate estimate_;
     std::vector<CountedGrid> grids_;
-    std::vector<BrickGrid> bodies_;  ///< of meshes that are cut
+    std::vector<BrickGrid> bodies_;  ///< bodies of meshes that are cut
 };
 
 }  // namespace voxelume

@@ -21,10 +21,10 @@
 namespace voxelume {
 namespace {
 
-/// What the scene's tracks change.
+/// The models and objects that the scene's tracks change.
 struct Changes {
-    std::vector<bool> models;   ///< of each model, whether its grids do
-    std::vector<bool> objects;  ///< of each object in the world's voxels, whether it does
+    std::vector<bool> models;   ///< for each model: true if its grids change
+    std::vector<bool> objects;  ///< for each object in the world's voxels: true if it changes
 
     bool are_of(const CountedGrid& grid) const {
         return grid.object < 0 ? models[size_t(grid.model)] : objects[size_t(grid.object)];
@@ -81,7 +81,7 @@ class FollowingWalk {
             image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
             hits = {device_, "hits", hit_bytes(joined)};
         }
-        // Before the volumetric image is made, the image's arrays are freed but for what is
+        // Before the volumetric image is made, the image's arrays are freed except those that are
         // retained.
         Buffer<uint8_t> rest;
         const uint64_t there = bytes_in_use() - before - hits.size();
@@ -94,7 +94,7 @@ class FollowingWalk {
   private:
     uint64_t bytes_in_use() const { return device_.counters().bytes_in_use; }
 
-    /// What stays of an image besides its hits: its pixels, and what its renderer retains.
+    /// The bytes that stay of an image besides its hits: its pixels and what its renderer retains.
     uint64_t retained_bytes(const ImageMemory& image) const {
         uint64_t words =
             image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size();
@@ -113,8 +113,8 @@ class FollowingWalk {
         return height - counters.bytes_in_use;
     }
 
-    /// Counts what the next frame's world needs in addition to all that is there. It may be built
-    /// while this frame's image is made, so both are counted together.
+    /// Counts the additional memory of the next frame's world. It may be built while this frame's
+    /// image is made, so both are counted together.
     void build_next(std::span<const PlacedObject> placed, CountedWorld& world,
                     CountedPyramid& indexed, const ListedInstances& listed) {
         const WorldCounts counts = objects_.world(Estimate::expected);
@@ -127,7 +127,7 @@ class FollowingWalk {
         if (bricks.of_others > 0) count_growth(device_, world.grid);
         const BrickGrid sources = count_repainting(device_, placed, world, bricks);
         grids_.forget_if(is_changed);
-        indexed.pyramid = {};  // the image shows its copy that has the instances
+        indexed.pyramid = {};  // the image shows a copy with the instances
         const Pyramid next = count_reindexing(device_, world, counts, indexed.masks);
         std::vector<ModelPyramid> kept;
         if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, next, {}, kept);
@@ -136,7 +136,7 @@ class FollowingWalk {
     size_t hit_bytes(const Pyramid& world) const {
         const Features features = features_of(scene_, world);
         const RenderSettings render = retained_settings(scene_);
-        if (render.all_samples > 0) return 0;  // another moment's hits follow
+        if (render.all_samples > 0) return 0;  // another moment's hits replace these
         const double rays = 16.0 * tile_count(render.size.x, render.size.y) * render.samples;
         return size_t(rays * sight_bytes(features));
     }

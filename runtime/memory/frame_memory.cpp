@@ -79,7 +79,7 @@ class FrameWalk {
         memory_.volume_voxels = count_volume(device_, scene_, world, medium_, estimate_);
         memory_.volume = height();
         const Features features = features_of(scene_, world);
-        // Whether parts of solids share voxels, only building the world will tell.
+        // Only building the world tells whether parts of solids share voxels.
         if (estimate_ == Estimate::expected &&
             std::ranges::none_of(memory_.grids, [](auto& grid) { return grid.counts.parts > 1; }))
             memory_.foreseen = foreseen_image(scene_, world);
@@ -94,7 +94,7 @@ class FrameWalk {
         memory_.rays = ray_bytes(features, ray_counts(device_, scene_, features));
     }
 
-    /// The bytes of hits that passes of the light are rendered from.
+    /// The bytes of retained hits, from which passes of the light are rendered.
     double retained_hits(const Features& features) const {
         const RenderSettings render = retained_settings(scene_);
         if (estimate_ == Estimate::minimum || !render.channels.has_passes() ||
@@ -105,7 +105,7 @@ class FrameWalk {
         return bytes <= kMaxPassHitBytes ? bytes : 0;
     }
 
-    /// The maximum bytes since the last call.
+    /// The maximum bytes in use since the last call.
     double height() {
         DeviceCounters& counters = device_.counters();
         const auto bytes = double(counters.peak_bytes);

@@ -15,27 +15,27 @@ namespace voxelume {
 
 /// The maximum bytes of the device during each step, with what stays from the steps before.
 struct FrameMemory {
-    std::vector<CountedGrid> grids;  ///< freed
+    std::vector<CountedGrid> grids;  ///< counted and freed again
     WorldCounts world;
     double voxelize = 0, place = 0, index = 0, image = 0;
     double volume = 0;             ///< for the display's volumetric image instead of the image
     double volume_voxels = 0;      ///< listed in the volumetric image
     double pyramid = 0;            ///< part of `image` and `volume`
     double dilated_occupancy = 0;  ///< part of `image`
-    double light_host_bytes = 0;   ///< of main memory, for emitters and the sky
-    ForeseenImage foreseen;        ///< with the expected estimate
-    RayBytes rays;                 ///< all that they may need
-    std::string largest_buffer;    ///< of placing and indexing
+    double light_host_bytes = 0;   ///< main memory for emitters and the sky
+    ForeseenImage foreseen;        ///< made with the expected estimate
+    RayBytes rays;                 ///< the maximum that rays may need
+    std::string largest_buffer;    ///< the largest buffer of placing and indexing
     double largest_bytes = 0;
 
     double built() const;  ///< the maximum while the world is built
 };
 
-/// A device that counts, with the batches of another.
+/// A counting device with the batches of another device.
 Device counting_like(const DeviceInfo& device);
 
-/// Follows WorldBuilder and Renderer through a single frame on a device. With the least estimate
-/// only the first reflections and refractions are counted, whose arrays are made whatever is met.
+/// Follows WorldBuilder and Renderer through a single frame on a device. With the minimum estimate
+/// only the first reflections and refractions are counted, whose arrays are made in any case.
 ///
 /// Throws as list_instances and placed_objects do, and Error::limit for an exact mesh in a world
 /// that is too large for it.

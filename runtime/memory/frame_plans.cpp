@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// Leaves the samples of one moment to an image, and notes that it has more.
+/// Limits an image to the samples of one moment, and notes that there are more.
 void take_at_once(int samples, RenderSettings& render) {
     if (samples < render.samples) render.all_samples = std::exchange(render.samples, samples);
 }
@@ -43,7 +43,7 @@ class FramePlanner {
         : scene_(scene), meshes_(meshes), device_(device), worlds_(worlds_of(scene, frames)) {}
 
     FramePlan run(std::span<const int> frames, const std::function<void(size_t)>& progress) {
-        // Where frames are chosen, seeing them all is half of the way.
+        // Choosing frames means looking at all of them, which is half of the progress.
         const bool chooses = frames.size() > kMaxPlannedFrames;
         const size_t seen = progress && chooses ? frames.size() / 2 : 0;
         const FramesToPlan found = frames_to_plan(scene_, frames, [&](size_t i) {
@@ -60,7 +60,7 @@ class FramePlanner {
     }
 
   private:
-    /// Plans the frame, and others of its moments. False if one doesn't fit.
+    /// Plans moments of the frame. Returns false if one doesn't fit.
     bool plan(const FramesToPlan& found, size_t place) {
         const int frame = found.changed[place];
         const int at_once = samples_at_once(scene_, frame);
@@ -69,8 +69,8 @@ class FramePlanner {
         return true;
     }
 
-    /// Plans a moment of the frame unless it is planned like the one before. False if it doesn't
-    /// fit.
+    /// Plans a moment of the frame unless its plan equals that of the moment before. Returns false
+    /// if it doesn't fit.
     bool plan(const FramesToPlan& found, size_t place, double moment, int at_once) {
         Scene now = in_frame(scene_, moment, [&] { return scene_at(scene_, moment); });
         take_at_once(at_once, now.render);
@@ -99,13 +99,13 @@ class FramePlanner {
         return plan.run_bytes(worlds_, double(device_.memory));
     }
 
-    /// Plans a frame that wasn't chosen. False if it doesn't fit.
+    /// Plans a frame that wasn't chosen. Returns false if it doesn't fit.
     bool plan_new(const FramesToPlan& found, size_t place) {
         if (std::ranges::binary_search(found.chosen, place)) return true;
         return plan(found, place);
     }
 
-    /// Comes closer to the frame that takes the most where it lies between those chosen.
+    /// Searches around the frame with the maximum for a larger one between the chosen frames.
     bool climb(const FramesToPlan& found) {
         for (size_t step = found.step / 2; step > 0; step /= 2) {
             const size_t middle = place_;
@@ -123,7 +123,7 @@ class FramePlanner {
     SolidExtents solids_;
     std::optional<Scene> before_;
     std::optional<FramePlan> maximum_, refused_;
-    size_t place_ = 0;  ///< of the maximum among the frames that change
+    size_t place_ = 0;  ///< index of the maximum among the frames that change
     int plans_ = 0;
 };
 

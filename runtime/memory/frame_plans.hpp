@@ -12,10 +12,10 @@ namespace voxelume {
 /// A frame with its plan.
 struct FramePlan {
     int frame = 1;
-    Scene scene;  ///< as it is then
+    Scene scene;  ///< the scene at that frame
     ScenePlan plan;
-    int plans = 1;  ///< made for this and other frames; the rest have the plans of those before
-    bool is_of_all = true;  ///< false: of frames chosen by frames_to_plan()
+    int plans = 1;          ///< number of plans made; other frames share those of frames before
+    bool is_of_all = true;  ///< false: only frames chosen by frames_to_plan() were planned
 };
 
 /// True if check_memory refuses the frame.
@@ -30,12 +30,12 @@ bool is_refused(const FramePlan& planned, const DeviceInfo& device);
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                       const DeviceInfo& device, const std::function<void(size_t)>& progress = {});
 
-/// Holds all `frames` against the rules for placements, and those of frames_to_plan() against the
+/// Checks all `frames` against the rules for placements, and those of frames_to_plan() against the
 /// device's memory, as check_memory does, before the first is rendered.
 ///
-/// Frames whose models are of other files, or other shapes of a morph, than the first one's aren't
-/// planned here but when it is their turn: reading their meshes would take as long as rendering.
-/// Throws as plan_frames and check_memory do, with the frame.
+/// Frames whose models have other files, or other shapes of a morph, than those of the first frame
+/// aren't planned here but before they are rendered: reading their meshes would take as long as
+/// rendering. Throws as plan_frames and check_memory do, with the frame.
 void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                   const DeviceInfo& device);
 

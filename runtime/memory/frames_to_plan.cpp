@@ -39,8 +39,8 @@ void visit_extremes(const Keyframes& keys, const Visit& visit) {
     }
 }
 
-/// The frames at the keys of tracks; where they are many, those at extreme keys, and some others at
-/// even distances among the keys.
+/// The frames at the keys of tracks. If these are many, those at extreme keys, and other keys at
+/// even distances.
 std::set<int> frames_at_keys(const Scene& scene) {
     std::set<int> all, found;
     for (const MovingPart& part : scene.motion->parts)
@@ -59,7 +59,7 @@ std::set<int> frames_at_keys(const Scene& scene) {
     return found;
 }
 
-/// Notices objects with their models, and files of models, that no earlier frame shows.
+/// Finds objects with their models, and files of models, that no earlier frame shows.
 class KnownParts {
   public:
     bool adds(const Scene& scene) {
@@ -85,7 +85,7 @@ FramesToPlan all_of(std::vector<int> frames) {
     return all;
 }
 
-/// Adds places at even distances to those chosen for their own sake.
+/// Adds indices at even distances to those that were chosen on purpose.
 void fill_evenly(FramesToPlan& found) {
     const size_t taken = std::min(found.chosen.size(), kMaxPlannedKeys);
     const size_t room = kMaxPlannedFrames - taken;

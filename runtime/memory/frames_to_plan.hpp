@@ -10,27 +10,27 @@
 
 namespace voxelume {
 
-/// The most frames of an animation that are planned, without those that show something first, and
-/// of those at the keys of tracks.
+/// The maximum numbers of frames that are planned: of an animation, without those that show
+/// something first, and of those at the keys of tracks.
 inline constexpr size_t kMaxPlannedFrames = 2048, kMaxPlannedKeys = 1024;
 
 struct FramesToPlan {
     std::vector<int> changed;  ///< frames whose plans may differ from those of the frames before
     std::vector<size_t>
-        chosen;       ///< places in `changed`, ascending; all of them unless they are many
+        chosen;       ///< ascending indices into `changed`; all of them unless they are many
     size_t step = 1;  ///< the largest distance between neighbours in `chosen`
 };
 
-/// True if both frames have the same plan, as nothing changed that it depends on. It depends on
-/// whether lights shine, but not on their other values. It depends on the observer only in images
-/// without colour, whose rays are followed through surfaces that he may be behind.
+/// True if both frames have the same plan, since nothing that it depends on changed. Lights matter
+/// only by whether they shine. The observer matters only in images without colour, whose rays are
+/// followed through surfaces that may hide the observer.
 bool is_planned_like(const Scene& a, const Scene& b);
 
-/// Chooses among `frames`. Up to kMaxPlannedFrames are all chosen, and nothing is checked. If there
-/// are more frames, each is held against the rules for values and placements. Those are chosen that
-/// lie at the keys of tracks, or, if these are more than kMaxPlannedKeys, at each track's extreme
-/// values and some other keys; then others at even distances, and in any case all that show an
-/// object or a file first. Calls `progress`, unless it is empty, with the number of frames seen.
+/// Chooses among `frames`. Up to kMaxPlannedFrames frames are all chosen without checks. If there
+/// are more, each is checked against the rules for values and placements. Chosen are the frames at
+/// the keys of tracks or, if these are more than kMaxPlannedKeys, at each track's extreme values
+/// and some other keys; then others at even distances, and all that show an object or a file first.
+/// Calls `progress`, unless it is empty, with the number of frames seen.
 ///
 /// Throws as scene_at and check_placements do, with the frame.
 FramesToPlan frames_to_plan(const Scene& scene, std::span<const int> frames,

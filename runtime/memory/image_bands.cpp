@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// An image that takes less than this part of the memory needs no bands: where it doesn't fit, its
+/// An image that takes less than this part of the memory needs no bands: if it doesn't fit, its
 /// world is too large.
 constexpr double kSmallPart = 1.0 / 16;
 
@@ -24,8 +24,8 @@ bool is_small(const Scene& scene, const DeviceInfo& device) {
     return bytes <= kSmallPart * there && bytes <= double(device.max_allocation);
 }
 
-/// What else lies in main memory while a band is written: planes of the light's parts, other
-/// samples, and chunks of files.
+/// The bytes of other arrays in main memory while a band is written: planes of the light's parts,
+/// other samples, and chunks of files.
 double writing_bytes(const Scene& scene) {
     const ImageChannels& channels = scene.render.channels;
     std::set<std::string> groups;
@@ -40,7 +40,7 @@ double writing_bytes(const Scene& scene) {
            exr_band_bytes(row);
 }
 
-/// True if all that a run is expected to take is there.
+/// True if the expected memory of a run is available.
 bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
                  const DeviceInfo& device) {
     const double memory = double(device.memory);
@@ -51,14 +51,14 @@ bool fits_surely(const Scene& scene, const ScenePlan& plan, size_t frames,
            !is_refused({1, scene, plan}, device);
 }
 
-/// At most `count` bands: fewer if rounding their rows up makes fewer of them.
+/// Cuts into at most `count` bands: rounding their rows up may make fewer.
 ImageBands cut(int height, int count) {
     const int rows = (height + count - 1) / count;
     const int rounded = (rows + kBandRows - 1) / kBandRows * kBandRows;
     return {rounded, (height + rounded - 1) / rounded};
 }
 
-/// The first bands whose scene and plan `fits` accepts, by halves of an image; one without any.
+/// Halves the bands of an image until `fits` accepts their scene and plan; one band if none fits.
 template <class Fits>
 ImageBands halve(const Scene& scene, AssetStore& meshes, const DeviceInfo& device,
                  const Fits& fits) {

@@ -9,35 +9,35 @@
 
 namespace voxelume {
 
-/// Bands of an image, one below the other: all have the same rows, but perhaps the last.
+/// Bands of an image, one below the other, with equal rows except perhaps the last.
 struct ImageBands {
-    int rows = 0;  ///< of each; a multiple of kBandRows where there are several
+    int rows = 0;  ///< rows of each band; a multiple of kBandRows where there are several
     int count = 1;
-    bool are_needed = false;  ///< the whole image is refused; otherwise it may fit, too
+    bool are_needed = false;  ///< true if the whole image is refused; otherwise it may fit, too
 
     bool are_one() const { return count == 1; }
 };
 
-/// The scene whose image is a band of the scene's, from 0 on.
+/// The scene whose image is band `band` of the scene's image, from 0 on.
 Scene band_of(const Scene& scene, const ImageBands& bands, int band);
 
 /// The bands in which the scene's image is rendered in all frames: one if the whole image fits, and
-/// otherwise as few as fit, by halves, with all that a plan expects, or with the minimum of it.
-/// One, too, where none fit: then the plan of the whole says what is too large. An image that takes
-/// little next to its world isn't planned here. `at_once` is the number of devices that render
-/// bands at once.
+/// otherwise as few as fit, by halves; first by the expected memory of a plan, then by its minimum.
+/// If none fit, there is one, too, and the plan of the whole says what is too large. An image that
+/// takes little next to its world isn't planned here. `at_once` is the number of devices that
+/// render bands at once.
 ///
 /// Throws as plan_frames does.
 ImageBands bands_that_fit(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                           const DeviceInfo& device, int at_once = 1);
 
-/// Why an image is rendered as a whole or not at all, in half a sentence, and what to do.
+/// The reason why an image can't be rendered in bands, in half a sentence, and a remedy.
 struct NeedOfWhole {
     const char* reason;
     const char* advice;
 };
 
-/// Why images with these settings are; empty if they aren't.
+/// The reason for images with these settings; empty if bands are possible.
 std::optional<NeedOfWhole> need_of_whole(const RenderSettings& render);
 
 /// Throws Error::limit for an image that doesn't fit as a whole.

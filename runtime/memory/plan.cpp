@@ -25,7 +25,8 @@ constexpr double kVolumeVoxelBytes = 33;
 /// in the scenes of scenes/ (glass_bunny).
 constexpr double kUncounted = 1.02;
 
-/// What a grid takes, expected and at least; the largest buffer is that of the minimum.
+/// The plan of a grid from its expected and minimum counts; the largest buffer is that of the
+/// minimum.
 GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& minimum) {
     GridPlan grid{.model = expected.model,
                   .object = expected.object,
@@ -40,14 +41,15 @@ GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& minimum) {
     return grid;
 }
 
-/// Refuses names of groups that aren't there, before any frame is rendered.
+/// Refuses names of groups that don't exist, before any frame is rendered.
 void check_groups(const Scene& scene, AssetStore& meshes) {
     for (const Object& object : scene.objects)
         if (may_be_shown(scene, object))
             materials_of_groups(object, meshes.groups_of(scene.models[size_t(object.model)]));
 }
 
-/// An image, and a volumetric image, lie there twice while they are written.
+/// The bytes of main memory. An image and a volumetric image are there twice while they are
+/// written.
 double host_bytes(const Scene& scene, const ScenePlan& plan, const FrameMemory& memory) {
     double bytes =
         kWorldTable * brick_table(plan.world) + plan.medium.host_bytes + memory.light_host_bytes;
@@ -58,7 +60,7 @@ double host_bytes(const Scene& scene, const ScenePlan& plan, const FrameMemory& 
     return bytes;
 }
 
-/// The maximum of an image and a volumetric image, of those that are wanted.
+/// The larger of an image and a volumetric image, of those that are wanted.
 double shown_of(const RenderSettings& render, double image, double volume) {
     return std::max(render.shows_image ? image : 0, render.shows_volume ? volume : 0);
 }

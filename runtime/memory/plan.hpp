@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
+// scene -> the memory for rendering it: the grids of every step, before any memory is taken.
 //
-// It is an estimate of surfaces (by runtime/geometry/surface_extent.hpp and brick_count.hpp). Bytes
-// follow exactly: the functions that allocate the stages' buffers run on a device that only counts.
+// The numbers of voxels are estimates from surfaces (runtime/geometry/surface_extent.hpp and
+// brick_count.hpp). Bytes follow exactly from them: the functions that allocate the stages' buffers
+// run on a device that only counts.
 #pragma once
 
 #include <string>
@@ -19,8 +20,9 @@ namespace voxelume {
 
 class SolidExtents;
 
-/// What the program, an OpenCL driver and its compiler take of main memory in addition to all that
-/// is counted: PoCL 3.1 with LLVM 15, compiling the kernels of a scene of all features, 0.28 GB.
+/// The main memory that the program, an OpenCL driver and its compiler take in addition to
+/// everything that is counted: PoCL 3.1 with LLVM 15, compiling the kernels of a scene of all
+/// features, takes 0.28 GB.
 inline constexpr double kDriverBytes = 3e8;
 
 struct ScenePlan {
@@ -35,23 +37,23 @@ struct ScenePlan {
     double index_bytes = 0;
     double image_bytes = 0;
     double volume_bytes = 0;  ///< for the display's volumetric image, instead of image_bytes
-    double shown_bytes = 0;   ///< of those two, for what the scene's settings want
+    double shown_bytes = 0;   ///< the larger of the wanted ones of these two
 
-    double world_bytes = 0;  ///< the pyramid's, part of image_bytes and volume_bytes
+    double world_bytes = 0;  ///< bytes of the pyramid, part of image_bytes and volume_bytes
     double dilated_occupancy_bytes =
         0;  ///< of the grid that beams of rays are sent through, part of image_bytes
-    ForeseenImage foreseen;  ///< what the image's kernels will be
+    ForeseenImage foreseen;  ///< the expected kernels of the image
     RayBytes rays;           ///< their maximum is part of image_bytes
     DensityPlan medium;      ///< part of image_bytes
     double host_bytes = 0;   ///< tables, meshes, emissive objects and the image in main memory
 
-    /// The minimum that all stages need which run, and the world's buffers except those of its
-    /// tables and medium: the bytes of objects that can't lie in each other's bricks. Only a frame
-    /// that needs more than the device has by this count is refused before it is tried.
+    /// The minimum for all stages that run, and for the world's buffers except its tables and
+    /// medium: the bytes of objects that can't lie in each other's bricks. A frame is refused
+    /// before it is tried only if this count exceeds the device's memory.
     double min_bytes = 0;
-    double min_image_bytes = 0;   ///< such a minimum of image_bytes
-    double min_volume_bytes = 0;  ///< such a minimum of volume_bytes
-    double min_with_next = 0;     ///< such a minimum of bytes_with_next
+    double min_image_bytes = 0;   ///< minimum of image_bytes
+    double min_volume_bytes = 0;  ///< minimum of volume_bytes
+    double min_with_next = 0;     ///< minimum of bytes_with_next
     BufferPlan largest;
 
     double peak_bytes() const;
@@ -59,8 +61,8 @@ struct ScenePlan {
     /// The maximum while a frame is rendered and the next one's world is built, with all that is
     /// kept of both; 0 for a scene that stands still.
     double following_bytes = 0;
-    /// The bytes that a run of `frames` frames takes of a device with `memory` bytes: what is kept
-    /// between frames is freed where it has no room.
+    /// The bytes that a run of `frames` frames takes of a device with `memory` bytes: retained
+    /// buffers are freed if they don't fit.
     double run_bytes(size_t frames, double memory) const;
     /// The bytes if grids, bricks and the pyramid stay while the next world is built.
     double bytes_with_next() const { return place_bytes + index_bytes + shown_bytes; }

@@ -29,7 +29,8 @@ std::string larger_voxels(const glm::dvec3& edge, double factor) {
                 size_text(world.voxels), needs, larger_voxels(world.voxel_size, factor));
 }
 
-/// Tables grow with the cube of the voxels along an edge, surfaces with the square.
+/// The factor by which voxels must grow: tables shrink with the cube of the edge, surfaces with the
+/// square.
 double table_factor(double bytes, double there) {
     return 1.05 * std::cbrt(bytes / there);
 }
@@ -78,7 +79,7 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
     const double memory = double(device.memory),
                  there = std::min(memory, double(main_memory()) / 2);
     const double image = image_bytes(scene.render) + plan.rays.minimum();
-    // Where the image takes more than its world, larger voxels are not the way out.
+    // If the image takes more than its world, larger voxels are no remedy.
     const bool crowds =
         image <= there && plan.min_image_bytes > memory && image > plan.min_image_bytes / 2;
     if (image > there || crowds)
@@ -101,7 +102,8 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
                     bytes_text(piece));
 }
 
-/// Where a volumetric image takes more than its world, larger voxels are not the way out.
+/// Refuses a volumetric image that is too large. If it takes more than its world, larger voxels are
+/// no remedy.
 void check_volume(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
     const double memory = double(device.memory), needed = plan.min_volume_bytes;
     if (!scene.render.shows_volume || needed <= memory || plan.world_bytes > needed / 2) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compiler's log -> what a message says of it.
+// A compiler's log -> the lines that a message quotes.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace voxelume {
 
-/// The first few lines of a log that name errors, or of all its lines if none does, and how many
-/// more of these there are. The first comes without a line break, as lists of devices have one line
-/// for each. Empty for a log without lines.
+/// The first lines of a log that name errors, or of all its lines if none does, and the number of
+/// further such lines. The first line comes without a line break, as lists of devices have one line
+/// for each device. Empty for a log without lines.
 std::string first_errors(std::string_view log);
 
 }  // namespace voxelume

@@ -55,18 +55,19 @@ struct Device::Opened {
     std::map<std::string, cl::Program> programs;
     std::mutex mutex;
     std::set<cl_program> fresh;             ///< programs that no earlier run compiled
-    std::map<std::string, bool> compiling;  ///< their kernels: whether they were launched
+    std::map<std::string, bool> compiling;  ///< their kernels; true if launched
     CompileListener compile_listener;
     std::mutex telling;  ///< held while the listener is called
     bool timing = false;
-    bool has_run = false;      ///< to its end
-    bool is_counting = false;  ///< without a device
+    bool has_run = false;      ///< has run to its end
+    bool is_counting = false;  ///< counts only, without a device
 
     Opened() = default;
     Opened(const Opened&) = delete;
     Opened& operator=(const Opened&) = delete;
     ~Opened() {
-        // Kept now, after all work is done, since PoCL compiles kernels at their first launch.
+        // Kernels are kept now, after all work is done, since PoCL compiles them at their first
+        // launch.
         if (has_run) keep_compiled_kernels(info);
     }
 };

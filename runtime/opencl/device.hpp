@@ -18,7 +18,7 @@ namespace voxelume {
 
 enum class DeviceKind { cpu, gpu, other };
 
-/// Tells whether a device's driver gave the bits that are known, when it was first opened.
+/// The result of the self-test when a driver was first used: whether its bits were the known ones.
 enum class SelfTest { unknown, passed, failed };
 
 struct Candidate;
@@ -66,12 +66,12 @@ struct DeviceCounters {
     uint64_t peak_bytes = 0;
     uint64_t programs_built = 0;       ///< number of programs made ready, compiled or not
     uint64_t programs_from_cache = 0;  ///< number of those that weren't compiled again
-    double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
-    std::string largest_buffer;        ///< of all so far, by its name
+    double build_ms = 0;         ///< time for making programs ready; PoCL does most at first launch
+    std::string largest_buffer;  ///< name of the largest buffer so far
     uint64_t largest_bytes = 0;
 };
 
-/// Hears that a kernel is about to be compiled, the `kernel`-th of `known` such kernels so far.
+/// Called when a kernel is about to be compiled, number `kernel` of `known` such kernels so far.
 using CompileListener = std::function<void(int kernel, int known)>;
 
 /// An open device and an in-order queue of work for it. Buffers and programs made on it share it.
@@ -90,8 +90,8 @@ class Device {
     /// VOXELUME_BATCH sets how many rays pass through the stages together, and
     /// VOXELUME_BUILD_OPTIONS is added to the compiler's options.
     ///
-    /// A device whose driver is new is asked first what is known, see self_test.hpp. If it answers
-    /// wrong, it is refused as one that can't render: another that matches is opened in its place.
+    /// When a driver is new, its device runs a self-test first, see self_test.hpp. A device that
+    /// fails is refused like one that can't render: the next best match is opened instead.
     ///
     /// If the device is that of `sibling`, both share an OpenCL context and the programs made for
     /// it: PoCL reads its library of functions, 0.7 s, once for each context. Throws Error::device
@@ -105,9 +105,9 @@ class Device {
     /// `open` treats `all` and `all/N` as auto. Throws Error::device as `open` does.
     static std::vector<Device> open_all(std::string_view selector = {}, int lanes = 0);
 
-    /// A device of no memory and no queue, on which buffers are only counted: as they come and go,
-    /// `counters()` tells what the stages that make them take at their height. Nothing can be read
-    /// from its buffers, nothing launched on it; memory is without end.
+    /// A device without memory and queue, on which buffers are only counted: `counters()` tells the
+    /// maximum that the stages that make and free buffers take. Nothing can be read from its
+    /// buffers, nothing launched on it; its memory is unlimited.
     static Device counting(DeviceInfo info);
 
     /// Returns this device with another queue, for another thread. Its buffers, once written, serve
@@ -130,8 +130,8 @@ class Device {
     /// preprocesses the source with its own headers of 1 MB.
     const std::map<std::string, cl::Program>& programs() const;
     /// The program of this hash, if this device or another one of its context has made it ready,
-    /// else an empty one. It counts as made ready by this device, too. To be called with `lock`
-    /// held, as are the next ones.
+    /// else an empty one. The program then counts as made ready by this device, too. Call this
+    /// function and keep_program with `lock` held.
     cl::Program find_program(const std::string& key) const;
     /// Keeps a program that was just built, for all devices of the context.
     void keep_program(const std::string& key, const cl::Program& program) const;
@@ -143,18 +143,18 @@ class Device {
     /// after `finish`.
     void time_kernels(bool on) const;
 
-    /// Has `listener` called, by one thread at a time, before the first launch of each kernel whose
-    /// program wasn't ready from an earlier run. PoCL compiles it then; other drivers have, when
-    /// the program was built. An empty one ends that.
+    /// Calls `listener`, by one thread at a time, before the first launch of each kernel whose
+    /// program wasn't ready from an earlier run. PoCL compiles the kernel then; other drivers have
+    /// compiled it when the program was built. An empty listener ends the calls.
     void listen_to_compiler(CompileListener listener) const;
     /// Notes a program that no earlier run compiled.
     void note_fresh(const cl::Program& program) const;
-    /// Notes a kernel of a program, which may be such a program.
+    /// Notes a kernel of a program, for which note_fresh() may have been called.
     void note_kernel(const cl::Program& program, const std::string& kernel) const;
-    /// Notes and tells that this kernel's first launch waits for its compiler.
+    /// Notes that this kernel's first launch waits for its compiler, and tells the listener.
     void note_wait(const std::string& kernel) const;
 
-    /// The kernels of its context that are compiled alone.
+    /// The kernels of the device's context that are compiled alone.
     KernelBuilds& kernel_builds() const;
 
     /// Enqueues a launch of `kernel`, which is named `name` in the counters.
@@ -165,7 +165,7 @@ class Device {
     struct Opened;
     struct Queue;
     static Device open(const cl::Device& device, DeviceInfo info, const Device* sibling);
-    /// Nothing if the driver's self-test found a fault.
+    /// Empty if the driver's self-test found a fault.
     static std::optional<Device> open_tested(const Candidate& chosen, int lanes,
                                              const Device* sibling, std::string& fault);
     void tell_compiling(const std::string& kernel) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of drivers that have not returned yet, for those who watch whether devices answer.
+// Calls of drivers that have not returned yet, for code that watches whether devices answer.
 #pragma once
 
 #include <chrono>

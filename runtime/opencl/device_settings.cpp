@@ -40,14 +40,15 @@ int number_in_environment(const char* name) {
     return number;
 }
 
-/// The rays of a batch that fill a GPU: launches of fewer leave most of it idle, and each costs
-/// some 10 us. On an H100 frames are 6 to 20 times quicker than with a CPU's batches.
+/// The number of rays in a batch that fills a GPU: smaller launches leave most of it idle, and each
+/// costs some 10 us. On an H100 frames are 6 to 20 times faster than with a CPU's batches.
 constexpr uint64_t kGpuBatchRays = 1u << 21;
 
-/// A ray's bytes with all its depths, whose batches may take a quarter of a GPU's memory.
+/// The bytes of a ray over all depths. All rays of a batch may take a quarter of a GPU's memory.
 constexpr uint64_t kBytesOfRay = 8192;
 
-/// A GPU with memory of its own has larger batches; one that shares a CPU's is small, too.
+/// The batch of a device. A GPU with memory of its own has larger batches; a GPU that shares a
+/// CPU's memory is small, too.
 uint32_t batch_for(const DeviceInfo& info) {
     if (info.kind != DeviceKind::gpu || info.shares_memory) return kCpuBatchRays;
     const uint64_t rays = std::bit_floor(info.memory / 4 / kBytesOfRay);

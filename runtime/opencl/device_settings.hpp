@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the environment says of a device.
+// Settings of devices from the environment.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ std::string selector_or_default(std::string_view selector);
 /// A CPU's memory is main memory.
 void limit_memory(DeviceInfo& info);
 
-/// A device as it is opened: with `lanes`, or VOXELUME_LANES if these are 0, or else its own; with
-/// limits of its memory, VOXELUME_WORK_GROUP, VOXELUME_BATCH and VOXELUME_BUILD_OPTIONS. Throws
-/// Error::usage for values that can't be.
+/// A device with the settings with which it is opened: `lanes`, or VOXELUME_LANES if `lanes` is 0,
+/// or else its own; the limits of its memory, VOXELUME_WORK_GROUP, VOXELUME_BATCH and
+/// VOXELUME_BUILD_OPTIONS. Throws Error::usage for impossible values.
 DeviceInfo settled(DeviceInfo info, int lanes);
 
 /// VOXELUME_UNITS; 0 if it isn't set.

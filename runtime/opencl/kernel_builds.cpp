@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// A place for one compiler; the machine has as many as cores.
+/// A slot for one running compiler; the machine has as many slots as cores.
 class CompilerPlace {
   public:
     CompilerPlace() { places().acquire(); }

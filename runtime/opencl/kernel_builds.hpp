@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels of GPUs, each compiled alone, in a thread of its own.
 //
-// Their drivers compile a whole program at once, one kernel after another: 22 s for the image of
-// scenes/whitted.json on an H100, 13 s with its kernels side by side. Kernels that no scene
-// launches aren't compiled, and those that several scenes share only once.
+// Drivers of GPUs compile a whole program at once, one kernel after another: 22 s for the image of
+// scenes/whitted.json on an H100, 13 s with its kernels in parallel. Kernels that no scene launches
+// aren't compiled, and those that several scenes share only once.
 #pragma once
 
 #include <future>
@@ -16,7 +16,7 @@
 
 namespace voxelume {
 
-/// What a compiler needs of a device, which may be closed while it runs.
+/// The parts of a device that a compiler needs; the device may be closed while the compiler runs.
 struct CompilerTarget {
     DeviceInfo info;
     std::shared_ptr<const cl::Context> context;
@@ -36,7 +36,7 @@ struct BuiltProgram {
 BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& label,
                                const ProgramText& text);
 
-/// A kernel's source of its own, and the key of what it consists of.
+/// The source of one kernel alone, and the key of its content.
 struct KernelPart {
     std::string key;
     ProgramText text;
@@ -48,15 +48,15 @@ struct ProgramParts {
     std::map<std::string, KernelPart> kernels;
 };
 
-/// The kernels of a context that are compiled, or were.
+/// The kernels of a context that are compiled or being compiled.
 class KernelBuilds {
   public:
     /// The parts of the program with this key, a source and options.
     std::shared_ptr<const ProgramParts> parts_of(const std::string& key, const std::string& source,
                                                  const std::string& options);
 
-    /// Compiles a kernel in another thread, unless that was begun before. Where it doesn't compile
-    /// alone, its whole program is compiled, whose messages say where in the sources they belong.
+    /// Compiles a kernel in another thread, unless that was begun before. If it doesn't compile
+    /// alone, its whole program is compiled, whose messages refer to the original sources.
     std::shared_future<BuiltProgram> start(const CompilerTarget& target, const std::string& label,
                                            const KernelPart& part, const ProgramText& whole);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program voxelume-kernel-compiler: compiles PoCL's kernels for kernel_compilers.cpp into the
-// cache, beside the process that will launch them.
+// cache, in parallel to the process that will launch them.
 //
 // PoCL compiles a kernel at its first launch. So each is launched once, for one group, with zeroes:
 // kernels return at once where their work-item's number isn't below the count that they are given.
@@ -24,7 +24,7 @@
 namespace voxelume {
 namespace {
 
-/// More than what a kernel may touch before it has looked at its count.
+/// A size above the bytes that a kernel may touch before it has looked at its count.
 constexpr size_t kDummyBytes = 1 << 20;
 /// More than any structure that kernels take by value.
 constexpr size_t kMaxValueBytes = 4096;
@@ -55,7 +55,7 @@ void launch(const Device& device, const cl::Program& program, const CompiledKern
     device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, group, group);
 }
 
-/// Returns true if the cache has the program then: a disk may be full.
+/// Returns true if the cache has the program afterwards: a disk may be full.
 bool compile(const Device& device, const CompileJob& job, const cl::Buffer& dummy) {
     const ProgramText text = {job.source, job.options};
     const cl::Program program = build_program(device, job.label, text);
@@ -71,7 +71,7 @@ int serve(int count, char** arguments) {
     if (count != 6 || std::strcmp(arguments[1], VXL_VERSION) != 0) return 2;
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != std::atoi(arguments[5])) return 3;
     setenv("VOXELUME_SELF_TEST", "off", 1);
-    setenv("POCL_MAX_PTHREAD_COUNT", "1", 1);  // it runs nothing that more threads would speed up
+    setenv("POCL_MAX_PTHREAD_COUNT", "1", 1);  // nothing runs here that more threads would speed up
     PoclFolder::place_in(arguments[2]);
     const Device device = Device::open(arguments[3]);
     if (device.info().name != arguments[4] || !keeps_pocl_folder(device.info())) return 4;

@@ -85,7 +85,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
     return info;
 }
 
-/// The entry for a device that doesn't even answer questions.
+/// The entry for a device that doesn't answer queries.
 DeviceInfo silent_device(const cl::Platform& platform, const cl::Error& error) {
     DeviceInfo info;
     info.name = "a device that does not answer";

@@ -20,7 +20,7 @@
 namespace voxelume {
 namespace {
 
-/// A wait for a compiler that nobody needs to be told of.
+/// Waits for a compiler shorter than this aren't reported.
 constexpr std::chrono::milliseconds kUntoldWait(100);
 
 /// The compiler's options, with only those constants that the source mentions. So scenes that
@@ -31,7 +31,7 @@ std::string build_options(const Device& device, const KernelSource& source, Defi
     std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info -w";
     if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
         defines.emplace_back("VXL_LANES", device.lanes());
-    std::ranges::sort(defines);  // in any order, they make the same program
+    std::ranges::sort(defines);  // the order doesn't matter to the program
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
     options += driver_quirks(device.info().platform).build_options;
@@ -70,7 +70,7 @@ std::string_view element_of(std::string_view type) {
     return type.substr(0, type.find('*'));
 }
 
-/// Structs and vectors are often another view of what the host has.
+/// True for types of numbers: structs and vectors are often another view of the host's values.
 bool is_number(std::string_view element) {
     constexpr std::string_view kNumbers[] = {"char", "uchar", "short", "ushort", "int",
                                              "uint", "long",  "ulong", "float"};
@@ -79,17 +79,17 @@ bool is_number(std::string_view element) {
 
 }  // namespace
 
-/// An OpenCL kernel, which may still be compiled.
+/// An OpenCL kernel, which may still be compiling.
 struct Kernel::Made {
     std::string label;  ///< its program's
     std::once_flag once;
-    std::string key;                         ///< of `build`
+    std::string key;                         ///< key of `build`
     std::shared_future<BuiltProgram> build;  ///< where it isn't ready
     cl::Program program;
     cl::Kernel kernel;
     std::vector<std::string> parameters;  ///< their types; empty where the driver doesn't tell
 
-    /// Waits for its compiler, and keeps the program for others.
+    /// Waits for the kernel's compiler, and keeps the program for others.
     void wait(const Device& device, const std::string& name);
     void make(const Device& device, const std::string& name);
 };
@@ -101,7 +101,7 @@ void Kernel::Made::wait(const Device& device, const std::string& name) {
         const BuiltProgram& built = build.get();
         program = *built.program;
         const auto locked = device.lock();
-        if (device.find_program(key)()) return;  // others waited, too
+        if (device.find_program(key)()) return;  // others waited, too, and kept it
         device.keep_program(key, program);
         ++device.counters().programs_built;
         device.counters().programs_from_cache += uint64_t(built.is_from_cache);

@@ -31,7 +31,7 @@ enum class WorkItem {
     heavy,  ///< a packet of rays, a brick: one work-item is a work-group on a CPU
 };
 
-/// A kernel's name for T, as its parameters have it; empty for structs and vectors.
+/// The kernel-side name of type T; empty for structs and vectors.
 template <class T>
 constexpr std::string_view kernel_type() {
     if (std::is_same_v<T, float>) return "float";
@@ -46,7 +46,7 @@ constexpr std::string_view kernel_type() {
     return {};
 }
 
-/// A buffer of any 32-bit values, for a kernel that moves them as words: `uint*`.
+/// A buffer of any 32-bit values for a kernel that moves them as words: `uint*`.
 template <class T>
 struct Words {
     explicit Words(const Buffer<T>& values) : buffer(values) { static_assert(sizeof(T) == 4); }
@@ -82,7 +82,7 @@ class Kernel {
     struct Made;
 
     Kernel(Device device, std::string name, std::shared_ptr<Made> made);
-    /// Makes it, once compiled. Throws as Program::kernel does.
+    /// Makes the kernel once it is compiled. Throws as Program::kernel does.
     const Made& made() const;
     void check_type(uint32_t index, bool is_buffer, std::string_view type) const;
     void check_count(uint32_t count) const;
@@ -98,8 +98,8 @@ class Kernel {
 /// The arguments of one launch, set in the order of the kernel's parameters.
 ///
 /// A structure that kernels take whole has a function `bind(KernelArguments&, const Structure&)`
-/// and a macro of parameters in kernels/lib. A buffer that is added to the structure is added to
-/// these two, in the same place.
+/// and a macro of parameters in kernels/lib. A new buffer of the structure is added to both, at the
+/// same position.
 class KernelArguments {
   public:
     explicit KernelArguments(Kernel& kernel) : kernel_(kernel) {}
@@ -156,7 +156,7 @@ struct ForeseenKernel {
     WorkItem work = WorkItem::heavy;
 };
 
-/// Kernel files that will be built together with these constants, and what will be launched.
+/// Kernel files that will be built together with these constants, and the kernels to be launched.
 struct ForeseenProgram {
     std::vector<const char*> files;
     Defines defines;
@@ -175,13 +175,13 @@ class Program {
     static void build_together(const Device& device, std::span<const char* const> files,
                                const Defines& defines);
 
-    /// Compiles files with constants of their own, whose programs compile sooner as one: each
-    /// takes PoCL some 13 ms, whatever its size. Does nothing where a constant of one file
-    /// would change another's.
+    /// Compiles files with constants of their own as one program, which is faster: each program
+    /// takes PoCL some 13 ms, whatever its size. Does nothing where a constant of one file would
+    /// change another file.
     static void build_together(const Device& device, std::span<const ProgramFile> files);
 
-    /// Has helper processes compile a program meanwhile that will be built, where KernelCompilers
-    /// is allowed any and PoCL compiles kernels.
+    /// Lets helper processes compile a program that will be built later, if KernelCompilers is
+    /// allowed any and PoCL compiles kernels.
     static void foresee(const Device& device, const ForeseenProgram& program);
 
     /// Compiles `source`, a text that may include kernels/ files. Used by tests of device
@@ -189,8 +189,8 @@ class Program {
     static Program from_text(const Device& device, const std::string& source,
                              const Defines& defines = {});
 
-    /// Throws Error::build if there is none of this name. Where kernels are compiled alone, its
-    /// compiler's errors come when it is launched.
+    /// Returns the kernel. Throws Error::build if there is none of this name. Where kernels are
+    /// compiled alone, errors of its compiler are thrown when it is launched.
     Kernel kernel(const std::string& name) const;
 
   private:
@@ -201,7 +201,7 @@ class Program {
     Device device_;
     std::string label_;
     std::shared_ptr<cl::Program> program_;
-    std::shared_ptr<const ProgramParts> parts_;  ///< instead, where kernels are compiled alone
+    std::shared_ptr<const ProgramParts> parts_;  ///< used where kernels are compiled alone
 };
 
 }  // namespace voxelume

@@ -36,7 +36,7 @@ DiskCache program_store() {
                      cache_bases("programs"));
 }
 
-/// The functions of OpenCL C that kernels use, as PoCL is told of them.
+/// The declarations of the functions of OpenCL C that kernels use, for PoCL.
 const std::string& declarations() {
     static const std::string text = kernel_source("lib/lanes/declared.h").text();
     return text;
@@ -50,7 +50,7 @@ std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramT
     return cache_key(parts);
 }
 
-/// A program's kernels, each by the key of what it consists of.
+/// A program's kernels, each with the key of its content.
 std::vector<ProgramPart> parts_of(const DeviceInfo& info, const ProgramText& text) {
     const std::string options = without_constants(text.options);
     std::vector<ProgramPart> parts;
@@ -89,9 +89,9 @@ cl::Program compile(const CompilerTarget& target, const std::string& label,
                 errors);
 }
 
-/// Compiles with a driver that is slow to declare the functions of OpenCL C. It is told that it has
-/// read their declarations (_OPENCL_H_), and given those that kernels use. Where that doesn't
-/// compile, because of the source or the driver's version, it reads its own after all.
+/// Compiles with a driver that is slow to declare the functions of OpenCL C. The macro _OPENCL_H_
+/// makes it skip its own declarations, and it gets those that kernels use. If that doesn't compile,
+/// because of the source or the driver's version, it reads its own declarations after all.
 cl::Program compile_declared(const CompilerTarget& target, const std::string& label,
                              const ProgramText& text) {
     if (!driver_quirks(target.info.platform).is_slow_to_declare)
@@ -119,7 +119,7 @@ std::optional<cl::Program> from_binary(const CompilerTarget& target, const std::
     }
 }
 
-/// Builds with PoCL, which keeps files of its own.
+/// Builds with PoCL, which keeps its own files.
 cl::Program build_in_pocl_folder(const Device& device, const std::string& label,
                                  const ProgramText& text) {
     cl::Program program;
@@ -132,7 +132,7 @@ cl::Program build_in_pocl_folder(const Device& device, const std::string& label,
     return program;
 }
 
-/// Builds with an ordinary driver, and notes in the counters where the program is from.
+/// Builds with an ordinary driver, and counts whether the program came from the cache.
 cl::Program build_noted(const Device& device, const std::string& label, const ProgramText& text) {
     const BuiltProgram built = build_with_binary(compiler_target(device), label, text);
     device.counters().programs_from_cache += uint64_t(built.is_from_cache);
@@ -192,12 +192,12 @@ BuiltProgram build_with_binary(const CompilerTarget& target, const std::string& 
             return {std::make_shared<const cl::Program>(std::move(*program)), true};
     BuiltProgram built{std::make_shared<const cl::Program>(compile(target, label, text))};
     try {
-        // Its binary is read right after the build.
+        // The binary is read right after the build.
         const auto binaries = built.program->getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.size() == 1 && !binaries[0].empty())
             store.write(key, std::string(binaries[0].begin(), binaries[0].end()));
     } catch (const cl::Error&) {
-        return built;  // a driver that doesn't give its binaries
+        return built;  // the driver doesn't give binaries
     }
     return built;
 }

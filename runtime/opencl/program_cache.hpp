@@ -39,7 +39,8 @@ bool prepare_to_compile(const DeviceInfo& info);
 /// True if the cache has a program.
 bool is_program_kept(const DeviceInfo& info, const ProgramText& text);
 
-/// Has a helper compile a program and its kernels into the cache, unless the cache has the program.
+/// Lets a helper compile a program and its kernels into the cache, unless the cache has the
+/// program.
 void compile_ahead(const DeviceInfo& info, CompileJob job);
 
 /// True for GPUs, whose drivers compile kernels when their program is built: then each is compiled
@@ -50,16 +51,16 @@ bool compiles_kernels_alone(const DeviceInfo& info);
 /// The options of a compiler without its -D constants.
 std::string without_constants(std::string_view options);
 
-/// The sources of the programs that the device has ready, each once.
+/// The sources of the programs that the device has made ready, each once.
 std::vector<std::string> program_sources(const Device& device);
 
 /// Saves what the platform compiled after its programs were built, at the kernels' first launch.
 /// Called when a device is closed; nothing may run on it.
 void keep_compiled_kernels(const DeviceInfo& info);
 
-/// Saves it where other processes may wait for it, after what was enqueued has run: see
-/// CompileTurn. To be called when every kernel of a kind of work was enqueued once, such as of a
-/// batch of tiles.
+/// Saves compiled kernels for processes that wait for them, after all enqueued work has run: see
+/// CompileTurn. Call this when every kernel of some work was enqueued once, such as that of a batch
+/// of tiles.
 void share_compiled_kernels(const Device& device);
 
 }  // namespace voxelume

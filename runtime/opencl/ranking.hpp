@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of several devices most likely renders faster.
+// The choice of the device that most likely renders fastest.
 #pragma once
 
 #include "runtime/opencl/device.hpp"
 
 namespace voxelume {
 
-/// True for a software rasterizer's device, which is used only where a user names it.
+/// True for a software rasterizer's device, which is used only if the user names it.
 bool is_software(const DeviceInfo& info);
 
 /// True for two drivers' views of one card.
@@ -17,7 +17,7 @@ bool are_one_card(const DeviceInfo& a, const DeviceInfo& b);
 /// units x floats that a unit handles at once x clock.
 bool is_better(const DeviceInfo& a, const DeviceInfo& b);
 
-/// True for a device that can render and that nobody needs to name.
+/// True for a device that can render and that is used without being named.
 bool is_usable(const DeviceInfo& info);
 
 /// The number of the best usable device that `selector` (auto, cpu, gpu, an index, part of a name)

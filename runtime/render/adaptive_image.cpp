@@ -31,7 +31,7 @@ size_t pixel_count(const Image& image) {
     return size_t(image.width) * size_t(image.height);
 }
 
-/// Writes how many samples each pixel has.
+/// Writes each pixel's number of samples.
 void show_samples(const std::vector<uint32_t>& pixels, int samples, Image& image) {
     std::vector<float> plane(pixel_count(image), float(kComparedSamples));
     for (const uint32_t pixel : pixels) plane[pixel] = float(samples);

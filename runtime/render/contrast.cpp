@@ -17,11 +17,11 @@
 namespace voxelume {
 namespace {
 
-constexpr float kAlike = 0.9f;       // the cosine between normals of one surface, at least
-constexpr float kDepthStep = 0.05f;  // of the nearer depth, at most
+constexpr float kAlike = 0.9f;       // minimum cosine between normals of one surface
+constexpr float kDepthStep = 0.05f;  // maximum difference of depths, in parts of the nearer one
 constexpr const char* kComparedColors[] = {"R", "G", "B"};
 
-/// What tells pixels apart.
+/// The planes by which pixels are told apart.
 class PixelContrast {
   public:
     PixelContrast(const Image& image, double contrast)
@@ -51,10 +51,10 @@ class PixelContrast {
     const Plane<float>& depth_;
     const Plane<uint32_t>& objects_;
     std::array<const Plane<float>*, 3> normal_{};
-    std::array<std::vector<float>, 3> roots_;  ///< of R, G and B: nearly as bright as they look
+    std::array<std::vector<float>, 3> roots_;  ///< of R, G and B: nearly perceived brightness
 };
 
-/// A matte's pair of planes: what covers a pixel, and how much of it.
+/// A matte's pair of planes: the objects or materials that cover a pixel, and their shares.
 template <class FloatPlane>
 struct RankPlanes {
     FloatPlane* id;
@@ -76,7 +76,7 @@ auto ranks_of(const std::string& layer, AnyImage& image) {
     return ranks;
 }
 
-/// Adds the shares of what covers a pixel to those of another one, and ranks them again.
+/// Adds the shares of a pixel's objects or materials to those of another one, and ranks them again.
 void add_ranks(const std::vector<RankPlanes<const Plane<float>>>& more, size_t from, double weight,
                const std::vector<RankPlanes<Plane<float>>>& ranks, size_t to) {
     std::vector<std::pair<float, double>> covering;  // id and share
@@ -114,7 +114,7 @@ void widen(int width, int height, std::vector<bool>& pixels) {
                         pixels[size_t(y) * size_t(width) + size_t(x)] = true;
 }
 
-/// Which of the pixels show nothing. For images of colours alone, it doesn't matter.
+/// True for each pixel that shows nothing. For images without depth, no pixel counts.
 std::vector<bool> misses(const std::vector<uint32_t>& pixels, const Image& image) {
     std::vector<bool> missed(pixels.size());
     const auto depth = image.planes.find("Z");

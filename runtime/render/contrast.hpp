@@ -19,8 +19,8 @@ std::vector<uint32_t> contrasting_pixels(const Image& image, double contrast, in
 
 /// Averages pixels of an image, which have `samples` samples, with `more_samples` further ones.
 /// Pixel i of the list is pixel i % 16 of tile i / 16 of `more`, whose tiles of 4 x 4 lie in a row.
-/// Where the first samples met nothing, what the others met is taken over; shares of mattes are
-/// added up and ranked again.
+/// Where the first samples met nothing, the points of the others are taken over; shares of mattes
+/// are added up and ranked again.
 void add_samples(const std::vector<uint32_t>& pixels, const Image& more, int samples,
                  int more_samples, Image& image);
 

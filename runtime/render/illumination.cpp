@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-/// All lights as points and directions, those with an area by their samples.
+/// All lights as points and directions; lights with an area are replaced by their samples.
 std::vector<PathLight> lights_by_samples(const Device& device, const Features& features,
                                          const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records = given_lights(scene, world.frame);
@@ -53,7 +53,7 @@ Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features&
     return medium_overflows;
 }
 
-/// The numbers of the first records of the solids that let light through, but for those of
+/// The numbers of the first records of the solids that let light through, except those of
 /// instances' models, which come after the world's.
 Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
                                      const Pyramid& world) {
@@ -205,13 +205,13 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool from_observer)
     if (medium_) medium_->sight(world_, entries, count);
 }
 
-/// Brings the light of all lights to points, whose shadow rays to a light `add` queues.
+/// Lights points by all lights. `add` queues the shadow rays to a light.
 void Illumination::bring_each_light(RayBatch& points, uint32_t count,
                                     const std::function<void(const PathLight&)>& add) {
     for (size_t i = 0; i < lights_.size(); ++i) bring_light_of(i, points, count, add);
 }
 
-/// Brings the light of light number `i` to points.
+/// Lights points by light number `i`.
 void Illumination::bring_light_of(size_t i, RayBatch& points, uint32_t count,
                                   const std::function<void(const PathLight&)>& add) {
     add(lights_[i]);
@@ -226,7 +226,7 @@ void Illumination::bring_light(RayBatch& entries, uint32_t count) {
     if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
 }
 
-/// Fills the nodes of a depth with the light of its rays, which are in `first`.
+/// Fills the nodes of a depth with the light of their rays, which are in `first`.
 void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
                           const LayerSink& sink) {
     PathDepth& depth = *depths_[number];
@@ -249,7 +249,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
     }
 }
 
-/// Follows reflected and refracted rays, as many at a time as have room: blocks 6.1 to 9.
+/// Follows reflected and refracted rays in batches, as many as fit: blocks 6.1 to 9.
 void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     const uint32_t together = followed_points(max_rays_, number);
     reserve_depth(number + 1, depth_slots(features_, max_rays_, number + 1));

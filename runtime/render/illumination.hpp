@@ -47,13 +47,13 @@ class Illumination {
                  const Pyramid& world, uint32_t max_rays, bool compact = true);
 
     /// Sends beams from the lights, at most `maximum` from one. Shadow rays end where their light's
-    /// beams tell that only empty space is before them. `sent` holds beams that were sent through
+    /// beams tell that only empty space lies ahead. `sent` holds the beams that were sent through
     /// this dilated occupancy before, and afterwards those of these lights. Call it only for
     /// features with `lights_send_beams`.
     void send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                     std::vector<LightBeams>& sent);
 
-    /// Says which pixels and samples the next batches' rays belong to. Needed for global light
+    /// Sets the pixels and samples to which the next batches' rays belong. Needed for global light
     /// only.
     void set_sampling(const PathSampling& sampling) { sampling_ = sampling; }
 
@@ -110,7 +110,7 @@ class Illumination {
     std::vector<PathLight> lights_;
     EmitterTable emitters_;  ///< only for features with `emitters`
     PathSampling sampling_{};
-    std::vector<LightBeams> beams_;  ///< those of each light; empty if no beams are sent
+    std::vector<LightBeams> beams_;  ///< beams of each light; empty if no beams are sent
     uint32_t max_rays_;
     size_t max_depth_;
     TraceStage trace_;
@@ -123,7 +123,7 @@ class Illumination {
     std::optional<ScatterStage> scatter_;          ///< not compiled without paths
     std::optional<ExtendStage> extend_;            ///< only in global light
     std::optional<MediumPathStage> medium_paths_;  ///< only for media that scatter paths
-    uint32_t sky_samples_;                         ///< directions that a surface point looks to
+    uint32_t sky_samples_;  ///< directions in which a surface point samples the sky
     ShadowQueue queue_;
     HollowObjects hollow_;  ///< only for observers inside media
     Buffer<uint32_t> hollow_flags_;

@@ -4,8 +4,8 @@
 
 namespace voxelume {
 
-/// Follows the rays that paths have sent to emitters. They are apart from the paths' own rays, so
-/// that no two add to one sight ray at once.
+/// Follows the rays that paths have sent to emitters, apart from the paths' own rays, so that no
+/// two rays add to one sight ray at once.
 void Illumination::trace_to_emitters(PathDepth& depth, uint32_t count) {
     NodeLight light = {depth.nodes.radiance, {}, depth.nodes.stride};
     while (count > 0) {
@@ -37,9 +37,8 @@ void Illumination::send_to_points(const PathLight& light, uint32_t count, PathDe
         medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
 }
 
-/// Adds the light of lights that aren't infinitely far away, as the medium scatters it on the ways
-/// of the rays: from points where each of them shines most. Paths that the medium scatters find the
-/// rest of it.
+/// Adds the light of near lights that the medium scatters along the rays: from points where each of
+/// the lights is strongest. Paths that the medium scatters find the rest of this light.
 void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_first,
                                      PathDepth& depth) {
     if (!features_.near_light) return;
@@ -55,7 +54,8 @@ void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_
     }
 }
 
-/// Lights the points where the medium scatters paths, and sends these on behind `taken` rays.
+/// Lights the points where the medium scatters paths, and writes the paths' next rays behind
+/// `taken` rays.
 NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& depth) {
     if (count == 0) return {};
     bring_each_light(depth.points, count,
@@ -64,7 +64,7 @@ NextRays Illumination::light_medium(uint32_t count, uint32_t taken, PathDepth& d
                                 depth.next, taken, depth.next_to_emitters);
 }
 
-/// Adds the light of lights with an area that paths run into before they meet anything else.
+/// Adds the light of area lights that paths run into before they meet anything else.
 void Illumination::meet_lights(RayBatch& entries, uint32_t count, PathDepth& depth) {
     if (!features_.meets_lights) return;
     for (const PathLight& light : lights_)

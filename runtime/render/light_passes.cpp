@@ -14,7 +14,7 @@ namespace voxelume {
 namespace {
 
 constexpr const char* kColorNames[] = {"R", "G", "B"};
-// Passes that no file has, from which others follow.
+// Internal passes, which no file has and from which others are computed.
 constexpr const char* kWhole = "all light";
 constexpr const char* kWithShadows = "with shadows";
 constexpr const char* kWithoutShadows = "without shadows";
@@ -30,13 +30,13 @@ Scene colors_of(const Scene& scene) {
     return result;
 }
 
-/// Darkens a scan that no light brings out.
+/// Darkens a scan unless the scene's lights light it.
 void darken(GridDensity& scan) {
     if (scan.is_lit_by_scene) return;
     for (TransferPoint& point : scan.transfer) point.color = glm::vec3(0);
 }
 
-/// Leaves lights alone of all that shines.
+/// Removes all light except that of lights.
 void darken_all_but_lights(Scene& scene) {
     if (auto* scan = std::get_if<GridDensity>(&scene.world.medium.density)) {
         darken(*scan);
@@ -48,8 +48,8 @@ void darken_all_but_lights(Scene& scene) {
     for (Material& material : scene.materials) material.emission = glm::vec3(0);
 }
 
-/// The scene with the lights of a group alone; for the empty name, with all light that no group
-/// has.
+/// The scene with only the lights of one group; for the empty name, with all light that belongs to
+/// no group.
 Scene group_alone(const Scene& scene, const std::string& group) {
     Scene result = colors_of(scene);
     for (Light& light : result.lights)
@@ -58,7 +58,7 @@ Scene group_alone(const Scene& scene, const std::string& group) {
     return result;
 }
 
-/// Surfaces that scatter the light that comes to them, of their own colours, and nothing more.
+/// Makes all surfaces matt with their own colours and nothing else.
 void make_matt(Scene& scene) {
     for (Material& m : scene.materials) {
         m.color = color_of(m);
@@ -73,13 +73,13 @@ void make_matt(Scene& scene) {
     scene.render.depth = 0;
 }
 
-/// Lets an image begin with its first sample, though others go on from an earlier image.
+/// Lets an image begin with its first sample, even if others continue an earlier image.
 void restart(RenderSettings& render) {
     render.earlier = {};
     render.samples += std::exchange(render.first_sample, 0);
 }
 
-/// Each surface's own colour: what it shows in even white light.
+/// The scene in which each surface shows its own colour: its light in even white illumination.
 Scene albedo_of(const Scene& scene) {
     Scene result = colors_of(scene);
     darken_all_but_lights(result);
@@ -89,7 +89,7 @@ Scene albedo_of(const Scene& scene) {
     return result;
 }
 
-/// White surfaces in the scene's lights, but for the colours of voxels, which the pass leaves out.
+/// White surfaces in the scene's lights. The colours of voxels stay, and the pass leaves them out.
 Scene white_surfaces(const Scene& scene, bool with_shadows) {
     Scene result = colors_of(scene);
     darken_all_but_lights(result);
@@ -102,7 +102,7 @@ Scene white_surfaces(const Scene& scene, bool with_shadows) {
     return result;
 }
 
-/// True if something may shine that paths of global light run into.
+/// True if paths of global light may run into something that shines.
 bool paths_find_light(const Scene& scene) {
     const World& world = scene.world;
     const bool shines = world.sky || world.background != glm::vec3(0) ||
@@ -114,10 +114,10 @@ bool paths_find_light(const Scene& scene) {
            (may_meet_lights(scene) && std::ranges::any_of(scene.materials, shows_lights));
 }
 
-/// The light that comes to the first surface without another one on its way. Where paths may run
-/// into light, they are followed until then, as those of all light are, so that the two differ by
-/// the rest of the light alone; but not through a medium that scatters them. (A veil lets the
-/// last of these paths pass without chance, so behind it the two differ by noise, too.)
+/// The light that comes to the first surface straight from its source. If paths may run into light,
+/// they are followed up to there like those of all light, so that the two images differ by the rest
+/// of the light alone; scattering media end them. (A veil lets the last of these paths pass without
+/// chance, so behind it the two images differ by noise, too.)
 Scene direct_light_of(const Scene& scene) {
     Scene result = colors_of(scene);
     const bool follows = !has_scattering(scene) && paths_find_light(scene);
@@ -127,8 +127,8 @@ Scene direct_light_of(const Scene& scene) {
     return result;
 }
 
-/// What an image shows of a pass, as an image of its own, which goes on from there; null where the
-/// image's channels don't have the pass.
+/// The part of an earlier image that shows a pass, as an image which the pass continues; null if
+/// the image's channels don't have the pass.
 std::shared_ptr<const Image> shown_of(const Image& image, std::string_view pass) {
     auto shown = std::make_shared<Image>();
     shown->width = image.width;
@@ -145,8 +145,8 @@ std::shared_ptr<const Image> shown_of(const Image& image, std::string_view pass)
     return shown;
 }
 
-/// Lets a pass go on from the samples that the scene's earlier image has of it. Where that shows it
-/// only within others, the pass gets all samples.
+/// Lets a pass continue the samples of the scene's earlier image. If that image shows the pass only
+/// as a part of others, the pass starts with its first sample.
 void go_on(LightPass& pass) {
     RenderSettings& render = pass.scene.render;
     if (!render.earlier) return;
@@ -154,7 +154,7 @@ void go_on(LightPass& pass) {
     if (!render.earlier && !render.noise.is_given()) restart(render);
 }
 
-/// What covers pixels, of all samples.
+/// The pass of mattes, with all samples.
 LightPass mattes_of(const Scene& scene) {
     LightPass pass{"", scene};
     ImageChannels& channels = pass.scene.render.channels;

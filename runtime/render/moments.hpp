@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the samples of an image show that are taken at several moments, while a shutter is open.
+// The moments at which the samples of an image are taken while a shutter is open.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@ namespace voxelume {
 struct Moments {
     /// The scene when a sample is taken; its settings are those of the whole run.
     std::function<Scene(int sample)> scene;
-    /// The world of such a scene. It takes the place of the one before: what was returned then
-    /// shows this one from now on.
+    /// The world of such a scene. It replaces the world before: references returned earlier show
+    /// the new world from now on.
     std::function<const BuiltWorld&(Scene scene)> world;
 };
 

@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// The maps that carry each object's points from where they are to where they will be.
+/// The maps from each object's points now to their later positions.
 std::vector<glm::dmat4> movements(const Scene& now, const Scene& then) {
     std::vector<glm::dmat4> maps;
     maps.reserve(now.objects.size());
@@ -24,14 +24,14 @@ std::vector<glm::dmat4> movements(const Scene& now, const Scene& then) {
     return maps;
 }
 
-/// The columns after which a picture of all directions begins again; 0 for others.
+/// The number of columns after which a picture of all directions repeats; 0 for other pictures.
 double columns_around(const Scene& scene) {
     const DisplayShapeRow& shape = shape_row(scene.observer.display);
     const bool goes_around = shape.projection == SightProjection::angular && !shape.image_is_round;
     return goes_around ? frame_size(scene.render).x : 0;
 }
 
-/// Adds the two planes of a direction of time.
+/// Adds the two planes of one direction of time.
 void add_movement(const Scene& now, const Scene& then, const std::string& name, Image& image) {
     const std::vector<glm::dmat4> maps = movements(now, then);
     const double around = columns_around(now);
@@ -46,7 +46,7 @@ void add_movement(const Scene& now, const Scene& then, const std::string& name, 
         const auto from = place_in_picture(now, point), to = place_in_picture(then, moved);
         if (!from || !to) continue;
         const double moved_right = to->x - from->x;
-        // The shorter way, which may lead over the picture's side.
+        // The shorter way may cross the picture's side.
         right[i] = float(around > 0 ? std::remainder(moved_right, around) : moved_right);
         up[i] = float(from->y - to->y);
     }

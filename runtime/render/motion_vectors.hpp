@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// image + tracks -> where what each pixel shows was a frame before, and where it is a frame later.
+// image + tracks -> where each pixel's point was a frame before, and where it will be a frame
+// later.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,8 +12,8 @@
 
 namespace voxelume {
 
-/// The place of a world's point in a scene's whole picture: columns from the left and rows from the
-/// top, in pixels. Nothing for points that no sight ray leads to, such as those behind a pyramid.
+/// The position of a world's point in a scene's whole picture: columns from the left and rows from
+/// the top, in pixels. Empty for points that no sight ray meets, such as those behind a pyramid.
 std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3& point);
 
 /// Adds the planes forward.u, forward.v, backward.u and backward.v to an image with P and objectId
@@ -21,7 +22,7 @@ std::optional<glm::dvec2> place_in_picture(const Scene& scene, const glm::dvec3&
 /// Pixels that show nothing have 0.
 void add_motion(const Scene& scene, int frame, Image& image);
 
-/// Throws Error::usage for a scene whose images' samples show several moments.
+/// Throws Error::usage for a scene whose images have samples of several moments.
 void check_motion(const Scene& scene);
 
 }  // namespace voxelume

@@ -16,7 +16,7 @@ struct Channel {
 
 constexpr std::array<Channel, 4> kLight = {{{"R", 0.2126}, {"G", 0.7152}, {"B", 0.0722}, {"A", 0}}};
 
-/// Calls `see` with the place of each of a tile's pixels.
+/// Calls `see` with the index of each of a tile's pixels.
 template <class See>
 void for_each_pixel(uint32_t tile, const Image& image, See&& see) {
     const int tiles_x = (image.width + 3) / 4;

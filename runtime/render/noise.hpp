@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// The noise of the tiles of an image: a sum that is the same in any order of tiles.
+/// The noise of the tiles of an image: a sum that doesn't depend on the order of tiles.
 class NoiseReached {
   public:
     uint64_t tiles = 0;
@@ -37,10 +37,10 @@ class NoiseReached {
     Wide squares_ = 0;  ///< in units of 2^-64
 };
 
-/// True if it is known of an image of a scene, once it is rendered.
+/// True if the noise of a scene's image is known once the image is rendered.
 bool measures_noise(const Scene& scene);
 
-/// True if a tile shows surfaces of which no light came.
+/// True if a tile shows surfaces from which no light came.
 bool is_dark_tile(uint32_t tile, const Image& image);
 
 /// Averages a tile's light over two images with `samples` samples each, in `image`, whose

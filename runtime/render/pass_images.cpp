@@ -44,27 +44,27 @@ RenderSettings of_sight(const RenderSettings& all) {
 
 }  // namespace
 
-/// True if the sight rays of both meet the same, though their light differs.
+/// True if the sight rays of both views have the same hits, even if their light differs.
 bool Renderer::have_equal_hits(const View& a, const View& b) {
     return a.world == b.world && a.observer == b.observer && a.transmits == b.transmits &&
            of_sight(a.settings) == of_sight(b.settings) &&
            of_hits(a.features) == of_hits(b.features);
 }
 
-/// True if a pass of the light, with batches of at most `max_tiles`, may have this image's hits.
+/// True if a pass of the light, with batches of at most `max_tiles`, can reuse this image's hits.
 bool Renderer::lends_hits(const View& view, uint32_t max_tiles) const {
     return view_ && !hits_.empty() && tiles_in_batch_ <= max_tiles && have_equal_hits(view, *view_);
 }
 
-/// Lets the samples show the moments of an image, or of one of its passes.
+/// Sets the moments of the samples to those of an image, or of one of its passes.
 void Renderer::show_moments_of(const Renderer& image, std::optional<size_t> pass) {
     moments_ = image.moments_;
     image_settings_ = image.image_settings_;
     pass_ = pass;
 }
 
-/// Adds the channels that show parts of the light, of the tiles that were rendered, with as many
-/// samples.
+/// Adds the channels that show parts of the light. Tiles that were rendered get as many samples as
+/// in the image.
 void Renderer::add_passes(const std::vector<LightPass>& passes, const BuiltWorld& world,
                           const Tiles& tiles, Sampled& sampled, RenderReport& report,
                           Image& image) const {

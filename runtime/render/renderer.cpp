@@ -68,9 +68,9 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
     const glm::ivec2& size = scene.render.size;
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y), [&] {
         Scene shown = scene;
-        // Passes have as many samples as all light needs, and variance is that of colour.
+        // Passes need as many samples as the whole light, and variance refers to the colour.
         shown.render.channels = rendered_channels(scene.render);
-        // Points don't tell what samples of other moments met, where depths do.
+        // With other moments, points don't tell which samples met something; depths do.
         const bool adds_depth = moments_ && shows_points_alone(shown.render.channels);
         shown.render.channels.depth |= adds_depth;
         image_settings_ = shown.render;
@@ -82,7 +82,7 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
         tiles.share.set_weight(first_weight(shown, weighted.weight));
         has_passes_ = !passes.empty() && !shown.render.noise.is_given();
         Image image = sampled_image(shown, world, report, weighted, sampled);
-        if (moments_) dilated_occupancy_.reset();  // that of the last one
+        if (moments_) dilated_occupancy_.reset();  // the occupancy of the last moment
         add_passes(passes, world, weighted, sampled, report, image);
         share_compiled_kernels(device_);
         if (!follows_) hits_.clear();

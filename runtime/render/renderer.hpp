@@ -30,8 +30,8 @@ struct RenderReport {
     uint64_t voxels = 0;       ///< surface voxels in the world's pyramid
     uint64_t world_bytes = 0;  ///< bytes of the pyramid on the device
     uint64_t sight_rays = 0;
-    uint64_t contrasting_pixels = 0;  ///< of an adaptive image: those that got all samples
-    uint64_t beams = 0;               ///< each sent along 16 sight rays; 0 if they don't pay
+    uint64_t contrasting_pixels = 0;  ///< pixels of an adaptive image that got all samples
+    uint64_t beams = 0;               ///< number sent, each for 16 sight rays; 0 if they don't pay
     uint64_t clear_beams = 0;    ///< number of those that meet nothing: their rays ended at once
     uint64_t display_lines = 0;  ///< probe lines along a display's lattice
     uint64_t clear_display_lines = 0;  ///< lines not sent because they miss all objects
@@ -43,7 +43,7 @@ struct RenderReport {
     uint64_t medium_overflows = 0;  ///< rays that entered more overlapping objects than they can
                                     ///< remember: the image is wrong there
     uint32_t not_finite = 0;        ///< values that became 0; more than 0 is a fault of the program
-    uint32_t moments = 0;           ///< at which samples were taken; 0: at the frame's alone
+    uint32_t moments = 0;           ///< number of moments of samples; 0: the frame's alone
     NoiseReached noise;             ///< only for images with a target
     bool is_kept = false;           ///< true if the frame shows the image of the frame before
     bool hits_are_kept = false;  ///< true if its sight rays meet what they met in the frame before
@@ -76,8 +76,8 @@ class Renderer {
     struct Tiles {
         TileShare& share;
         std::vector<TileRange>& taken;  ///< the tiles that it rendered
-        double weight = 1;              ///< of this image's work, in what the share tells
-        /// The pixels that tiles consist of, 16 each; empty: those of squares.
+        double weight = 1;              ///< part of this image in the share's progress
+        /// The pixels that tiles consist of, 16 each; empty: squares of 4 x 4 pixels.
         std::span<const uint32_t> pixels{};
     };
 
@@ -91,36 +91,36 @@ class Renderer {
         uint64_t world = 0;
         Observer observer;
         RenderSettings settings;
-        Features features;            ///< those that hits depend on
+        Features features;            ///< features on which hits depend
         std::vector<bool> transmits;  ///< for each material
         friend bool operator==(const View&, const View&) = default;
     };
     /// The rays and hits of one batch.
     struct SightHits {
-        uint32_t first = 0;  ///< tile
+        uint32_t first = 0;  ///< the first tile
         Buffer<float> rays;
         Buffer<uint32_t> hits;
     };
 
-    /// Where the hits of an image's sight rays come from, and whether they stay.
+    /// The source of the hits of an image's sight rays, and whether they are retained.
     struct ViewHits {
         View view;
-        uint32_t in_batch = 0;   ///< tiles, at most
-        bool are_lent = false;   ///< by the lender
-        bool are_known = false;  ///< lent, or those of the image before
-        bool are_kept = false;   ///< for the image behind
+        uint32_t in_batch = 0;   ///< maximum number of tiles
+        bool are_lent = false;   ///< lent by the lender
+        bool are_known = false;  ///< lent, or retained from the image before
+        bool are_kept = false;   ///< retained for the next image
     };
 
-    /// Where an image got more samples, so that the passes over it do the same.
+    /// The places where an image got more samples, so that its passes get the same.
     struct Sampled {
-        std::vector<int> tiles;  ///< the samples of each; empty: as many as they need
-        std::optional<std::vector<uint32_t>> pixels;  ///< those that contrast; none: not known yet
+        std::vector<int> tiles;  ///< each tile's samples; empty: as many as they need
+        std::optional<std::vector<uint32_t>> pixels;  ///< contrasting pixels; none: not known yet
     };
 
     struct WorldDilation {
         uint64_t world = 0;
         DilatedOccupancy dilated_occupancy;
-        std::vector<LightBeams> light_beams;  ///< those of the last frame's lights
+        std::vector<LightBeams> light_beams;  ///< beams of the last frame's lights
     };
 
     static View view_of(const Scene& scene, const BuiltWorld& world, const Features& features);
@@ -160,9 +160,9 @@ class Renderer {
     bool is_white_ = false;  ///< voxels show no colours of their own
     const Moments* moments_ = nullptr;
     RenderSettings image_settings_;  ///< with moments: those of the image, also in its passes
-    std::optional<size_t> pass_;     ///< with moments: number of the pass, which is rendered
+    std::optional<size_t> pass_;     ///< with moments: the number of the pass that is rendered
     bool has_passes_ = false;  ///< hits are retained until the passes of the light are rendered
-    const Renderer* lender_ = nullptr;  ///< of a pass: who has the hits of the image's sight rays
+    const Renderer* lender_ = nullptr;  ///< in a pass: the renderer with the image's hits
     std::optional<Scene> scene_;        ///< the scene whose image is retained
     uint64_t world_ = 0;                ///< the version of its world
     std::shared_ptr<const Image> image_;
@@ -171,7 +171,7 @@ class Renderer {
     std::optional<View> view_;
     std::vector<SightHits> hits_;  ///< those of each batch of the view; empty if there is no room
                                    ///< for them
-    uint32_t tiles_in_batch_ = 0;  ///< at most
+    uint32_t tiles_in_batch_ = 0;  ///< maximum number of tiles
 };
 
 /// Renders the image of a single frame.

@@ -20,13 +20,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The number of samples by which two halves are first compared.
+/// The number of samples at which two halves are compared first.
 constexpr int kFirstSamples = 16;
 
-/// The number of samples by which a tile of surfaces counts as dark: few paths may find its light.
+/// The number of samples at which a tile of surfaces counts as dark: few paths may find its light.
 constexpr int kDarkSamples = 256;
 
-/// What is averaged of an image's channels, and no other.
+/// The channels of an image that are averaged.
 ImageChannels averaged(const ImageChannels& asked) {
     return {.color = true,
             .depth = false,
@@ -36,7 +36,7 @@ ImageChannels averaged(const ImageChannels& asked) {
             .variance = asked.variance};
 }
 
-/// Adds a tile to those that ranges hold, in order.
+/// Adds a tile to ascending ranges.
 void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
     if (!ranges.empty() && ranges.back().first + ranges.back().count == tile)
         ++ranges.back().count;
@@ -44,13 +44,13 @@ void add_tile(uint32_t tile, std::vector<TileRange>& ranges) {
         ranges.push_back({tile, 1});
 }
 
-/// True if there is time for as much again as was spent since the start.
+/// True if there is time for as much work as was done since the start.
 bool has_time(const NoiseTarget& target, Clock::time_point start) {
     const std::chrono::duration<double> spent = Clock::now() - start;
     return target.seconds == 0 || 2 * spent.count() <= target.seconds;
 }
 
-/// True if an image's tiles may need more samples than its first ones.
+/// True if an image's tiles may need more samples after the first ones.
 bool is_sampled_again(const Scene& scene) {
     return scene.render.noise.is_given() && scene.render.channels.color;
 }
@@ -71,7 +71,7 @@ void for_each_tile(const std::vector<TileRange>& tiles, See&& see) {
         for (uint32_t tile = range.first; tile < range.first + range.count; ++tile) see(tile);
 }
 
-/// How many samples an image's tiles have.
+/// The numbers of samples of an image's tiles.
 class TileSamples {
   public:
     /// All tiles have `first` samples, and get at most `maximum`.
@@ -80,7 +80,7 @@ class TileSamples {
 
     int of(uint32_t tile) const { return samples_[tile]; }
 
-    /// True if a tile that was measured needs twice the samples.
+    /// True if a measured tile needs twice the samples.
     bool needs_more(uint32_t tile, const NoiseTarget& target, const Image& image) const {
         const int samples = samples_[tile];
         if (2 * samples > maximum_) return false;
@@ -117,7 +117,7 @@ class TileSamples {
         return sum;
     }
 
-    /// Writes the channels that tell of it.
+    /// Writes the channels of samples and noise.
     void show(const ImageChannels& channels, Image& image) const {
         if (channels.samples)
             show(image, "samples", [this](size_t tile) { return float(samples_[tile]); });
@@ -139,11 +139,11 @@ class TileSamples {
 
     int first_, maximum_;
     std::vector<int> samples_;
-    std::vector<float> errors_;  ///< infinite where none was measured
+    std::vector<float> errors_;  ///< infinite for tiles that aren't measured
 };
 
-/// The image `earlier` without what tells of its sampling. Throws Error::input if it lacks the
-/// colour that `channels` have.
+/// The image `earlier` without its channels of samples and noise. Throws Error::input if it lacks
+/// the colour that `channels` have.
 Image planes_of(const Image& earlier, const ImageChannels& channels) {
     Image image = earlier;
     std::erase_if(image.planes, [](const auto& plane) {
@@ -158,7 +158,7 @@ Image planes_of(const Image& earlier, const ImageChannels& channels) {
     return image;
 }
 
-/// Takes all tiles that are left, for which nothing is to be done.
+/// Takes all remaining tiles, for which nothing is to be done.
 void take_all(const Renderer::Tiles& tiles) {
     while (const std::optional<TileRange> range = tiles.share.take(tiles.share.maximum())) {
         tiles.taken.push_back(*range);
@@ -174,15 +174,15 @@ bool measures_noise(const Scene& scene) {
            render.samples >= 2 * std::min(kFirstSamples, render.samples);
 }
 
-/// The weight of what is rendered first, of an image's work: with a target of noise it is a part of
+/// The weight of the first samples in an image's work: with a target of noise they are a part of
 /// the samples that tiles may need.
 double Renderer::first_weight(const Scene& scene, double weight) {
     if (!is_sampled_again(scene)) return weight;
     return weight * std::min(kFirstSamples, scene.render.samples) / scene.render.samples;
 }
 
-/// An image with the samples of each tile, or of each pixel, that are given, or, if none are, with
-/// those that it needs, which it gives.
+/// An image with the given numbers of samples of each tile or pixel in `sampled`. Without these, it
+/// chooses the numbers and returns them in `sampled`.
 Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                               const Tiles& tiles, Sampled& sampled) {
     if (is_adaptive(scene.render)) return adaptive_image(scene, world, report, tiles, sampled);
@@ -197,8 +197,8 @@ Image Renderer::sampled_image(const Scene& scene, const BuiltWorld& world, Rende
     return image;
 }
 
-/// An image whose tiles have as many samples as `given`, or, if that is empty, as they need, which
-/// it gives.
+/// An image whose tiles have the numbers of samples in `given`. If that is empty, tiles have as
+/// many as they need, and `given` returns the numbers.
 Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                             const Tiles& tiles, std::vector<int>& given) {
     const auto start = Clock::now();
@@ -223,12 +223,12 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
         return is_measured ? state.needs_more(tile, asked.noise, image)
                            : given[tile] > state.of(tile);
     };
-    std::vector<int> told(tiles.share.tiles(), first);  // samples that the share heard of
+    std::vector<int> told(tiles.share.tiles(), first);  // samples that the share was told of
     const auto tell_of_all = [&](uint32_t tile) {
         tiles.share.add_work(per_sample * (maximum - std::exchange(told[tile], maximum)));
     };
-    part.render.channels =
-        averaged(asked.channels);  // others are undefined in tiles that aren't rendered again
+    part.render.channels = averaged(
+        asked.channels);  // the other channels are undefined in tiles that are rendered again
     for (int done = first; is_sampled_again(scene) && 2 * done <= maximum; done *= 2) {
         const std::vector<TileRange> left = tiles_where(
             tiles.taken, [&](uint32_t tile) { return state.of(tile) == done && needs_more(tile); });
@@ -259,7 +259,7 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
     return image;
 }
 
-/// Other samples of tiles, by a renderer that retains nothing of them.
+/// More samples of tiles, by a renderer that retains nothing of them.
 Image Renderer::more_samples(const Scene& part, const BuiltWorld& world, RenderReport& report,
                              const Tiles& tiles) const {
     Renderer renderer(device_, false);

@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-/// Looks at `count` places until both are known.
+/// Looks at `count` pixels or voxels until both flags are known.
 template <class ShowsObject, class IsLit>
 ShownContent content_at(size_t count, const ShowsObject& shows_object, const IsLit& is_lit) {
     ShownContent content{false, false};
@@ -16,7 +16,7 @@ ShownContent content_at(size_t count, const ShowsObject& shows_object, const IsL
         content.objects = true;
         content.light = is_lit(i);
     }
-    if (!content.objects) content.light = true;  // nobody knows
+    if (!content.objects) content.light = true;  // without objects the light is unknown
     return content;
 }
 

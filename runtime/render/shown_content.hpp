@@ -7,13 +7,14 @@
 
 namespace voxelume {
 
-/// What the frames of a run show, together. True wherever it can't be told.
+/// The content of all frames of a run together. Flags are true if unknown.
 struct ShownContent {
     bool objects = true;  ///< some pixel or voxel shows an object
-    bool light = true;    ///< some of these isn't black
+    bool light = true;    ///< some shown object isn't black
 };
 
-/// Ends at the first pixel or voxel that shows a lit object, so an ordinary picture costs nothing.
+/// Describes an image. Ends at the first pixel that shows a lit object, so it is fast for most
+/// pictures.
 ShownContent content_of(const Image& image);
 ShownContent content_of(const Volume& volume);
 

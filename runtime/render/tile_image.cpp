@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tiles of an image with the samples that its scene says, at one moment or at several.
+// The tiles of an image with the scene's number of samples, at one moment or at several.
 #include <utility>
 
 #include "runtime/base/error.hpp"
@@ -16,14 +16,14 @@
 
 namespace voxelume {
 
-/// What an image's samples are added up in, and which of them are added at a moment.
+/// The sums of an image's samples, and the samples that a moment adds to them.
 struct Renderer::Sums {
     ImageArrays image;
     std::vector<MatteArrays> mattes;
-    int before = 0;           ///< samples that are there
-    float before_weight = 0;  ///< by which what is there becomes their sum
-    int after = 0;            ///< samples that follow those of the moment
-    double part = 1;          ///< of the image's samples that are those of the moment
+    int before = 0;           ///< number of samples in the sums
+    float before_weight = 0;  ///< factor that turns the present values into sums
+    int after = 0;            ///< number of samples after those of the moment
+    double part = 1;          ///< the moment's part of the image's samples
 
     Camera camera(Camera camera) const {
         camera.earlier_samples = before;
@@ -47,7 +47,7 @@ PathSampling path_sampling(const Scene& scene, const Camera& camera, uint32_t fi
             uint32_t(camera.first_sample)};
 }
 
-/// Notes what an image's rays came to in a world.
+/// Stores the counters of an image's rays in a world.
 void note_counts(const Illumination& illumination, const std::optional<BeamStage>& beams,
                  const Pyramid& world, RenderReport& report) {
     if (beams) {
@@ -63,7 +63,7 @@ void note_counts(const Illumination& illumination, const std::optional<BeamStage
     report.world_bytes = bytes_of(world);
 }
 
-/// The pixels of the image that tiles make: where they are chosen, they stand in a row of tiles.
+/// The size of the image that tiles make: tiles of chosen pixels lie in a row.
 glm::ivec2 size_of(const Scene& scene, const Renderer::Tiles& tiles) {
     if (tiles.pixels.empty()) return scene.render.size;
     return {4 * int(tiles.share.tiles()), 4};
@@ -77,7 +77,8 @@ Camera shown_camera(const Scene& scene, Camera observer, const Renderer::Tiles& 
     return observer;
 }
 
-/// Each sample shows what of a texture lies in its part of the pixel, which all samples share.
+/// Refuses textures: the part of a texture that a sample shows depends on the number of samples of
+/// its pixel.
 [[noreturn]] void refuse_textures() {
     throw Error(ErrorKind::usage,
                 "samples can't be added by their number where surfaces wear textures: use --noise "
@@ -86,7 +87,7 @@ Camera shown_camera(const Scene& scene, Camera observer, const Renderer::Tiles& 
 
 }  // namespace
 
-/// Tells whoever shares or watches the tiles that a part of the work on these is done.
+/// Reports that a part of the work on the tiles is done, to those that share or watch them.
 void Renderer::note_done(const TileRange& range, const Tiles& tiles, double part) const {
     tiles.taken.push_back(range);
     share_compiled_kernels(device_);
@@ -99,7 +100,7 @@ void Renderer::send_light_beams(WorldDilation& through, uint32_t max, Illuminati
     illumination.send_beams(through.dilated_occupancy, max, through.light_beams);
 }
 
-/// What kernels are compiled for when they show a world.
+/// The features for which kernels are compiled to show a world.
 Features Renderer::features_shown(const Scene& scene, const Pyramid& world) const {
     Features features = features_of(scene, world);
     leave_out_solid_kinds(device_, world, features);
@@ -111,7 +112,7 @@ Features Renderer::features_shown(const Scene& scene, const Pyramid& world) cons
     return features;
 }
 
-/// Sums of the samples before those that the scene says.
+/// The sums of the samples before the scene's own.
 Renderer::Sums Renderer::begin_sums(const Scene& scene, const Tiles& tiles) const {
     const glm::ivec2 size = size_of(scene, tiles);
     const ImageChannels& channels = scene.render.channels;
@@ -139,7 +140,7 @@ void Renderer::add_moment(const Scene& scene, const BuiltWorld& built, const Til
     report.hits_are_kept = hits.are_known;
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
     RayBatch batch = allocate_batch(device_, features, hits.in_batch * rays_per_tile);
-    if (hits.are_known) batch.rays = {}, batch.hits = {};  // those that are known follow
+    if (hits.are_known) batch.rays = {}, batch.hits = {};  // frees replaced buffers
 
     const uint64_t rays = uint64_t(tiles.share.tiles()) * rays_per_tile;
     const double pixel = voxels_a_pixel(scene, observer, world.frame);
@@ -183,8 +184,8 @@ void Renderer::add_moment(const Scene& scene, const BuiltWorld& built, const Til
     note_counts(illumination, beams, world, report);
 }
 
-/// The scene at a moment as the one that is asked for shows it, which may be a pass of the light.
-/// What a pass leaves out depends on the moment.
+/// The scene at a moment with the changes that `asked` made, which may be a pass of the light. The
+/// parts that a pass leaves out depend on the moment.
 Scene Renderer::scene_of_moment(Scene now, const Scene& asked) const {
     const RenderSettings& render = asked.render;
     now.render = image_settings_;
@@ -201,15 +202,15 @@ Scene Renderer::scene_of_moment(Scene now, const Scene& asked) const {
     return now;
 }
 
-/// Adds the samples of all moments. Successive ones that show the same are one. Returns the seconds
-/// that building their worlds took.
+/// Adds the samples of all moments. Successive moments that show the same are rendered as one.
+/// Returns the seconds of building their worlds.
 double Renderer::add_moments(const Scene& scene, const Tiles& tiles, Sums& sums,
                              RenderReport& report) {
     double seconds = 0;
     const int first = scene.render.first_sample, end = first + scene.render.samples;
     Scene next = moments_->scene(first);
     for (int sample = first, after = first; sample < end; sample = after) {
-        if (sample > first && tiles.taken.empty()) break;  // other devices have them all
+        if (sample > first && tiles.taken.empty()) break;  // other devices have all tiles
         const Scene now = std::exchange(next, Scene());
         for (after = sample + 1; after < end; ++after) {
             next = moments_->scene(after);

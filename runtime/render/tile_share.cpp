@@ -24,7 +24,7 @@ std::optional<TileRange> TileShare::take(uint32_t count) {
 
 void TileShare::add_work(double tiles) {
     if (whole_) return whole_->add_work(tiles);
-    constexpr double kRounding = 1e-6;  // of sums of weights
+    constexpr double kRounding = 1e-6;  // rounding of sums of weights
     const std::lock_guard lock(mutex_);
     done_ += tiles;
     if (progress_) progress_(std::min(uint32_t(done_ + kRounding * tiles_), tiles_), tiles_);

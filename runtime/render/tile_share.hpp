@@ -29,8 +29,8 @@ class TileShare {
     explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
         : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
-    /// Hands out these tiles of another share, which ends both when it is closed. They are `weight`
-    /// of the work that the whole's callback hears of.
+    /// Hands out these tiles of another share; closing this share closes the other one. Their work
+    /// is reported to the whole's callback times `weight`.
     TileShare(TileShare& whole, std::vector<TileRange> ranges, double weight)
         : tiles_(whole.tiles_),
           maximum_(UINT32_MAX),
@@ -38,8 +38,8 @@ class TileShare {
           whole_(&whole),
           ranges_(std::move(ranges)) {}
 
-    /// Hands out tiles of its own for a part of another's work, which ends it when it is closed.
-    /// Each is `weight` of a tile of the whole.
+    /// Hands out tiles of its own as a part of another share's work; closing this share closes the
+    /// other one. Each tile counts as `weight` tiles of the whole.
     TileShare(TileShare& whole, uint32_t tiles, double weight)
         : tiles_(tiles),
           maximum_(UINT32_MAX),
@@ -51,10 +51,10 @@ class TileShare {
     std::optional<TileRange> take(uint32_t count);
     /// Reports to the progress callback that these tiles are done, with the weight of their work.
     void done(const TileRange& range) { add_work(range.count * weight_); }
-    /// Reports that work is done, or needn't be: 1 is a tile with all of its weights.
+    /// Reports that work is done or not needed: 1 is a tile with all of its weights.
     void add_work(double tiles);
-    double weight() const { return weight_; }  ///< of a tile's work
-    /// Says that its own tiles are only `weight` of the work.
+    double weight() const { return weight_; }  ///< weight of a tile's work
+    /// Sets that the share's own tiles are only `weight` of the work.
     void set_weight(double weight) { weight_ = weight; }
     /// Ends the work: no more tiles are handed out.
     void close() { is_closed_ = true; }
@@ -72,11 +72,11 @@ class TileShare {
     uint32_t tiles_;
     uint32_t maximum_;
     uint32_t next_ = 0;
-    std::atomic<double> weight_ = 1;  ///< of a tile's work
+    std::atomic<double> weight_ = 1;  ///< weight of a tile's work
     double done_ = 0;                 ///< tiles
     FrameProgress progress_;
     TileShare* whole_ = nullptr;
-    std::vector<TileRange> ranges_;  ///< those left, of another's tiles
+    std::vector<TileRange> ranges_;  ///< the remaining tiles of another share
     std::atomic<bool> is_closed_ = false;
 };
 

@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// The features on which sight rays' hits and batches depend, without those that only decide their
-/// light.
+/// The features on which the hits and batches of sight rays depend, without those that only decide
+/// their light.
 Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.scattering = features.absorbs = false;
@@ -32,8 +32,8 @@ Renderer::View Renderer::view_of(const Scene& scene, const BuiltWorld& world,
     return view;
 }
 
-/// True if hits may be retained: they must take little of the device's memory, and none that the
-/// frame itself needs in addition to the world.
+/// True if hits may be retained: they must take a small part of the device's memory, and none that
+/// the frame itself needs in addition to the world.
 bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t rays) const {
     if (!follows_ && !has_passes_) return false;
     const double bytes = double(rays) * sight_bytes(features),
@@ -46,7 +46,7 @@ bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t r
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;
 }
 
-/// Looks for hits of the view that are known, and forgets those of others.
+/// Looks for known hits of the view, and frees hits of other views.
 Renderer::ViewHits Renderer::begin_view(const Scene& scene, const BuiltWorld& world,
                                         const Features& features, int samples,
                                         const TileShare& share) {

@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-/// Leaves out voxels of which no ray meets a surface.
+/// Leaves out voxels whose rays meet no surface.
 void leave_out_unlit(Volume& volume) {
     Volume lit;
     lit.frame = volume.frame;
@@ -29,7 +29,7 @@ void leave_out_unlit(Volume& volume) {
     volume = std::move(lit);
 }
 
-/// The middles of voxels, in voxels.
+/// The middles of voxels, in voxel coordinates.
 std::vector<glm::vec3> middles_of(const VolumeFrame& frame, std::span<const uint64_t> indices) {
     std::vector<glm::vec3> middles;
     middles.reserve(indices.size());
@@ -37,9 +37,9 @@ std::vector<glm::vec3> middles_of(const VolumeFrame& frame, std::span<const uint
     return middles;
 }
 
-/// Throws Error::limit if `count` voxels of a medium have no room.
+/// Throws Error::limit if memory doesn't suffice for `count` voxels of a medium.
 void check_medium_voxels(uint64_t count, const VolumeFrame& frame) {
-    constexpr double kBytes = 2 * 33 + 20;  // of a voxel, while two volumes are made one
+    constexpr double kBytes = 2 * 33 + 20;  // for a voxel while two volumes are merged
     const double needed = double(count) * kBytes, there = double(main_memory());
     if (count < UINT32_MAX && needed < there) return;
     throw Error(ErrorKind::limit,
@@ -48,7 +48,7 @@ void check_medium_voxels(uint64_t count, const VolumeFrame& frame) {
                 frame.size.x, frame.size.y, frame.size.z, count - 1, needed / 1e9, there / 1e9);
 }
 
-/// The tiles of the image as whose pixels a lattice's points are numbered.
+/// The width, in tiles, of the image by whose pixels a lattice's points are numbered.
 constexpr uint32_t kTilesAcross = 4096;
 
 /// The steps of one image. Their order is that of LatticeRender::run.
@@ -84,7 +84,7 @@ class LatticeRender {
     }
 
   private:
-    /// Finding surfaces needs only their geometry, and what hides them.
+    /// The features for finding surfaces, which needs only geometry and opacity.
     static Features geometry_of(const VolumeWork& work) {
         Features geometry = features_of(work.world);
         geometry.transmission = work.features.transmission;
@@ -97,7 +97,7 @@ class LatticeRender {
         work_.progress(done, 3);
     }
 
-    /// Prepares what lights points, and `look_`, which finds what hides them.
+    /// Prepares lighting of points, and `look_`, which finds what hides them.
     void prepare_light() {
         build_programs(work_.device, work_.features, work_.scene, work_.world, false, false);
         lit_.emplace(work_, batch_.stride, kTilesAcross);
@@ -136,7 +136,7 @@ class LatticeRender {
         display_.light_rest(look_, mean_rays, medium, batch_, shown);
     }
 
-    /// How much of each voxel transparent surfaces cover, in scenes that have some.
+    /// Measures how much of each voxel transparent surfaces cover, in scenes that have some.
     std::optional<DisplayCoverStage> cover(const ShownVoxels& shown) {
         std::optional<DisplayCoverStage> stage;
         if (!work_.features.transmission || shown.voxels.count == 0) return stage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rays of a display -> their light. Both layouts of volumetric images share it.
+// rays of a display -> their light, for both layouts of volumetric images.
 #pragma once
 
 #include <optional>
@@ -47,7 +47,7 @@ class VolumeLight {
     void set_sampling(const SampledRays& rays);
 
     bool transmission_;
-    PathSampling sampling_;  ///< of the first path of ray 0
+    PathSampling sampling_;  ///< sampling of the first path of ray 0
     Illumination illumination_;
     std::optional<DisplayMeanStage> mean_;  ///< only for several paths of a ray
 };

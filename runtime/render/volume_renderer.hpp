@@ -38,7 +38,7 @@ class VolumeRenderer {
     std::optional<Scene> scene_;  ///< the scene whose volume is retained
     uint64_t world_ = 0;          ///< the version of its world
     std::shared_ptr<Volume> volume_;
-    RenderReport report_;  ///< of rendering the volume
+    RenderReport report_;  ///< report on rendering the volume
 };
 
 /// Renders the volumetric image with a world that is built for it alone.

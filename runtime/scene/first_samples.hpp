@@ -6,20 +6,20 @@
 
 namespace voxelume {
 
-/// The samples of a pixel before it is compared with others: its middle.
+/// The number of samples of a pixel before it is compared with others: one in its middle.
 constexpr int kComparedSamples = 1;
 
-/// How far from pixels that contrast others show a part of them, through the filter: pixels.
+/// The distance, in pixels, at which the filter shows parts of contrasting pixels in others.
 int contrast_reach(const RenderSettings& render);
 
-/// True if some pixels of flat images get more samples than others, by their contrast.
+/// True if pixels of flat images get more samples where they contrast with others.
 bool is_adaptive(const RenderSettings& render);
 
-/// The scene whose image is rendered first: with so few samples, with what pixels are compared by,
-/// and, of a part of a picture, with the neighbours of all its pixels.
+/// The scene of the first image: with kComparedSamples samples, with the channels by which pixels
+/// are compared, and, for a part of a picture, with the neighbours of all its pixels.
 Scene first_samples_of(const Scene& scene);
 
-/// The settings of the image whose hits may be retained: of an adaptive one that of its first
+/// The settings of the image whose hits may be retained: of an adaptive image, that of its first
 /// samples.
 RenderSettings retained_settings(const Scene& scene);
 

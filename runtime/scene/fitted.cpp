@@ -24,7 +24,7 @@ constexpr glm::dvec3 kToLight{0.5, 0.65, -0.75};  // in the observer's coordinat
 /// The number without the digits that binary fractions add: it is written with ten at most.
 double decimal(double x) {
     const std::string text = fmt::format("{:.10g}", x);
-    double value = x;  // stays where the decimal is beyond numbers of 64 bits
+    double value = x;  // the value if the decimal exceeds 64-bit floats
     std::from_chars(text.data(), text.data() + text.size(), value);
     return value;
 }
@@ -59,7 +59,7 @@ double voxels_above(double x, double voxel) {
     return -voxels_below(-x, voxel);
 }
 
-/// Refuses what no lattice can hold, at the world's place.
+/// Refuses a world that no lattice can hold, at the world's place in the text.
 void refuse(const World& world, const std::string& sentence) {
     throw Error(ErrorKind::scene, "{}: {}", world.where, sentence);
 }
@@ -177,7 +177,7 @@ void place_default_light(Scene& scene) {
     parameters.direction = rounded(-to_light, 1e-3);
     Light& light = scene.lights.front();
     const Refuse refused = [&](std::string_view, const std::string& sentence) {
-        throw std::logic_error(sentence);  // the direction is a unit vector
+        throw std::logic_error(sentence);  // the direction is a unit vector, so this can't happen
     };
     set_light(light_types()[size_t(LightKind::directional)], parameters, refused, light);
     scene.fitted.light = *parameters.direction;

@@ -14,15 +14,15 @@ struct World;
 
 inline constexpr int kFittedMargin = 4;  ///< voxels around the objects, as around models
 
-/// Which parts a scene leaves out.
+/// The parts that a scene leaves out.
 struct Fitted {
     bool voxel_size = false;
     bool bounds = false;
     bool observer = false;
-    bool ambient = false;   ///< comes with the default light
+    bool ambient = false;   ///< added with the default light
     Bounds shown;           ///< the box that a fitted observer shows, metres
-    glm::dvec3 look_at{0};  ///< the point that it looks at, metres
-    glm::dvec3 light{0};    ///< where the default light goes: nearly a unit vector, in few digits
+    glm::dvec3 look_at{0};  ///< the point that a fitted observer looks at, metres
+    glm::dvec3 light{0};    ///< direction of the default light: nearly a unit vector, in few digits
 
     friend bool operator==(const Fitted&, const Fitted&) = default;
 };
@@ -39,9 +39,9 @@ void fit_lattice(const Bounds& objects, World& world);
 /// Sets `voxels` to as many as cover the bounds. Throws Error::limit where those are too many.
 void count_voxels(World& world);
 
-/// Where a fitted pyramid begins, in metres along the observer's view: at the world's nearest
-/// corner, rounded down to three digits, or 0 if that isn't ahead. Nothing that is seen lies before
-/// it, and volumetric images hold little empty space.
+/// The distance at which a fitted pyramid begins, in metres along the observer's view: that of the
+/// world's nearest corner, rounded down to three digits, or 0 if the corner isn't ahead. Nothing
+/// visible lies before it, and volumetric images hold little empty space.
 double fitted_near(const World& world, const glm::dvec3& position, const glm::dvec3& view);
 
 /// Lets a scene's observer show the whole of `fitted.shown` in an image of the scene's size:
@@ -53,7 +53,7 @@ void frame_observer(Scene& scene);
 /// Lets the scene's only light come from over the observer's left shoulder.
 void place_default_light(Scene& scene);
 
-/// What was left out, as members of a scene file, a line each; empty where nothing was.
+/// The parts that were left out, as members of a scene file, a line each; empty if there are none.
 std::string fitted_text(const Scene& scene);
 
 }  // namespace voxelume

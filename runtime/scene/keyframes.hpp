@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers at chosen frames, and what they are between them.
+// Numbers at chosen frames, and the values between them.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace voxelume {
 
-/// What holds between two keys.
+/// The value between two keys.
 enum class Interpolation : uint8_t {
     step,    ///< the earlier key's value
     linear,  ///< number by number
     cubic,   ///< number by number, with a continuous speed and never beyond the keys on both sides
-    slerp,   ///< of turns: about one axis, at an even speed, the shorter way round
+    slerp,   ///< for turns: about one axis, at an even speed, the shorter way round
     spline   ///< number by number, with the slopes that the keys have; quaternions are normalized
 };
 

@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// What a track's scale passes on its way through 0: a sheet of a ten-thousandth of its longest
-/// side, on the side of 0 where it is.
+/// The scale of a track on its way through 0, limited to a sheet of a ten-thousandth of its longest
+/// side, with the sign that it has.
 glm::dvec3 without_flatness(glm::dvec3 scale) {
     const double min = 1e-4 * std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
     for (int axis = 0; axis < 3; ++axis)

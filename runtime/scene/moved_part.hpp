@@ -9,12 +9,12 @@
 
 namespace voxelume {
 
-/// Sets the values that a part's tracks change, and what follows from them.
+/// Sets the values that a part's tracks change, and values that depend on these.
 class MovedPart {
   public:
     MovedPart(const MovingPart& part, const std::string& file, double frame, Scene& scene);
 
-    /// Throws Error::scene for values that don't go together although they do at all keys.
+    /// Throws Error::scene for values that contradict each other although they don't at any key.
     void apply();
 
   private:

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// Why an object can't be an instance; empty if it can.
+/// The reason why an object can't be an instance; empty if it can.
 std::string refusal(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     if (transmits(scene, object) && shows_voxels(model.surface))

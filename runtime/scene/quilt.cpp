@@ -46,7 +46,7 @@ Scene view_of_row(const Scene& scene, const ViewRow& row, int number) {
     glm::dvec2& half = observer.display.half_angles;
     const glm::ivec2 size = scene.render.size;
     const double along = row.views > 1 ? 2.0 * number / (row.views - 1) - 1 : 0;
-    const double pixel = 2 * std::tan(half.x) / size.x;  // at distance 1
+    const double pixel = 2 * std::tan(half.x) / size.x;  // width of a pixel at distance 1
     const double aside = along * (row.separation > 0 ? row.separation / 2 / focus
                                                      : std::tan(glm::radians(row.cone / 2)));
     const double pixels = std::round(aside / pixel);

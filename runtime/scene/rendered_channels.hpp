@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an image is made of, which may be more than what is asked for.
+// The channels from which an image is made, which may be more than those that are asked for.
 #pragma once
 
 #include "runtime/scene/scene.hpp"

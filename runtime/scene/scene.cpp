@@ -20,7 +20,7 @@ void find_extents(Scene& scene) {
     for (const Object& object : scene.objects)
         if (object.visible && baked(object)) is_baked[object.model] = true;
     for (const Object& object : scene.objects) {
-        // Where instances go doesn't matter to voxels that are shown in the world.
+        // Placements of instances don't matter to models that are shown in the world.
         if (!object.visible || (is_baked[object.model] && !baked(object))) continue;
         const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
         Bounds& extent = scene.models[object.model].extent;

@@ -11,17 +11,18 @@ namespace voxelume {
 bool moves(const Scene& scene);
 
 /// The scene as it is at a frame, 1 being the first; frames may be fractions and lie outside of the
-/// animation. What no track changes is kept as it is in `scene`, also where it was changed after
+/// animation. Values without a track stay as they are in `scene`, even if they were changed after
 /// reading: lattices of the world and its models, the image's size, the display's voxels.
 ///
-/// Nothing is read: files were found when the scene was. Throws Error::scene, with the frame, for
-/// values that don't go together there although they do at all keys.
+/// No file is read: files were found when the scene was read. Throws Error::scene, with the frame,
+/// for values that contradict each other although they don't at any key.
 Scene scene_at(const Scene& scene, double frame);
 
 /// The error as one of a frame: its sentence ends with "(at frame 7)".
 Error at_frame(const Error& error, double frame);
 
-/// Does what belongs to a frame of `scene`. Errors are rethrown with the frame, if the scene moves.
+/// Calls an action that concerns a frame of `scene`. Errors are rethrown with the frame, if the
+/// scene moves.
 template <class Action>
 auto in_frame(const Scene& scene, double frame, const Action& action) {
     try {

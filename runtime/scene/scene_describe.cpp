@@ -23,7 +23,7 @@ std::string solid_text(const Solid& solid) {
     return text;
 }
 
-/// A surface that depends on files which aren't read yet is `auto`.
+/// The name of a model's surface; `auto` if it depends on files which aren't read yet.
 std::string_view surface_text(const Model& model) {
     const bool is_unknown = model.is_surface_open && model.surface_reason.empty();
     return is_unknown ? "auto" : kind_of(model.surface).name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes in a scene from frame to frame: its tracks and numbered files, part by part.
+// The changes of a scene from frame to frame: its tracks and numbered files, part by part.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 
 namespace voxelume {
 
-/// What is placed or formed as a whole when a value in it changes.
+/// The kinds of parts that are updated as a whole when a value in them changes.
 enum class ScenePart : uint8_t { world, material, model, object, light, observer };
 
-/// The value that a track changes: a row of the part, or of what is inside of it.
+/// The value that a track changes: a row of the part, or of a structure inside of it.
 using ValueReference =
     std::variant<const ValueRow<World>*, const ValueRow<Medium>*, const ValueRow<HeightDensity>*,
                  const ValueRow<BallDensity>*, const ValueRow<GridDensity>*,
@@ -32,8 +32,8 @@ using ValueReference =
                  const ValueRow<Object>*, const ValueRow<LightParameters>*,
                  const ValueRow<ObserverParameters>*, const ValueRow<DisplayParameters>*>;
 
-/// A solid of a model: the whole one, or the part of a part that the numbers lead to. If the model
-/// is cut, the first number is that of the cut.
+/// The path to a solid of a model: the whole one, or a part of a part by their numbers. If the
+/// model is cut, the first number is that of the cut.
 struct SolidPath {
     bool is_cut = false;
     std::vector<size_t> parts;
@@ -44,14 +44,14 @@ struct SolidPath {
 /// A value over time.
 struct Track {
     ValueReference value;
-    SolidPath solid;  ///< whose value or placement it is, of a model
-    int item = -1;    ///< number of a vector that changes alone, or -1
-    /// Numbers; true is 1 and false 0; models and materials are their indices in the scene; files
-    /// have no numbers.
+    SolidPath solid;  ///< for a model: the solid with the value or placement
+    int item = -1;    ///< index of the vector's component that changes alone, or -1
+    /// Values as numbers; true is 1 and false 0; models and materials are their indices in the
+    /// scene; files have no numbers.
     Keyframes keys;
-    std::vector<std::filesystem::path> files;  ///< of each key
-    std::string path;                          ///< of the value in its part, as messages have it
-    std::vector<TextPosition> at;              ///< of each key's value, in the scene's text
+    std::vector<std::filesystem::path> files;  ///< file of each key
+    std::string path;                          ///< path of the value in its part, for messages
+    std::vector<TextPosition> at;              ///< position of each key's value in the scene's text
 };
 
 /// Files that frames show one after the other.
@@ -59,7 +59,7 @@ struct FileSequence {
     ValueReference value;
     std::vector<std::filesystem::path> files;
     int64_t start = 1;  ///< frame that shows the first file
-    bool loop = false;  ///< the first file comes after the last one; otherwise it stays
+    bool loop = false;  ///< the first file follows the last one; otherwise the last one stays
 
     const std::filesystem::path& at(double frame) const;
 };
@@ -67,25 +67,25 @@ struct FileSequence {
 /// The placement of an object, a density, or a part of a solid, before its tracks change it.
 struct MovingPlacement {
     SolidPath solid;   ///< of a model; of an object the number of the parent, or nothing
-    std::string path;  ///< in front of its keys, as messages have it: "parts[1]."
+    std::string path;  ///< prefix of its keys in messages: "parts[1]."
     Factors factors;
 };
 
-/// Where a value stands in the scene's text.
+/// The position of a value in the scene's text.
 struct ValueOrigin {
-    std::string path;  ///< in its part; "" for the part itself
+    std::string path;  ///< path in its part; "" for the part itself
     TextPosition at;
 };
 
 /// A part of the scene that tracks or numbered files change.
 struct MovingPart {
     ScenePart part = ScenePart::world;
-    size_t place = 0;          ///< in the scene's list
-    std::string path;          ///< as messages have it
+    size_t place = 0;          ///< index in the scene's list
+    std::string path;          ///< path for messages
     bool only_placed = false;  ///< an object that changes by its placement alone
     std::vector<Track> tracks;
     std::vector<FileSequence> sequences;
-    /// What the tracks change of that which the scene has only the outcome of.
+    /// The original placements that tracks change; the scene has only the resulting maps.
     std::vector<MovingPlacement> placements;
     /// The maps of an object's parents, the outermost first, and its own, before tracks
     /// change them.
@@ -94,9 +94,9 @@ struct MovingPart {
     std::vector<ValueOrigin> origins;
 };
 
-/// What `scene_at` needs besides the scene.
+/// The data that `scene_at` needs besides the scene.
 struct SceneMotion {
-    std::string file;               ///< opens messages
+    std::string file;               ///< the scene's file, which opens messages
     std::vector<MovingPart> parts;  ///< world, materials, models, objects, lights, observer
 };
 

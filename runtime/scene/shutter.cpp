@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// The bits of a number in reverse, as those of a fraction of 1.
+/// The bits of a number in reverse, as a binary fraction.
 double radical_inverse(uint32_t number) {
     double fraction = 0;
     for (double bit = 0.5; number != 0; number >>= 1, bit /= 2)
@@ -20,12 +20,12 @@ double radical_inverse(uint32_t number) {
     return fraction;
 }
 
-/// True if no key of a track lies between two frames, nor on both sides of them.
+/// True if a track has no key between two frames, nor keys on both sides of them.
 bool has_no_key_around(const Keyframes& keys, double from, double to) {
     return to <= keys.frames.front() || from >= keys.frames.back();
 }
 
-/// True if all moments of a frame are known to show the same, without looking at each.
+/// True if all moments of a frame are known to be equal, without looking at each.
 bool stands_still(const Scene& scene, double frame) {
     if (!has_moments(scene)) return true;
     const double end = frame + scene.observer.shutter;

@@ -11,26 +11,27 @@ namespace voxelume {
 /// True if the samples of flat images may show several moments of a frame.
 bool has_moments(const Scene& scene);
 
-/// When a sample is taken: a frame, which may be a fraction, from `frame` on until the shutter
-/// closes. The first sample shows the frame itself. The 2^k samples from the first one, or from
-/// number 2^k on, are spread evenly, as van der Corput's sequence has them.
+/// The moment of a sample: a frame, which may be a fraction, from `frame` on until the shutter
+/// closes. The first sample is at the frame itself. The 2^k samples from the first one, or from
+/// number 2^k on, are spread evenly, by van der Corput's sequence.
 double moment_of(const Scene& scene, double frame, int sample);
 
 /// The moments of all samples of a frame's image, in ascending order; the frame alone where tracks
 /// and numbered files tell that nothing moves.
 std::vector<double> moments_of(const Scene& scene, double frame);
 
-/// Some of these, for estimates: the first, a middle one and the last.
+/// Some of the frame's moments, for estimates: the first, a middle one and the last.
 std::vector<double> some_moments_of(const Scene& scene, double frame);
 
-/// How many worlds a run of so many frames builds at least: more than one if frames have moments.
+/// The minimum number of worlds that a run of `frames` frames builds: at least two if frames have
+/// moments.
 size_t worlds_of(const Scene& scene, size_t frames);
 
-/// The most samples of a frame that show one moment, of those taken in a row: all if the scene
-/// shows the same while the shutter is open.
+/// The maximum number of successive samples of a frame that show one moment: all if nothing moves
+/// while the shutter is open.
 int samples_at_once(const Scene& scene, double frame);
 
-/// True if the frame's moments differ in what the scene shows.
+/// True if what the scene shows differs between the frame's moments.
 bool is_blurred(const Scene& scene, double frame);
 
 }  // namespace voxelume

@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-/// A column's numbers of all keys.
+/// The numbers of one column at all keys.
 struct KeyedColumn {
     const Keyframes& keys;
     size_t column;

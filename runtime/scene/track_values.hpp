@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of a track at a frame, kept to what its value may be.
+// The numbers of a track at a frame, limited to the value's range.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace voxelume {
 
-/// The numbers of a track at a frame, as values_at() finds them from its keys. A spline that leaves
-/// the value's range between keys stays at the end of the range or, where the end itself is no
-/// value, at the key that is closest to it.
+/// The numbers of a track at a frame, as values_at() computes them from its keys. If a spline
+/// leaves the value's range between keys, it is clamped to the end of the range or, if the end
+/// isn't a valid value, to the closest key.
 std::vector<double> values_of(const Track& track, double frame);
 
 }  // namespace voxelume

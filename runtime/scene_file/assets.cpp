@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that a scene names: where they are looked for, and that they never lie elsewhere.
+// The search for files that a scene names, inside the allowed folders only.
 #include "runtime/scene_file/assets.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that a scene names: where they are looked for, and that they never lie elsewhere.
+// The search for files that a scene names, inside the allowed folders only.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,10 @@ namespace voxelume {
 
 struct VoxelModel;
 
-/// Voxels in memory by the names that models have for them in place of files.
+/// Voxels in memory, by the names that models use in place of files.
 using GivenVoxels = std::map<std::string, std::shared_ptr<const VoxelModel>, std::less<>>;
 
-/// Folders to look in after the scene's own, in order.
+/// Folders that are searched after the scene's own, in order.
 using AssetFolders = std::vector<std::filesystem::path>;
 
 /// The folders of `--assets`, followed by those of the environment variable VOXELUME_ASSETS

@@ -13,17 +13,17 @@ namespace voxelume {
 
 struct DocumentPart {
     ScenePart part = ScenePart::world;
-    size_t number = 0;                 ///< in the document
-    size_t place = 0;                  ///< in the scene's list
-    std::string name;                  ///< of a material or model
-    std::string path;                  ///< as messages have it
-    const JsonValue* value = nullptr;  ///< in the document
+    size_t number = 0;                 ///< number in the document
+    size_t place = 0;                  ///< index in the scene's list
+    std::string name;                  ///< name of a material or model
+    std::string path;                  ///< path for messages
+    const JsonValue* value = nullptr;  ///< value in the document
     std::vector<DocumentTrack> tracks;
     bool only_placed = false;  ///< an object that changes by its placement alone
 };
 
-/// Reads the part as it is at each key of its tracks, with the readers of all scenes: between keys
-/// only relations of values can go wrong. Throws as those do, with the frame.
+/// Reads the part as it is at each key of its tracks, with the same readers as all scenes: between
+/// keys only relations of values can go wrong. Throws as the readers do, with the frame.
 void check_keys(const DocumentPart& part, const Scene& scene, const AssetSearch& search);
 
 /// The part's tracks and numbered files as values. Throws as `find_asset` does.

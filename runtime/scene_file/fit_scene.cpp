@@ -58,7 +58,7 @@ class ObjectsBox {
         return box_;
     }
 
-    /// Why the box is empty.
+    /// The reason why the box is empty.
     std::string reason() const {
         if (now_.objects.empty()) return "there are no objects";
         return saw_infinite_ ? "all visible objects are infinite, such as a slab"
@@ -92,10 +92,10 @@ class ObjectsBox {
         }
     }
 
-    /// The box in object space. A vertex that morphs lies as far between the two boxes as it has
-    /// gone.
+    /// The box in object space. The box of a morphing mesh is interpolated between the boxes of its
+    /// two shapes.
     Bounds file_model_box(const Model& model, bool is_first) {
-        // The file's box holds what weights reach, and changes with them.
+        // The file's box contains all positions under the weights, and changes with them.
         if (model.morph && model.morph->is_of_file())
             return model.object_from_file(file_boxes_(model, is_first));
         const Bounds box = model.object_from_file(file_box(model, is_first));
@@ -126,7 +126,7 @@ class ObjectsBox {
     bool saw_infinite_ = false;
 };
 
-/// What of the objects the world shows, or all of the world where that is nothing.
+/// The part of the objects' box that the world shows, or all of the world if that is empty.
 Bounds shown_box(const Bounds& objects, const World& world) {
     const Bounds lattice = lattice_bounds(world);
     const Bounds common{glm::max(objects.min, lattice.min), glm::min(objects.max, lattice.max)};

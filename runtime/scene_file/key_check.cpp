@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-/// What places the object of a part, or all the rest.
+/// The members of an object's placement, or all others.
 JsonValue members_of(const JsonValue& object, bool is_placement) {
     static constexpr std::string_view kKeys[] = {"position", "turn", "scale", "matrix", "parents"};
     JsonValue members;
@@ -19,7 +19,7 @@ JsonValue members_of(const JsonValue& object, bool is_placement) {
     return members;
 }
 
-/// Reads a part and keeps nothing but the messages.
+/// Reads a part only for its messages.
 class PartCheck {
   public:
     PartCheck(const DocumentPart& part, const Scene& scene, const AssetSearch& search)
@@ -27,7 +27,7 @@ class PartCheck {
           scene_(scene),
           search_{search.scene_folder, search.assets, false},
           file_(scene.file.string()),
-          // Little is copied for each key of thousands of objects.
+          // Only few members are copied for each key of thousands of objects.
           value_(part.only_placed ? members_of(*part.value, true) : *part.value) {}
 
     void check(double frame) {
@@ -44,7 +44,7 @@ class PartCheck {
     }
 
   private:
-    /// True if it is the scale of an object that the track has on its way from key to key.
+    /// True if the track is the scale of an object, which may pass 0 between keys.
     bool may_be_flat(const DocumentTrack& track, double frame) const {
         if (part_.part != ScenePart::object) return false;
         const auto is_scale = [](const PathStep& step) { return step.key == "scale"; };
@@ -63,7 +63,8 @@ class PartCheck {
                 read_model(part_.name, value, {search_, scene_.world.voxel_size});
                 return;
             case ScenePart::object:
-                // What flattens an object between keys, or by its parents together, hides it.
+                // A map that flattens an object between keys, or together with its parents, only
+                // hides it.
                 read_links(SceneFields(value, "object"));
                 if (!part_.only_placed) {
                     const JsonValue rest = members_of(value.json(), false);

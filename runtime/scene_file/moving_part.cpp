@@ -20,7 +20,7 @@ std::string path_of(Steps steps) {
     return path;
 }
 
-/// The value inside of a part to which steps lead.
+/// The value inside of a part at the end of these steps.
 const JsonValue& value_of(const JsonValue& part, Steps steps) {
     const JsonValue* at = &part;
     for (const PathStep& step : steps)
@@ -29,7 +29,7 @@ const JsonValue& value_of(const JsonValue& part, Steps steps) {
     return *at;
 }
 
-/// Adds where the members of a value stand, and those inside of them.
+/// Adds the text positions of the members of a value, and of those inside of them.
 void add_origins(const JsonValue& value, const std::string& path,
                  std::vector<ValueOrigin>& origins) {
     origins.push_back({path, value.at});
@@ -40,7 +40,7 @@ void add_origins(const JsonValue& value, const std::string& path,
             add_origins(value.items[i], fmt::format("{}[{}]", path, i), origins);
 }
 
-/// Makes a part's values of its text.
+/// Makes a part's values from its text.
 class PartMaker {
   public:
     PartMaker(const DocumentPart& from, const Scene& scene, const AssetSearch& search)
@@ -101,7 +101,7 @@ class PartMaker {
         return std::ranges::find(list, name, &Named::name) - list.begin();
     }
 
-    /// The part of a solid in which a value lies.
+    /// The path to the solid that contains a value.
     static SolidPath solid_of(Steps steps) {
         SolidPath path;
         path.is_cut = steps.front().key == "cut";
@@ -110,7 +110,7 @@ class PartMaker {
         return path;
     }
 
-    /// The first of the lists of rows that has the key.
+    /// The first of the lists of rows that contains the key.
     template <class... Rows>
     static ValueReference row_of(std::string_view key, const Rows&... rows) {
         ValueReference reference;
@@ -154,7 +154,7 @@ class PartMaker {
         return row_of(key, factor_rows(), grid_density_rows());
     }
 
-    /// Keeps what places the object, density or solid at `steps` besides its tracks.
+    /// Stores the placement of the object, density or solid at `steps` without its tracks.
     void add_placement(Steps steps, const SolidPath& solid) {
         if (std::ranges::find(part_.placements, solid, &MovingPlacement::solid) !=
             part_.placements.end())

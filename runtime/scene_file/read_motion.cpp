@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-/// Where the scene's list has the part; a material's place is not that in the document.
+/// The index of a part in the scene's list; a material's index differs from that in the document.
 size_t place_of(const DocumentPart& part, const Scene& scene) {
     if (part.part != ScenePart::material) return part.number;
     return size_t(std::ranges::find(scene.materials, part.name, &Material::name) -
@@ -32,7 +32,7 @@ bool is_placement(const DocumentTrack& track) {
     return key == "parents" || find_row(factor_rows(), key) != nullptr;
 }
 
-/// Collects what moves, one entry per part of the scene.
+/// Collects moving parts, one entry per part of the scene.
 class MotionReader {
   public:
     explicit MotionReader(const SceneValue& root) : root_(root) {}
@@ -48,7 +48,7 @@ class MotionReader {
         part.tracks.push_back(std::move(track));
     }
 
-    /// Models and a density whose files are numbered.
+    /// Adds models and a density whose files are numbered.
     void add_sequences() {
         if (const JsonMember* models = find_member(root_.json(), "models")) {
             for (size_t i = 0; i < models->value.members.size(); ++i) {

@@ -15,9 +15,9 @@ namespace voxelume {
 /// read. Throws Error::scene for tracks that are wrong.
 std::vector<DocumentPart> moving_parts(const SceneValue& root, Scene& scene);
 
-/// Adds the part to the motion. What it depends on must be read: the display of an observer that
-/// moves depends on the world's lattice. Nothing of the text is kept. Throws Error::scene for
-/// values that are wrong at some key.
+/// Adds the part to the motion. Parts on which it depends must be read first: the display of a
+/// moving observer depends on the world's lattice. Nothing of the text is kept. Throws Error::scene
+/// for values that are wrong at some key.
 void add_part(const DocumentPart& part, const AssetSearch& search, const Scene& scene,
               SceneMotion& motion);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene.json -> Scene: the order in which its parts are read, and what joins them.
+// scene.json -> Scene: the order in which its parts are read, and their connections.
 #include "runtime/scene_file/read_scene.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string read_text(const std::filesystem::path& file) {
             ErrorKind::input, "{}: the scene can't be opened: {}", SourcePlace(file.string()),
             std::filesystem::exists(file, error) ? "no permission to read it" : "no such file");
     }
-    // Some of the system's files have no size, and wait for more to come.
+    // Some system files have no size, and wait for more data.
     const uintmax_t size = std::filesystem::file_size(file, error);
     std::string text;
     std::vector<char> block(size_t{1} << 16);
@@ -61,7 +61,7 @@ void check_version(const SceneFields& fields) {
     }
 }
 
-/// Reads the world; what it leaves out is marked as to be fitted.
+/// Reads the world; parts that it leaves out are marked as to be fitted.
 void read_or_leave_world(const SceneFields& fields, const AssetSearch& search, Scene& scene) {
     const auto value = fields.find("world");
     if (value) scene.world = read_world(*value, search);
@@ -131,7 +131,7 @@ bool shows_emission(const Scene& scene, const SceneMotion& motion) {
     return false;
 }
 
-/// Throws for settings that look at one moment, where a shutter shows several.
+/// Throws if settings for a single moment are combined with a shutter that shows several.
 void check_shutter(const SceneFields& fields, const Scene& scene) {
     if (scene.observer.shutter == 0 || scene.render.adaptive == 0) return;
     SceneFields(fields.get("render"), "render")
@@ -141,7 +141,7 @@ void check_shutter(const SceneFields& fields, const Scene& scene) {
             "one of them out");
 }
 
-/// Adds the light that a scene has which says nothing of lights, and some ambient light with it.
+/// Adds a default light, and some ambient light, to a scene without a key for lights.
 void add_default_light(const SceneFields& fields, Scene& scene) {
     constexpr float kAmbient = 0.15f;
     scene.has_default_light = true;

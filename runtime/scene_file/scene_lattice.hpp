@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a model that say what its voxels are.
+// The keys of a model that describe its voxels.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,8 +9,8 @@
 
 namespace voxelume {
 
-/// Reads the surface of a model. One that doesn't say any, or `auto`, leaves it to its files, and
-/// `usual` stands until they are read; solids are exact.
+/// Reads the surface of a model. Without one, or with `auto`, it is left to the files, and `usual`
+/// is used until they are read; solids are exact.
 void read_surface(const SceneFields& fields, Surface usual, Model& model);
 
 /// The pitch, surface, set and normals of a model, whose source is already read.

@@ -40,7 +40,7 @@ std::string channel_name(const SceneValue& value) {
     if (!std::ranges::all_of(name, is_plain))
         value.fail(fmt::format("{} isn't a name for channels: letters, digits, - and _ make one",
                                quote(name)));
-    constexpr size_t kMaxNameLength = 200;  // with what it becomes part of, OpenEXR takes 255
+    constexpr size_t kMaxNameLength = 200;  // limited because OpenEXR takes 255 for the channel
     if (name.size() > kMaxNameLength)
         value.fail(fmt::format("a name for channels has at most {} characters, and this one {}",
                                kMaxNameLength, name.size()));

@@ -34,7 +34,7 @@ std::vector<TransferPoint> read_transfer(const SceneValue& value) {
     return points;
 }
 
-/// A grid of a file, and what light meets in it.
+/// A grid of a file, and the optical properties of its values.
 GridDensity read_scan(const SceneFields& fields, std::filesystem::path path) {
     const SceneValue file = fields.get("file");
     GridDensity density;
@@ -55,7 +55,7 @@ GridDensity read_scan(const SceneFields& fields, std::filesystem::path path) {
     return density;
 }
 
-/// The scans besides the first, which all have transfer functions.
+/// The further scans, which all have transfer functions.
 std::vector<GridDensity> read_others(const SceneValue& value, const AssetSearch& search) {
     constexpr size_t kMaxScans = 16;
     std::vector<GridDensity> others;
@@ -108,7 +108,7 @@ Medium read_medium(const SceneValue& value, const AssetSearch& search) {
     fields.read_rows(medium_rows(), medium);
     if (const auto density = fields.find("density"))
         medium.density = read_density(*density, search);
-    // Points have absorptions of their own.
+    // Transfer points have absorptions of their own.
     if (has_medium_colors(medium) && !fields.has("absorption")) medium.absorption = glm::vec3(1);
     return medium;
 }

@@ -20,7 +20,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// The metres that a file's unit, or its longest side, stands for.
+/// Reads the metres of a file's unit, or of its longest side.
 void read_file_size(const SceneFields& fields, Model& model) {
     struct Unit {
         std::string_view name;
@@ -45,7 +45,7 @@ void read_file_size(const SceneFields& fields, Model& model) {
         model.object_from_file.scale = kUnits[unit->choice(names)].metres;
 }
 
-/// Which values of a file of values are voxels.
+/// Reads the choice of voxels in a file of values.
 VoxelValues read_values(const SceneFields& fields) {
     VoxelValues values;
     fields.refuse_both("iso", "label");
@@ -60,7 +60,7 @@ VoxelValues read_values(const SceneFields& fields) {
     return values;
 }
 
-/// The voxels in memory that a model names; null where it names a file.
+/// The voxels in memory with a model's name; null if it names a file.
 std::shared_ptr<const VoxelModel> find_given(const SceneFields& fields, const AssetSearch& search) {
     if (!search.given) return nullptr;
     const auto found = search.given->find(fields.get("voxels").text());
@@ -71,7 +71,7 @@ std::shared_ptr<const VoxelModel> find_given(const SceneFields& fields, const As
     return found->second;
 }
 
-/// A model whose file holds its voxels, with a lattice of their own.
+/// Reads a model whose file holds voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.given = find_given(fields, context.search);
     if (model.given)
@@ -84,7 +84,7 @@ void read_voxels(const SceneFields& fields, const ModelContext& context, Model& 
     read_surface(fields, Surface::cubes, model);
 }
 
-/// The number of a mesh in a glTF file.
+/// Reads the number of a mesh in a glTF file.
 void read_mesh_part(const SceneFields& fields, Model& model) {
     const auto part = fields.find("part");
     if (!part) return;
@@ -94,7 +94,7 @@ void read_mesh_part(const SceneFields& fields, Model& model) {
     model.part = part->integer(1, 1'000'000);
 }
 
-/// What the mesh's own file moves it by: weights of its targets, a skin, or both.
+/// Reads the motion in the mesh's own file: weights of its targets, a skin, or both.
 void read_file_morph(const SceneFields& fields, Morph& morph) {
     const bool has_skin = fields.has("skin");
     for (const std::string_view key : {"mesh", "center", "radius", "amount"})
@@ -148,7 +148,7 @@ void read_materials_of(const SceneFields& fields, const NameTable& materials, Ob
     }
 }
 
-/// Refuses light samples of an object that doesn't shine.
+/// Refuses light samples for an object without emission.
 void check_light_samples(const SceneValue& value, const Scene& scene, const Object& object) {
     if (!object.light_samples || has_emission(scene, object)) return;
     SceneFields(value, "object")
@@ -252,7 +252,7 @@ std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
         objects.push_back(reader.read(item, objects.size()));
         const Object& object = objects.back();
         const auto name = SceneFields(item, "object").find("name");
-        // One without a name has its place for it.
+        // An object without a name fails at its own place in the text.
         if (!taken.insert(object.name).second)
             (name ? *name : item)
                 .fail(fmt::format("another object is named {} already", quote(object.name)));

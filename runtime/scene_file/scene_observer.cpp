@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 5> kSeenAlong = {"observer", "facing", "x
 constexpr std::array<std::string_view, 3> kProjections = {"perspective", "orthographic",
                                                           "panoramic"};
 
-/// The projection that takes the place of a display; `perspective` leaves it to a pyramid.
+/// The projection that replaces a display; `perspective` is done by a pyramid.
 Projection read_projection(const SceneFields& fields) {
     const auto name = fields.find("projection");
     const auto projection = name ? Projection(name->choice(kProjections)) : Projection::display;
@@ -47,7 +47,7 @@ Projection read_projection(const SceneFields& fields) {
     return projection;
 }
 
-/// How the display's voxels are ordered, and which of them it has.
+/// Reads the layout of the display's voxels, and which of them it has.
 void read_volume(const SceneFields& fields, Display& display) {
     using Pair = std::array<std::string_view, 2>;
     using Sights = std::array<std::string_view, 3>;

@@ -20,12 +20,11 @@ namespace voxelume {
 /// Names that other parts of the scene refer to, with their indices.
 class NameTable {
   public:
-    /// `kind` is what messages call them: "material".
+    /// `kind` is the word for the named parts in messages: "material".
     explicit NameTable(std::string kind) : kind_(std::move(kind)) {}
 
     void add(const std::string& name) { indices_.emplace(name, static_cast<int>(indices_.size())); }
-    /// Index of the name that the value gives. Throws Error::scene with the nearest one if there is
-    /// none.
+    /// Index of the name in the value. Throws Error::scene with the nearest name if there is none.
     int find(const SceneValue& value) const;
 
   private:
@@ -33,16 +32,16 @@ class NameTable {
     std::unordered_map<std::string, int> indices_;
 };
 
-/// Where a part of the scene looks for the files that it names.
+/// The search for the files that a part of the scene names.
 struct AssetSearch {
     std::filesystem::path scene_folder;
     const AssetFolders& assets;
-    bool all_files = true;  ///< true if all files of a sequence must be there, not the first alone
-    const GivenVoxels* given = nullptr;  ///< voxels that go before files; null: none
+    bool all_files = true;               ///< all files of a sequence must exist, not only the first
+    const GivenVoxels* given = nullptr;  ///< voxels that take precedence over files; null: none
 };
 
-/// Where models find their files, and the voxel size that they take from the world, which is 0
-/// where it isn't known yet.
+/// The search for models' files, and the voxel size that models take from the world, which is 0 if
+/// it isn't known yet.
 struct ModelContext {
     AssetSearch search;
     glm::dvec3 world_voxel_size;
@@ -61,7 +60,7 @@ class ObjectReader {
     NameTable materials_{"material"};
 };
 
-/// Bounds, and a voxel size with them, that are left out stay 0.
+/// Reads the world. If bounds or a voxel size are left out, they stay 0.
 World read_world(const SceneValue& value, const AssetSearch& search);
 Sky read_sky(const SceneValue& value, const AssetSearch& search);
 Medium read_medium(const SceneValue& value, const AssetSearch& search);
@@ -80,7 +79,7 @@ Observer read_observer(const SceneValue& value, const Scene& scene);
 Animation read_animation(const SceneValue& value);
 RenderSettings read_render(const SceneValue& value);
 
-/// `position`, `turn` and `scale`.
+/// Reads `position`, `turn` and `scale`.
 Factors read_factors(const SceneFields& fields);
 
 /// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
@@ -89,7 +88,7 @@ glm::dmat4 read_placement(const SceneFields& fields);
 /// The maps of an object's `parents`, the outermost first, and its own.
 std::vector<glm::dmat4> read_links(const SceneFields& object);
 
-/// All of them, one in the other. Refuses a map that is singular.
+/// The product of the maps of read_links(). Refuses a singular map.
 glm::dmat4 read_object_place(const SceneFields& object);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where objects, parts of solids and densities stand.
+// The placements of objects, parts of solids and densities.
 #include <fmt/format.h>
 
 #include <array>

@@ -13,7 +13,7 @@ constexpr int kFarthestNumber = 1'000'000;
 struct Sequence {
     int first = 1, last = 1;  ///< numbers in the files' names
     int start = 1;            ///< frame that shows the first file
-    bool loop = false;        ///< the first file comes after the last one; otherwise it stays
+    bool loop = false;        ///< the first file follows the last one; otherwise the last one stays
 };
 
 Sequence read_sequence(const SceneValue& value) {
@@ -32,7 +32,7 @@ Sequence read_sequence(const SceneValue& value) {
     return sequence;
 }
 
-/// Throws Error::input that names what is missing of all files.
+/// Throws Error::input that names all missing files.
 void check_files(const SceneValue& pattern, const Sequence& sequence, const AssetSearch& search) {
     constexpr int kMaxNamed = 5;
     int missing = 0;

@@ -33,7 +33,7 @@ class SolidReader {
         return solid;
     }
 
-    /// Parts of something that counts as one shape and isn't a solid.
+    /// Reads the parts of something that counts as one shape and isn't a solid.
     std::vector<Solid> read_list(const SceneValue& value) {
         Solid of;
         ++shapes_;

@@ -13,14 +13,14 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// A kind of JSON object: values that can change, and the objects in it that have such values.
+/// A kind of JSON object: its animated values, and objects in it that have animated values.
 struct Place {
     std::string_view name;
     Names values;
     std::vector<std::pair<std::string_view, std::string_view>> places;  ///< key and Place::name
 };
 
-/// The keys of those values in all lists that may change.
+/// The keys of the animated values in all these lists of rows.
 template <class... Rows>
 Names animated(const Rows&... lists) {
     Names names;
@@ -117,7 +117,7 @@ class PathWalker {
         return list.items[place];
     }
 
-    /// The object, light, material or model that the path names.
+    /// Finds the object, light, material or model that the path names.
     void find_item() {
         const std::string section = target_.path;
         const bool is_list = target_.part == ScenePart::object || target_.part == ScenePart::light;
@@ -146,8 +146,8 @@ class PathWalker {
                                   name.find_first_of(".[") == name.npos ? name : quote(name));
     }
 
-    /// What else the path might name: a list's items also go by their places, and those without a
-    /// name by nothing else.
+    /// Suggestions for the path: a list's items can also be named by their indices, and those
+    /// without a name only by these.
     static std::string suggest_item(const std::string& section, const std::string& name,
                                     size_t count, const Names& given) {
         std::string nearest = suggest(name, given);
@@ -204,7 +204,7 @@ class PathWalker {
         if (!is_at_end()) path_.fail(fmt::format("goes on behind a number of {}", quote(key)));
     }
 
-    /// Refuses to change what another key of the object decides.
+    /// Refuses to change a value that another key of the object replaces.
     void check_rivals(const JsonValue& of, const std::string& key) const {
         const auto has = [&](std::string_view rival) {
             return std::ranges::find(of.members, rival, &JsonMember::key) != of.members.end();

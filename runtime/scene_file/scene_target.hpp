@@ -14,16 +14,16 @@ namespace voxelume {
 /// A value that a track may change.
 struct TrackTarget {
     ScenePart part = ScenePart::world;
-    size_t number = 0;                 ///< of the part among its kind, in the order of the document
-    std::string name;                  ///< of a material or model
-    std::string path;                  ///< of the part, as messages have it
+    size_t number = 0;  ///< index of the part among its kind, in the order of the document
+    std::string name;   ///< name of a material or model
+    std::string path;   ///< path of the part, for messages
     const JsonValue* value = nullptr;  ///< the part in the document
     std::vector<PathStep> steps;       ///< from the part to the value; a last key may be missing
 };
 
-/// Finds what a path names in a document.
+/// Finds the target of a path in a document.
 ///
-/// Throws Error::scene with the nearest name when there is no such part or value, or none that can
+/// Throws Error::scene with the nearest name if there is no such part or value, or none that can
 /// change.
 TrackTarget find_target(const SceneValue& path, const JsonValue& document);
 

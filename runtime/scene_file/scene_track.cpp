@@ -26,7 +26,7 @@ bool is_text_or_switch(const JsonValue& value) {
     return value.type == JsonType::string || value.type == JsonType::boolean;
 }
 
-/// Refuses what no target takes.
+/// Refuses values of a form that no target accepts.
 void check_form(const SceneValue& value) {
     if (value.is(JsonType::string)) {
         value.text();
@@ -41,7 +41,7 @@ void check_form(const SceneValue& value) {
     }
 }
 
-/// The numbers of a value: none for texts, true and false.
+/// The numbers of a value: none for texts and bools.
 std::vector<double> numbers_of(const JsonValue& json) {
     std::vector<double> numbers;
     if (json.type == JsonType::number) numbers.push_back(json.number);
@@ -49,7 +49,7 @@ std::vector<double> numbers_of(const JsonValue& json) {
     return numbers;
 }
 
-/// Appends one of a key's slopes, a frame; 0 where the key has none.
+/// Appends one of a key's slopes, per frame; 0 if the key has none.
 void add_slope(const SceneFields& fields, std::string_view name, double fps, size_t width,
                std::vector<double>& slopes) {
     const auto given = fields.find(name);

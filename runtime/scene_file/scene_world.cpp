@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a scene that stand alone: world, materials, animation, render settings.
+// The parts of a scene that don't refer to others: world, materials, animation, render settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Bounds read_bounds(const SceneValue& value) {
     return bounds;
 }
 
-/// Refuses values of Whitted's model that a physically based material has others for.
+/// Refuses values of Whitted's model that a physically based material replaces.
 void refuse_both_models(const SceneFields& fields) {
     for (const std::string_view key : physical_keys()) {
         if (!fields.has(key)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arrays of a grid's bricks: what each stored brick takes of a device, written once.
+// The arrays of a grid's bricks: the device memory of each stored brick, written once.
 #pragma once
 
 #include "runtime/grid/grid.hpp"
@@ -18,17 +18,17 @@ inline Buffer<uint32_t> allocate_slots(const Device& device, const char* name,
     return {device, name, brick_places(frame)};
 }
 
-/// BrickGrid::occupancy, and whatever else has a bit for each voxel.
+/// BrickGrid::occupancy, and other arrays with a bit for each voxel.
 inline Buffer<uint64_t> allocate_masks(const Device& device, const char* name, size_t bricks) {
     return {device, name, bricks * kLeavesPerBrick};
 }
 
-/// BrickGrid::distance, and whatever else has 16 bits for each voxel.
+/// BrickGrid::distance, and other arrays with 16 bits for each voxel.
 inline Buffer<int16_t> allocate_distances(const Device& device, const char* name, size_t bricks) {
     return {device, name, bricks * kVoxelsPerBrick};
 }
 
-/// BrickGrid::attributes and colors, and whatever else has a word for each voxel.
+/// BrickGrid::attributes and colors, and other arrays with a word for each voxel.
 inline Buffer<uint32_t> allocate_words(const Device& device, const char* name, size_t bricks) {
     return {device, name, bricks * kVoxelsPerBrick};
 }

@@ -10,15 +10,15 @@
 
 namespace voxelume {
 
-/// The emitters of a scene; no records if paths look for none.
+/// The emitters of a scene; without records if paths don't look for any.
 struct EmitterTable {
-    bool is_searched = false;  ///< by features with `emitters`: other kernels take none of this
+    bool is_searched = false;  ///< by features with `emitters`: other kernels take no table
     uint32_t count = 0;
     Buffer<EmitterRecord> records;
-    uint32_t slots = 0;           ///< of `table`: a power of two
+    uint32_t slots = 0;           ///< number of slots in `table`: a power of two
     Buffer<uint32_t> table;       ///< emitters' numbers by their voxels' hash
     Buffer<EmitterFrame> frames;  ///< only in scenes with instances
-    float volume = 0;             ///< of the world's voxels, cubic metres
+    float volume = 0;             ///< volume of the world's voxels, cubic metres
 };
 
 /// VXL_EMITTER_PARAMETERS of kernels.

@@ -4,7 +4,7 @@
 namespace voxelume {
 namespace {
 
-/// What the world holds, and the lights in it.
+/// The constants of the world's content and of its lights.
 Defines defines_of_voxels(const Features& f) {
     return {{"VXL_CUBES", f.cubes},
             {"VXL_SMOOTH", f.smooth},
@@ -39,7 +39,7 @@ Defines defines_of_voxels(const Features& f) {
             {"VXL_TINTED", f.tinted}};
 }
 
-/// How rays go on, and what they are asked for.
+/// The constants of how rays continue, and of the results that are asked for.
 Defines defines_of_rays(const Features& f) {
     return {{"VXL_PATHS", f.paths},
             {"VXL_TRANSMISSION", f.transmission},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the medium scatters, as kernels take it.
+// The medium's scattering, as kernels take it.
 #pragma once
 
 #include <optional>

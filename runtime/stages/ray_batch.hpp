@@ -9,7 +9,8 @@
 
 namespace voxelume {
 
-/// Rays before they are traced. shared/trace.h has the components, which are `stride` values apart.
+/// Rays before they are traced. shared/trace.h has their components, which are `stride` values
+/// apart.
 struct RayQueue {
     Buffer<float> rays;  ///< VXL_RAY_COMPONENTS
     // only in scenes with paths:
@@ -53,7 +54,8 @@ struct RayBatch : RayQueue {
 /// VXL_BATCH_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayBatch& batch);
 
-/// How far from a light the world is empty, see light_beams.cl; no columns where that is unknown.
+/// The distance from a light within which the world is empty, see light_beams.cl; no columns if
+/// unknown.
 struct LightBeams {
     BeamGrid grid{};
     Buffer<float> ends;

@@ -10,12 +10,12 @@
 
 namespace voxelume {
 
-/// A sky that is a map; without one kernels take none of this.
+/// A sky that is a map; kernels without one take nothing of this.
 struct SkyMap {
     bool is_used = false;
     SkyMapRecord record{};
     Buffer<float> texels;    ///< SkyMapData::texels
-    Buffer<uint32_t> table;  ///< and its table
+    Buffer<uint32_t> table;  ///< SkyMapData::table
 };
 
 /// VXL_SKY_MAP_PARAMETERS of kernels.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes from frame to frame, as typed tracks.
+// Changes from frame to frame, as typed tracks.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ struct Key {
     /// The slope with which Interpolation::spline arrives at the value, in the value's unit per
     /// second; 0 without it.
     std::optional<Value> in{};
-    /// The slope with which it leaves the value, in the value's unit per second; 0 without it.
+    /// The slope with which the spline leaves the value, in the value's unit per second; 0 without
+    /// it.
     std::optional<Value> out{};
 };
 
@@ -28,7 +29,7 @@ struct Key {
 template <class Value>
 using Keys = std::vector<Key<Value>>;
 
-/// What a value is between two keys.
+/// The value between two keys.
 enum class Interpolation {
     step,    ///< the earlier key's value
     linear,  ///< number by number, at an even speed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices that render: which there are, and how a program chooses among them.
+// Devices that render: a list of them, and a program's choice among them.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace voxelume::v1 {
 
-/// What a device is.
+/// The kind of a device.
 enum class DeviceKind { cpu, gpu, other };
 
 /// "cpu", "gpu" or "other".
 const char* name_of(DeviceKind kind);
 
-/// Tells whether a device's driver computed what is known when it was first opened: arithmetic, and
-/// the ways of rays through a small world.
+/// The result of the test of a device's driver when it is first opened: known arithmetic, and the
+/// paths of rays through a small world.
 enum class SelfTest {
-    unknown,  ///< it wasn't opened yet
+    unknown,  ///< the device wasn't opened yet
     passed,   ///< every bit was right
-    failed    ///< it can't render; DeviceInfo::unusable_because says what was wrong
+    failed    ///< the device can't render; DeviceInfo::unusable_because says what was wrong
 };
 
 /// "unknown", "passed" or "failed".
 const char* name_of(SelfTest result);
 
-/// What an OpenCL platform says of a device, and whether Voxelume can render on it.
+/// The properties that OpenCL reports for a device, and whether Voxelume can render on it.
 struct DeviceInfo {
     int index = 0;                        ///< number in list_devices(), which Device::open takes
     DeviceKind kind = DeviceKind::other;  ///< CPU, GPU or other
@@ -40,10 +40,10 @@ struct DeviceInfo {
     uint64_t memory_bytes = 0;            ///< bytes of memory; at most VOXELUME_MEMORY_MB, if set
     uint64_t max_allocation_bytes = 0;  ///< bytes of one buffer; at most VOXELUME_BUFFER_MB, if set
     int compute_units = 0;              ///< compute units, as OpenCL counts them
-    int lanes = 1;                      ///< rays that one work-item carries
+    int lanes = 1;                      ///< rays that one work-item handles
     SelfTest self_test = SelfTest::unknown;  ///< result, kept for its driver's version
-    std::string unusable_because{};          ///< why it can't render; empty when it can
-    std::string note{};                      ///< what its user should know; mostly empty
+    std::string unusable_because{};          ///< the reason why it can't render; empty if it can
+    std::string note{};                      ///< a note for its user; mostly empty
 
     /// True if it can render.
     bool is_usable() const { return unusable_because.empty(); }
@@ -68,21 +68,21 @@ class Device {
     /// variable VOXELUME_DEVICE, and without that for "auto": a GPU rather than a CPU, then the
     /// most compute units.
     ///
-    /// A device whose driver is new is tested first, in a third of a second or less. One that
-    /// computes something wrong is refused; another that fits is opened in its place.
+    /// A device with a new driver is tested first, in a third of a second or less. If its results
+    /// are wrong, it is refused, and another one that matches is opened in its place.
     ///
-    /// Throws Error::device when nothing fits; the sentence names what is there, or the package to
-    /// install.
+    /// Throws Error::device when nothing matches; the sentence names the devices that exist, or the
+    /// package to install.
     static Device open(std::string_view selector = {});
 
     /// Opens all devices that share the work: for "all" every GPU and the best CPU, for "all/N" the
-    /// same with the CPU cut into N parts, for another selector the one device of `open`.
+    /// same with the CPU divided into N parts, for another selector the one device of `open`.
     static std::vector<Device> open_all(std::string_view selector = {});
 
-    /// What it is.
+    /// The device's properties.
     const DeviceInfo& info() const;
 
-    /// Rays that one work-item carries on this device; VOXELUME_LANES overrides info().lanes.
+    /// Rays that one work-item handles on this device; VOXELUME_LANES overrides info().lanes.
     int lanes() const;
 
     struct Implementation;

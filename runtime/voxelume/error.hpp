@@ -11,7 +11,7 @@
 
 namespace voxelume::v1 {
 
-/// What went wrong. The numbers are the exit codes of the program `voxelume`.
+/// The kind of a failure. The numbers are the exit codes of the program `voxelume`.
 enum class ErrorKind : int {
     render = 1,      ///< rendering failed: a device was lost, a kernel misbehaved
     usage = 2,       ///< a call doesn't accept an argument
@@ -24,7 +24,7 @@ enum class ErrorKind : int {
     cancelled = 130  ///< the caller asked to stop
 };
 
-/// Where a mistake stands. Parts that don't apply are empty or 0.
+/// The place of a mistake. Parts that don't apply are empty or 0.
 struct ErrorPlace {
     /// The scene, mesh, image or volume; the name of a scene built from structs.
     std::string file{};
@@ -49,9 +49,9 @@ class VOXELUME_API Error : public std::runtime_error {
     Error& operator=(const Error&) noexcept = default;
     ~Error() override;
 
-    /// What went wrong, for programs.
+    /// The kind of the failure, for programs.
     ErrorKind kind() const noexcept { return kind_; }
-    /// What the command line exits with for this kind.
+    /// The exit code of the command line for this kind.
     int exit_code() const noexcept { return static_cast<int>(kind_); }
 
     /// The place that the error is about; empty parts don't apply.

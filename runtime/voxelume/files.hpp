@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files other than images and volumes: voxelized models, what is in a file, names of frames' files.
+// Files other than images and volumes: voxelized models, descriptions of files, names of frames'
+// files.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +19,11 @@
 
 namespace voxelume::v1 {
 
-/// How a mesh becomes voxels.
+/// The options of voxelizing a mesh.
 struct VoxelizeOptions {
-    double voxel_size = 0;                     ///< metres; 0: `resolution` decides
-    int resolution = 0;                        ///< voxels along the longest side; 0: 256, or 254
-                                               ///< where an output is a .vox, and of points as
-                                               ///< few as leave no gaps between them
+    double voxel_size = 0;  ///< metres; 0: `resolution` decides
+    int resolution = 0;     ///< voxels along the longest side; 0: 256, or 254 where an output is a
+                            ///< .vox, and for points few enough to leave no gaps between them
     std::optional<Surface> surface{};          ///< what a voxel shows; without it smooth, and
                                                ///< cubes of points and lines
     VoxelSet set = VoxelSet::supercover;       ///< voxel set, for surface `cubes`
@@ -39,14 +39,14 @@ struct VoxelFormat {
 /// The formats that `voxelize` and `convert_voxels` write.
 std::span<const VoxelFormat> voxel_formats();
 
-/// What voxelizing a mesh made.
+/// The result of voxelizing a mesh.
 struct VoxelizeReport {
     uint64_t triangles = 0;     ///< triangles of the mesh
     std::array<int, 3> size{};  ///< voxels
     double voxel_size = 0;      ///< metres
     uint64_t bricks = 0;        ///< stored bricks of 16 x 16 x 16 voxels
     double seconds = 0;         ///< seconds, without writing files
-    /// What formats couldn't hold, as sentences.
+    /// Sentences on what formats couldn't hold.
     std::vector<std::string> notes{};
 };
 
@@ -58,7 +58,7 @@ VoxelizeReport voxelize(const std::filesystem::path& mesh,
                         const std::vector<std::filesystem::path>& outputs, const Device& device,
                         const VoxelizeOptions& options = {});
 
-/// How the world of a scene becomes voxels.
+/// The options of voxelizing the world of a scene.
 struct VoxelizeSceneOptions {
     double voxel_size = 0;  ///< metres; 0: `resolution` decides
     int resolution = 0;     ///< voxels along the longest side of all that is shown; 0: the scene's
@@ -73,12 +73,12 @@ struct VoxelizeSceneOptions {
 VoxelizeReport voxelize_scene(const Scene& scene, const std::vector<std::filesystem::path>& outputs,
                               const Device& device, const VoxelizeSceneOptions& options = {});
 
-/// True if `convert_voxels` writes the voxels of the one to the other, by their names and, where
-/// these don't decide, by what is in the first file. Throws Error::input for an OpenVDB file that
+/// True if `convert_voxels` can write the voxels of `from` to `to`, by their names and, where these
+/// don't decide, by the content of the first file. Throws Error::input for an OpenVDB file that
 /// can't be read.
 bool can_convert_voxels(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Writes the voxels of a file to one of another of `voxel_formats`: those of a model file of
+/// Writes the voxels of a file to a file of another of `voxel_formats`: those of a model file of
 /// cubes, or, where the format holds cubes alone, the cells of a volumetric image that are at least
 /// half opaque. Returns sentences on what the format couldn't hold. Throws Error::input,
 /// Error::limit, Error::output.
@@ -87,12 +87,12 @@ std::vector<std::string> convert_voxels(const std::filesystem::path& from,
 
 struct Facts;
 
-/// A value of what is known of a file.
+/// The value of a fact about a file.
 using Fact =
     std::variant<std::monostate, bool, int64_t, uint64_t, double, std::string, std::vector<Facts>>;
 
-/// A value with its name, or a list, or a table: what describe_file tells. Elements of lists have
-/// no names.
+/// A fact about a file, as describe_file returns it: a value with its name, a list, or a table.
+/// Elements of lists have no names.
 struct Facts {
     /// Says whether facts are a value, a list or an object.
     enum class Kind { value, list, object };
@@ -101,22 +101,22 @@ struct Facts {
     Fact value{};             ///< lists and objects have a vector of their elements and members
 };
 
-/// What is in a file, by what it begins with: an OpenEXR or PNG image, a volumetric image, an
-/// OpenVDB volume, a voxelized model, a MagicaVoxel file, a scene, or else a mesh, and how many
-/// voxels a mesh would become. Returns an object whose members stand in the order in which people
-/// read them. Throws Error::input, and what Scene::load throws for a scene, which is read with
-/// `options`.
+/// Describes the content of a file. The kind of file follows from its first bytes: an OpenEXR or
+/// PNG image, a volumetric image, an OpenVDB volume, a voxelized model, a MagicaVoxel file, a
+/// scene, or else a mesh, with the number of voxels that it would become. Returns an object whose
+/// members are in the order in which people read them. Throws Error::input, and what Scene::load
+/// throws for a scene, which is read with `options`.
 Facts describe_file(const std::filesystem::path& file, const SceneOptions& options = {});
 
-/// What is in the stack of slices that begins with this PNG file, whose name has a number. Returns
+/// Describes the stack of slices that begins with this PNG file, whose name has a number. Returns
 /// and throws as `describe_file` does.
 Facts describe_slices(const std::filesystem::path& first);
 
-/// What the checksums in a file say of it.
+/// The result of checking a file against its checksums.
 enum class FileIntegrity {
-    unknown,  ///< there are none: another program wrote it, or its format has no room for them
-    whole,    ///< it has the bytes that were written
-    damaged   ///< it has others
+    unknown,  ///< no checksums: another program wrote it, or its format has no room for them
+    whole,    ///< the file has the bytes that were written
+    damaged   ///< the file has other bytes
 };
 
 /// Reads all of a file of render_frames or of a .vxm and compares it with its checksums. Throws
@@ -143,8 +143,8 @@ void write_file(const std::filesystem::path& file, std::string_view text);
 /// A text in quotes, cut to a readable length and safe for a terminal, as messages have it.
 std::string quote(std::string_view text);
 
-/// The end of a message about a name that there isn't: ` did you mean "brick"?` after `;`, a list
-/// of all names where none is near, or nothing.
+/// The end of a message about an unknown name: ` did you mean "brick"?` after `;`, a list of all
+/// names if none is similar, or nothing.
 std::string suggest(std::string_view text, std::span<const std::string_view> names);
 
 }  // namespace voxelume::v1

@@ -16,7 +16,7 @@
 
 namespace voxelume::v1 {
 
-/// What an image shows of a pixel. What isn't asked for isn't computed.
+/// The channels of an image. Channels that aren't asked for aren't computed.
 struct Channels {
     bool color = true;            ///< R G B A
     bool depth = true;            ///< Z
@@ -33,10 +33,10 @@ struct Channels {
     bool indirect = false;      ///< indirect.R ...: all other light
     bool shadow = false;        ///< shadow.R ...: the part of the direct light that is hidden
     bool light_groups = false;  ///< light_GROUP.R ... of each group of lights, and light_rest.R ...
-    /// forward.u, forward.v: where what a pixel shows goes until the next frame, in pixels to the
-    /// right and up; backward.u, backward.v: where it was a frame before.
+    /// forward.u, forward.v: the movement of a pixel's point until the next frame, in pixels to the
+    /// right and up; backward.u, backward.v: its position a frame before.
     bool motion = false;
-    bool samples = false;  ///< samples: how many each pixel has
+    bool samples = false;  ///< samples: the number of each pixel's samples
     /// noise: the standard error of the light of each 4 x 4 pixels over its mean, as
     /// Scene::with_noise measures it; +infinity where it isn't measured.
     bool noise = false;
@@ -52,11 +52,11 @@ struct Channels {
 struct ChannelRow {
     std::string_view name;   ///< name of the group: "RGBA", "CryptoObject"
     bool Channels::*member;  ///< member of Channels that asks for it
-    /// Their names in files; one that ends in _ begins others.
+    /// Names of the channels in files; a name that ends in _ is a prefix.
     std::span<const char* const> planes;
 };
 
-/// All groups of channels, in the order in which people read them.
+/// All groups of channels, in reading order.
 std::span<const ChannelRow> channel_table();
 
 /// No channels at all.
@@ -65,7 +65,7 @@ inline constexpr Channels kNoChannels{false, false, false, false, false};
 /// Colour alone: what a picture shows.
 inline constexpr Channels kColorAlone{true, false, false, false, false};
 
-/// How light that is brighter than a screen becomes a colour of the screen.
+/// The way in which light that is too bright for a screen becomes a colour of the screen.
 enum class ViewTransform {
     srgb,    ///< the colour as it is, cut off at 1
     none,    ///< the colour as it is, stored linearly, for programs that expect light
@@ -73,13 +73,13 @@ enum class ViewTransform {
     agx      ///< a curve over 16.5 stops, after which bright colours are whiter (Sobotka 2022)
 };
 
-/// How an image becomes a file.
+/// The options of an image's file.
 struct ImageFileOptions {
     double exposure = 0;  ///< PNG: stops; colours are multiplied by 2^exposure
     ViewTransform view_transform = ViewTransform::srgb;  ///< PNG: how light becomes colour
     int png_bits = 8;                                    ///< PNG: bits a channel, 8 or 16
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
-    Channels channels{};       ///< OpenEXR: others that the image has aren't written
+    Channels channels{};       ///< OpenEXR: channels to write
     bool multi_part = false;   ///< OpenEXR: each layer as a part of its own, named as the layer
 };
 
@@ -98,15 +98,15 @@ class Image {
     /// flat ones with the same data window. Throws Error::input.
     static Image read(const std::filesystem::path& file);
 
-    /// Pixels along a row.
+    /// Number of pixels in a row.
     int width() const;
-    /// Rows.
+    /// Number of rows.
     int height() const;
     bool holds_codes() const;  ///< values are sRGB codes of a PNG file, not light
 
     /// The names of the float channels in alphabetical order: "A", "B", "G", "N.X", ...
     std::vector<std::string> channels() const;
-    /// True if it has a channel of this name, such as "R" or "N.X".
+    /// True if the image has a channel of this name, such as "R" or "N.X".
     bool has(std::string_view channel) const;
 
     /// The plane of a float channel. It lives as long as this image or a copy of it. Throws
@@ -117,8 +117,8 @@ class Image {
     /// The numbers of the materials; empty if they weren't asked for.
     std::span<const uint32_t> material_ids() const;
 
-    /// Copies a plane to the caller's memory of as many values. Throws Error::usage for another
-    /// number of them.
+    /// Copies a plane to the caller's memory, whose size must be the number of values. Throws
+    /// Error::usage for another size.
     void copy(std::string_view channel, std::span<float> to) const;
 
     /// Writes an OpenEXR or PNG file, by the ending of its name. The file appears whole or not at
@@ -126,7 +126,8 @@ class Image {
     /// Error::output.
     void write(const std::filesystem::path& file, const ImageFileOptions& options = {}) const;
 
-    /// The bytes of the file that `write` would write, of an ending such as ".png".
+    /// The bytes of the file that `write` would write under a name with this ending, such as
+    /// ".png".
     std::string encode(std::string_view ending, const ImageFileOptions& options = {}) const;
 
     struct Implementation;
@@ -150,7 +151,7 @@ struct ImageFormat {
 /// The formats that Image::write writes.
 std::span<const ImageFormat> image_formats();
 
-/// How far a channel is from that of a reference.
+/// The difference of a channel from that of a reference.
 struct ChannelDifference {
     std::string channel{};   ///< its name
     double max = 0;          ///< largest |a - b|
@@ -158,13 +159,14 @@ struct ChannelDifference {
     double mae = 0;          ///< mean of |a - b|
     double mrse = 0;         ///< mean of ((a - b) / (|b| + 0.01))^2
     uint64_t differing = 0;  ///< pixels whose values are unequal
-    uint64_t unmatched = 0;  ///< pixels of these with a value that isn't finite: in no mean
+    uint64_t unmatched = 0;  ///< pixels of these with a value that isn't finite; in no mean
     uint64_t above = 0;      ///< pixels above the threshold, with the unmatched ones; numbers of
                              ///< objects: unequal ones
-    bool is_id = false;      ///< ids, those of Cryptomatte among them: equal or unequal, never far
+    bool is_id = false;      ///< true for ids, those of Cryptomatte among them: values are equal or
+                             ///< unequal, without distance
 };
 
-/// How far two images are apart.
+/// The differences between two images.
 struct ImageDifference {
     /// Differences by name; numbers of objects come last.
     std::vector<ChannelDifference> channels{};
@@ -177,7 +179,7 @@ struct ImageDifference {
     uint64_t above = 0;   ///< pixels above the threshold in some channel that both have
 };
 
-/// Which differences count.
+/// Selects the differences that count.
 struct CompareOptions {
     std::vector<std::string> channels{};  ///< these alone, and FLIP with R, G and B; empty: all
     double threshold = 0;                 ///< |a - b| up to this isn't above it

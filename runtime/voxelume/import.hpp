@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Model files in place of scenes: a good picture of a mesh or of voxels, without writing a scene.
+// Model files in place of scenes: a picture of a mesh or of voxels, without writing a scene.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,22 @@
 
 namespace voxelume::v1 {
 
-/// Which axis of a file is up.
+/// The axis of a file that points up.
 enum class UpAxis {
-    automatic,  ///< Z for STL, Y for all others whose format doesn't say
+    automatic,  ///< Z for STL, Y for other formats that don't define it
     y,
     z
 };
 
-/// What the scene of a model file is like. By default it stands on a ground without a visible end,
-/// in soft light that comes from the observer's left, seen from the right of its front and from
-/// above; a .vox from the left, as in its editor.
+/// The options of a model file's scene. By default the model stands on a ground without a visible
+/// end, in soft light from the observer's left, seen from the right of its front and from above; a
+/// .vox is seen from the left, as in its editor.
 struct ImportOptions {
-    /// Where the observer is: degrees to the right of the front; 35 by default, -40 of a .vox.
+    /// Direction of the observer: degrees to the right of the front; 35 by default, -40 for a .vox.
     std::optional<double> longitude{};
-    /// Degrees above the horizon, -90..90; 25 by default, 30 of a .vox.
+    /// Degrees above the horizon, -90..90; 25 by default, 30 for a .vox.
     std::optional<double> latitude{};
-    double orbit = 0;       ///< degrees that are added to the longitude, whichever it is
+    double orbit = 0;       ///< degrees that are added to the longitude, also to a default one
     bool parallel = false;  ///< parallel rays, as in isometric drawings, instead of a pyramid
     /// The display is a lattice of voxels around all that is shown, for render_volume. The observer
     /// is before the front then, and there is no ground.
@@ -37,11 +37,11 @@ struct ImportOptions {
     bool own_camera = true;
     /// Name of the clip (glTF's animation) that moves the file's nodes; empty: the first.
     std::string clip{};
-    /// The model has room to turn: pictures of all longitudes show it from one distance.
+    /// Leaves room for turning the model: pictures of all longitudes show it from one distance.
     bool turns = false;
     double angle = 40;  ///< degrees, horizontal opening of the observer's pyramid
-    /// A ground that shadows fall on, where the observer is above it. There is one by default
-    /// unless the file says otherwise (.vox), has lights (glTF), or has a camera below it.
+    /// A ground on which shadows fall, if the observer is above it. There is one by default unless
+    /// the file says otherwise (.vox), has lights (glTF), or has a camera below it.
     std::optional<bool> ground{};
     /// Radiance of the background and of the ground; the file's (.vox) or grey by default.
     std::optional<Color> background{};

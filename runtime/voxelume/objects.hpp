@@ -58,17 +58,17 @@ struct Slab {
 
 struct Part;
 
-/// How parts are combined.
+/// The operation that combines parts.
 enum class Operation {
-    union_of,      ///< all parts together
-    intersection,  ///< what is in all parts
-    difference     ///< the first part without the others
+    union_of,      ///< all points in any part
+    intersection,  ///< the points in all parts
+    difference     ///< the points of the first part that are in no other part
 };
 
-/// Solids combined, up to 16 levels deep and with up to 256 shapes in a model. Parts that are to be
-/// one have to overlap a little.
+/// Solids combined, up to 16 levels deep and with up to 256 shapes in a model. Parts of one body
+/// must overlap a little.
 struct Combination {
-    Operation operation = Operation::union_of;  ///< what is done with the parts
+    Operation operation = Operation::union_of;  ///< the operation on the parts
     std::vector<Part> parts;  ///< solids; a difference takes all others from the first
 };
 
@@ -76,25 +76,25 @@ struct Combination {
 using Solid =
     std::variant<Sphere, Ellipsoid, Box, Cylinder, Cone, Torus, Capsule, Slab, Combination>;
 
-/// A solid and its place in its parent.
+/// A solid with its placement in its parent.
 struct Part {
-    Solid solid{};        ///< what is placed
+    Solid solid{};        ///< the solid that is placed
     Vec3 position{};      ///< metres, in its parent
     Vec3 turn{};          ///< degrees [psi, theta, gamma]: R_y(psi) * R_x(theta) * R_z(gamma)
     Vec3 scale{1, 1, 1};  ///< negative ones mirror
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
 };
 
-/// The vertices of a mesh on their straight way to another shape.
+/// A change of a mesh's vertices to another shape, in straight lines.
 struct Morph {
-    double amount = 0;             ///< share of the way, 0..1
+    double amount = 0;             ///< part of the way, 0..1
     std::filesystem::path mesh{};  ///< the mesh at the end: as many vertices, the same triangles
-    /// Instead of a mesh, a sphere that each vertex reaches straight away from its centre.
+    /// Instead of a mesh, a sphere: each vertex moves there straight away from the centre.
     std::optional<Vec3> center{};
     std::optional<double> radius{};  ///< metres
-    /// Instead of all these: how far each target of a glTF file's mesh pulls.
+    /// Instead of all these: the weight of each target of a glTF file's mesh.
     std::vector<double> weights{};
-    /// With them or alone: number of a skin of that file, from 1 on, whose joints move the mesh.
+    /// With weights or alone: number of a skin of that file, from 1 on, whose joints move the mesh.
     std::optional<int> skin{};
     /// Name of a clip of that file, which moves the joints; empty: they stand still.
     std::string clip{};
@@ -108,7 +108,7 @@ enum class Shading {
     smooth  ///< as automatic, but a mesh without normals gets those of the faces around a vertex
 };
 
-/// The length that a file's coordinate 1 stands for.
+/// The length of a file's coordinate 1.
 enum class Unit {
     micrometre,
     millimetre,
@@ -126,7 +126,7 @@ struct MeshFile {
     std::filesystem::path file{};        ///< .obj, .ply, .stl, .gltf or .glb
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<Morph> morph{};        ///< moves its vertices
-    std::vector<Part> cuts{};            ///< taken away from the mesh; not of an exact one
+    std::vector<Part> cuts{};            ///< solids removed from the mesh; not for exact ones
     /// Metres that the longest side of the mesh becomes, with the middle of its box at the origin.
     std::optional<double> fit{};
     std::optional<Unit> unit{};        ///< unit of the file, instead of `fit`; without both metres
@@ -147,15 +147,15 @@ struct VoxelFile {
     /// Cells of an array with this value or more are voxels; a smooth surface runs at the value.
     std::optional<double> iso{};
     std::optional<int> label{};  ///< instead: cells with this value are voxels
-    bool each_label = false;     ///< instead: cells with any value but 0 are, a colour for each
+    bool each_label = false;     ///< instead: cells with any value but 0, a colour for each
 };
 
 /// Voxels in memory, which a model shows as cubes: `VoxelFile{"NAME"}`, or "voxels": "NAME" in the
 /// text of a scene. Voxel (i, j, k) fills [(i, j, k), (i, j, k) + 1] metres in object space unless
 /// `fit` or `unit` says otherwise.
 struct VoxelArray {
-    std::string name{};         ///< name that models have for it; goes before files of that name
-    std::array<int, 3> size{};  ///< voxels along x, y and z
+    std::string name{};  ///< name that models use for it; takes precedence over files of that name
+    std::array<int, 3> size{};      ///< voxels along x, y and z
     const uint8_t* rgba = nullptr;  ///< voxel (0, 0, 0): R, G, B and the opacity, a byte each.
                                     ///< Colours are sRGB; opacity 0: no voxel. Not kept.
     /// Bytes from a voxel to the next along x, y and z, perhaps negative; without a value x is
@@ -163,18 +163,18 @@ struct VoxelArray {
     std::optional<std::array<std::ptrdiff_t, 3>> strides{};
 };
 
-/// What a voxel shows of the surface in it.
+/// The representation of the surface inside a voxel.
 enum class Surface {
     cubes,   ///< the voxel is the object
     smooth,  ///< a distance field runs through the voxels; for closed meshes and solids
     exact    ///< voxels list their triangles or solid; also for open sheets and sharp edges
 };
 
-/// Which voxels the surface of `cubes` gets.
+/// The set of voxels of a surface of `cubes`.
 enum class VoxelSet {
-    supercover,  ///< all that the surface touches
-    thin,        ///< the fewest that no path through faces can pass
-    solid        ///< all whose centre is inside
+    supercover,  ///< all voxels that the surface touches
+    thin,        ///< the minimum that no path through faces can pass
+    solid        ///< all voxels whose centre is inside
 };
 
 /// The normals by which light falls on `cubes`.
@@ -189,20 +189,20 @@ struct Model {
     std::variant<Solid, MeshFile, VoxelFile> source{};  ///< a mesh, voxels or a solid
     std::optional<Vec3> voxel_size{};  ///< metres in object space; without it the world's
     std::optional<int> resolution{};   ///< instead: voxels along the longest side, 1..65536
-    /// Surface of the voxels; without it what suits the model, as plan() says.
+    /// Surface of the voxels; without it one that suits the model, which plan() tells.
     std::optional<Surface> surface{};
     std::optional<VoxelSet> set{};         ///< voxel set of cubes; without it supercover
     std::optional<CubeNormals> normals{};  ///< normals of cubes; without it faces
 };
 
-/// How an object gets into the picture.
+/// The way in which an object gets into the picture.
 enum class Placement {
-    automatic,  ///< `world` for what stands still, `instance` for what moves
+    automatic,  ///< `world` for objects that stand still, `instance` for moving ones
     world,      ///< resampled into the world's voxels
     instance    ///< rays are transformed into the object's own voxels
 };
 
-/// A place in the world, or in another place.
+/// A placement in the world, or in another placement.
 struct Parent {
     Vec3 position{};                 ///< metres
     Vec3 turn{};                     ///< degrees [psi, theta, gamma]
@@ -222,12 +222,12 @@ struct Object {
     Vec3 scale{1, 1, 1};             ///< negative numbers mirror
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
     int priority = 0;     ///< where objects overlap: the higher wins, then the earlier in the list
-    bool visible = true;  ///< false: it isn't there, casts no shadow and sends out no light
-    /// Points that its emission lights the world from, 0..16384.
+    bool visible = true;  ///< false: the object is ignored, with its shadow and its light
+    /// Number of points from which its emission lights the world, 0..16384.
     std::optional<int> light_samples{};
-    /// In the world's voxels, as an instance, or whichever suits.
+    /// In the world's voxels, as an instance, or an automatic choice.
     Placement placement = Placement::automatic;
-    /// Each stands in the one before it, and the object in the last.
+    /// Parents of the object: each is placed in the one before it, and the object in the last.
     std::vector<Parent> parents{};
 };
 

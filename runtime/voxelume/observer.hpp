@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who looks at a scene, through which display, and at what quality, as plain structs.
+// The observer of a scene, its display, and the quality of images, as plain structs.
 #pragma once
 
 #include <array>
@@ -37,21 +37,21 @@ struct BoxDisplay {
     double near = 0;  ///< metres: where the box begins
 };
 
-/// How the voxels of a volumetric image lie.
+/// The layout of the voxels of a volumetric image.
 enum class VolumeLayout {
     rays,    ///< (u, v, k): sight ray by step; u to the image's right, v down, k away
     lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E and Z_E
 };
 
-/// Which surfaces of the world a lattice shows.
+/// The surfaces of the world that a lattice shows.
 enum class Visibility {
     observer,  ///< surfaces that the observer sees
     outside,   ///< surfaces that can be seen from somewhere outside of the world
     all        ///< all surfaces
 };
 
-/// The sight lines along which the voxels of a lattice together cover what lies behind them as much
-/// as the surfaces do that they show.
+/// The sight lines for which opacities are computed: along these, a lattice's voxels together cover
+/// as much as the surfaces that they show.
 enum class SeenAlong {
     observer,  ///< sight lines of the observer
     facing,    ///< lines along the axis that the surface faces most, voxel by voxel
@@ -73,7 +73,7 @@ struct Display {
     bool cylinder = false;  ///< true: the upright cylinder inside a lattice clips it, too
 };
 
-/// How flat images show what an observer sees.
+/// The projection of an observer's flat images.
 enum class Projection {
     display,       ///< `Observer::display`: a perspective if that is a pyramid
     orthographic,  ///< parallel rays, `width` or `height` metres across, to the world's end
@@ -84,12 +84,12 @@ enum class Projection {
 struct Observer {
     Vec3 position{};                ///< metres
     std::optional<Vec3> look_at{};  ///< a point in the middle of the view
-    std::optional<Vec3> up{};       ///< what is up in the image; without it +Y
+    std::optional<Vec3> up{};       ///< the direction that is up in the image; without it +Y
     std::optional<Vec3> turn{};     ///< degrees [psi, theta, gamma], instead of `look_at` and `up`
     std::optional<double> aperture{};  ///< metres: diameter of a lens, of flat images of a pyramid
-    std::optional<double> focus{};  ///< metres to what the lens shows sharp; without it `look_at`
-    Display display{};              ///< what is seen, and how display voxels lie
-    Projection projection = Projection::display;  ///< if another, `display` is left out
+    std::optional<double> focus{};     ///< metres to the plane in focus; without it `look_at`
+    Display display{};                 ///< the display, and the layout of its voxels
+    Projection projection = Projection::display;  ///< other values replace `display`
     std::optional<double> width{};                ///< metres that an orthographic image shows
     std::optional<double> height{};               ///< metres of its height, for square pixels
     std::optional<int> blades{};  ///< blades of the lens, which is a polygon then; 3 to 16
@@ -98,20 +98,20 @@ struct Observer {
     std::optional<double> shutter{};
 };
 
-/// The light that reaches surfaces of a flat image.
+/// The kind of light that reaches surfaces of a flat image.
 enum class LightMode {
     local,  ///< light of lights, and along mirrored and refracted rays
-    global  ///< all light that arrives, from surfaces too
+    global  ///< all light, including that from surfaces
 };
 
-/// How paths of global light find emissive surfaces. The light is the same on average.
+/// The way in which paths of global light find emissive surfaces. The mean light is the same.
 enum class EmitterSearch {
-    both,   ///< rays to them and paths that run into them: the least noise
+    both,   ///< rays to them and paths that run into them: the lowest noise
     paths,  ///< paths that run into them: for large emissive objects
-    rays    ///< rays to them, except for what mirrors and glass show
+    rays    ///< rays to them, except in mirrors and glass
 };
 
-/// How the samples around the middle of a pixel make its value.
+/// The weights of the samples around the middle of a pixel.
 enum class ReconstructionFilter {
     box,             ///< equal weights
     tent,            ///< weights that fall evenly
@@ -121,21 +121,21 @@ enum class ReconstructionFilter {
 
 /// The flat image.
 struct RenderSettings {
-    Size size{640, 480};                 ///< pixels, 1..kMaxImageSide each
-    int samples = 1;                     ///< sight rays a pixel, 1..4096
-    double adaptive = 0;                 ///< local light: contrast of pixels that get all, 0..1
-    int depth = 5;                       ///< reflections and refractions in a row, 0..64
-    bool shadows = true;                 ///< true: lights cast shadows
-    bool filtered_shadows = false;       ///< refracting objects tint light instead of hiding it
-    double min_weight = 1.0 / 4096;      ///< paths that would add less of a pixel end
-    LightMode light = LightMode::local;  ///< what light reaches surfaces
+    Size size{640, 480};  ///< pixels, 1..kMaxImageSide each
+    int samples = 1;      ///< sight rays a pixel, 1..4096
+    double adaptive = 0;  ///< local light: contrast above which pixels get all samples, 0..1
+    int depth = 5;        ///< reflections and refractions in a row, 0..64
+    bool shadows = true;  ///< true: lights cast shadows
+    bool filtered_shadows = false;   ///< refracting objects tint light instead of hiding it
+    double min_weight = 1.0 / 4096;  ///< paths end if they would add less than this part of a pixel
+    LightMode light = LightMode::local;  ///< the kind of light that reaches surfaces
     int bounces = 8;                     ///< times that a path of global light is scattered, 0..64
     EmitterSearch emitters = EmitterSearch::both;             ///< search in global light
     ReconstructionFilter filter = ReconstructionFilter::box;  ///< filter of samples
     std::optional<double> filter_width{};  ///< pixels from end to end, at most 16; without it 1 for
                                            ///< a box, 2 for a tent, 3 for others
     /// Observers see nothing where no object is: A is 0 there, and PNG files are transparent.
-    /// Mirrors and glass show the background or the sky as without it.
+    /// Mirrors and glass still show the background or the sky.
     bool transparent = false;
     double pixel_aspect = 1;  ///< width of a pixel over its height, 0.1..10
 };

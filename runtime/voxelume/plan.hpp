@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rendering a scene takes, before any memory is taken.
+// Estimates of the memory for rendering a scene, before any is taken.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ enum class Verdict {
 /// "fits", "may fit" or "doesn't fit".
 const char* name_of(Verdict verdict);
 
-/// One grid of voxels: a model's, that of one object alone, or the world's.
+/// One grid of voxels: that of a model, of one object alone, or of the world.
 struct GridPlan {
     std::string name{};                   ///< "model NAME", "object NAME" or "world"
     std::array<int, 3> size{};            ///< voxels
@@ -48,7 +48,7 @@ struct StagePlan {
     double bytes = 0;    ///< bytes, at most
 };
 
-/// What `auto` makes of a model's surface.
+/// The surface that `auto` chooses for a model.
 struct SurfacePlan {
     std::string model{};    ///< its name
     std::string surface{};  ///< "cubes", "smooth" or "exact"
@@ -60,8 +60,8 @@ struct Plan {
     Verdict verdict = Verdict::fits;  ///< verdict on the frame that takes the most
     std::optional<Error> refusal{};   ///< why it doesn't fit: what is too large, and what to do
     int frame = 1;                    ///< frame that takes the most memory
-    /// Number of the frames that were planned where those that change are too many to plan all:
-    /// chosen at the tracks' keys, evenly between them, and around the largest. 0: all are planned.
+    /// Number of planned frames, if too many frames change to plan all: frames are chosen at the
+    /// tracks' keys, evenly between them, and around the largest. 0: all are planned.
     int chosen_frames = 0;
     int bands = 1;      ///< bands of rows in which each image is rendered to files; 1: it is whole
     int band_rows = 0;  ///< rows of each but perhaps the last; estimates are for such an image
@@ -70,22 +70,22 @@ struct Plan {
     double device_bytes = 0;          ///< bytes of the device that can be used
     double largest_buffer_bytes = 0;  ///< bytes of the largest buffer of any stage
     double host_bytes = 0;            ///< bytes of main memory
-    std::vector<GridPlan> grids{};    ///< the world's is the last
-    /// What each stage takes. The stages "image" and "volume", of flat and of volumetric images,
+    std::vector<GridPlan> grids{};    ///< the grid of the world is the last
+    /// The memory of each stage. The stages "image" and "volume", of flat and of volumetric images,
     /// only run if such images are asked for.
     std::vector<StagePlan> stages{};
-    std::vector<Warning> warnings{};  ///< what is probably wrong, as far as it shows unrendered
-    /// The surfaces of models that leave theirs to their files.
+    std::vector<Warning> warnings{};  ///< probable mistakes, as far as known unrendered
+    /// The surfaces of models whose files decide them.
     std::vector<SurfacePlan> surfaces{};
 };
 
-/// What planning assumes.
+/// The assumptions of a plan.
 struct PlanOptions {
     std::vector<int> frames{};  ///< frames to plan; empty: all of the animation
     Channels channels{};        ///< channels of the images
     bool image = true;          ///< true: flat images are wanted
     bool volume = false;        ///< true: volumetric images are wanted
-    CacheOptions cache{};       ///< knows models that needn't be read
+    CacheOptions cache{};       ///< cache with known models, which needn't be read
     /// Called with the number of frames that are planned, and of all.
     std::function<void(size_t done, size_t frames)> progress{};
 };
@@ -94,7 +94,7 @@ struct PlanOptions {
 /// device.
 ///
 /// Throws Error as `Scene::load` does for values that are wrong at a frame, and Error::limit for
-/// lattices that can't be numbered at all. A scene that merely doesn't fit is a plan like others.
+/// lattices that can't be numbered at all. If a scene only doesn't fit, its plan is returned.
 Plan plan(const Scene& scene, const Device& device, const PlanOptions& options = {});
 
 /// "1.5 GB": three digits at most.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library may do to the process that it runs in, and what it keeps on disk.
+// What the library may do to its process, and what it keeps on disk.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace voxelume::v1 {
 /// The version of the library: "0.2.0".
 const char* version();
 
-/// What a program may allow the library to do to its process. Without it, nothing: the library sets
-/// no environment variable, starts no process, installs no signal handler and prints nothing.
-/// (OpenCL drivers are not the library: PoCL sets HWLOC_PLUGINS_PATH when it starts up.)
+/// The permissions of the library in its process. Without any, the library sets no environment
+/// variable, starts no process, installs no signal handler and prints nothing. (OpenCL drivers are
+/// not the library: PoCL sets HWLOC_PLUGINS_PATH when it starts up.)
 struct ProcessOptions {
     /// Sets POCL_CACHE_DIR while OpenCL starts up, and unsets it again: kernels that PoCL, the
     /// OpenCL of CPUs, compiled are then kept in Voxelume's own cache, where processes can't damage
@@ -24,17 +24,18 @@ struct ProcessOptions {
     /// at that time. Without it PoCL keeps kernels where its own rules say, in ~/.cache/pocl.
     bool set_driver_environment = false;
 
-    /// Has the program voxelume-vdb-reader, which is installed with the library, read OpenVDB
+    /// Lets the program voxelume-vdb-reader, which is installed with the library, read OpenVDB
     /// files: damaged ones make OpenVDB corrupt the memory of the process that reads them. The
     /// program is started by posix_spawn, once for each file.
     bool isolate_readers = false;
 
-    /// The maximum number of voxelume-kernel-compiler that run beside the process while it renders
-    /// a first picture, 0: none. Each compiles kernels for PoCL into Voxelume's cache, since PoCL
-    /// compiles on one core in a process. An image has one program, so one is enough for it. They
-    /// are started by posix_spawn, once in a process, when a kernel is to be compiled, if
-    /// `set_driver_environment` is set and the cache can be written. Each has 250 MB of memory, and
-    /// a thread of this process that waits for it; the limits of `limit_memory` don't count them.
+    /// The maximum number of processes voxelume-kernel-compiler that run in parallel to this
+    /// process while it renders a first picture; 0: none. Each compiles kernels for PoCL into
+    /// Voxelume's cache, since PoCL compiles on one core in a process. An image has one program, so
+    /// one is enough for it. They are started by posix_spawn, once in a process, when a kernel is
+    /// to be compiled, if `set_driver_environment` is set and the cache can be written. Each takes
+    /// 250 MB of memory, and a thread of this process that waits for it; the limits of
+    /// `limit_memory` don't count them.
     int kernel_compilers = 0;
 
     /// Threads that compress and expand OpenEXR files; 0: none but the caller's.
@@ -45,22 +46,22 @@ struct ProcessOptions {
 /// once.
 void configure(const ProcessOptions& options);
 
-/// Deletes what the process has begun to write and not finished: the hidden files next to outputs
-/// and the folder of its kernels. It is for a program that has to end while calls of the library
-/// still run; those fail, if they go on. It also ends the processes that compile kernels, for good.
-/// Any thread may call it.
+/// Deletes files that the process has begun to write and not finished: the hidden files next to
+/// outputs and the folder of its kernels. It is for a program that has to end while calls of the
+/// library still run; these calls fail if they continue. It also ends the processes that compile
+/// kernels, for good. Any thread may call it.
 void remove_unfinished_files();
 
-/// Calls `late` once, from a thread of its own, with a sentence that names the device and what it
-/// was doing, when a call of an OpenCL driver has lasted more than `seconds`. A call that hangs
-/// can't be ended: all that a program can do then is to tell, and to end. Some drivers compile
-/// kernels during calls, which takes seconds.
+/// Calls `late` once, from a thread of its own, when a call of an OpenCL driver has lasted more
+/// than `seconds`, with a sentence that names the device and its task. A call that hangs can't be
+/// ended: a program can only report it and end. Some drivers compile kernels during calls, which
+/// takes seconds.
 void watch_devices(double seconds, std::function<void(const std::string& sentence)> late);
 
-/// Has later plans and renders take at most `bytes` of main memory, and at most as many of a
-/// device's own: what needs more throws Error::limit before memory is taken. 0: as much as the
-/// machine, the process's control group and its resource limits allow, as without this call.
-/// Devices that are open already keep what they had. Any thread may call it.
+/// Limits later plans and renders to `bytes` of main memory, and to as many of a device's own:
+/// those that need more throw Error::limit before memory is taken. 0: as much as the machine, the
+/// process's control group and its resource limits allow, as without this call. Devices that are
+/// open already keep their limit. Any thread may call it.
 void limit_memory(uint64_t bytes);
 
 /// The user's folder for compiled kernels, models and worlds: the last one of VOXELUME_CACHE_DIR,
@@ -72,18 +73,18 @@ std::filesystem::path user_cache_folder();
 /// nobody else may write there.
 std::vector<std::filesystem::path> user_cache_bases();
 
-/// Why nothing is read from such a folder, or from one of those in it: "it belongs to another
-/// user". Empty if it is read.
+/// The reason why nothing is read from such a folder, or from a folder in it: "it belongs to
+/// another user". Empty if it is read.
 std::string cache_base_refusal(const std::filesystem::path& base);
 
-/// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
-/// their sources.
+/// The options of the cache of voxelized models and worlds on disk, which finds them by the bytes
+/// of their sources.
 struct CacheOptions {
     bool enabled = true;  ///< false: neither read nor written
     /// Empty: `models` in the user's folder of Voxelume, which is VOXELUME_CACHE_DIR or else
     /// ~/.cache/voxelume. Kernels are always kept in the user's folder.
     std::filesystem::path folder{};
-    /// Megabytes, at most; without it VOXELUME_CACHE_MB, or else 4096.
+    /// Maximum size in megabytes; without it VOXELUME_CACHE_MB, or else 4096.
     std::optional<uint64_t> max_megabytes{};
 };
 

@@ -20,7 +20,7 @@
 
 namespace voxelume::v1 {
 
-/// How frames are rendered.
+/// The options of rendering frames.
 struct RenderOptions {
     Channels channels{};        ///< channels of images in memory
     CacheOptions cache{};       ///< cache of models and worlds on disk
@@ -62,20 +62,20 @@ Image render_image(const Scene& scene, const std::vector<Device>& devices, int f
 Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int frame = 1,
                      const RenderOptions& options = {}, Statistics* statistics = nullptr);
 
-/// Views of a light-field display: from places in a row, through one window.
+/// Views of a light-field display: from positions in a row, through one window.
 struct Quilt {
     int columns = 8;   ///< columns of views in the image
     int rows = 6;      ///< rows of views; at most 1,000 views in all
-    double cone = 40;  ///< degrees between the outermost places, as seen from the window
-    double focus = 0;  ///< metres before the observer to the window, where what is seen lies in the
-                       ///< screen; 0: to what the observer looks at
-    /// Metres between the outermost places, instead of `cone`, as between the eyes of a stereo pair
-    /// that has two columns and a row; 0: `cone` counts.
+    double cone = 40;  ///< degrees between the outermost positions, as seen from the window
+    double focus = 0;  ///< metres from the observer to the window, which is the plane of the
+                       ///< screen; 0: to the point that the observer looks at
+    /// Metres between the outermost positions, instead of `cone`, as between the eyes of a stereo
+    /// pair with two columns and one row; 0: `cone` counts.
     double separation = 0;
 };
 
-/// What the names of a quilt's files end with before ".png", by which players know it: its columns,
-/// its rows and the proportions of its views, as in "_qs8x6a0.75".
+/// The end of the names of a quilt's files before ".png", by which players recognize it: its
+/// columns, its rows and the proportions of its views, as in "_qs8x6a0.75".
 std::string quilt_suffix(const Quilt& quilt, Size view);
 
 /// Renders a frame's views and lays them side by side: the leftmost at the bottom left, the
@@ -89,11 +89,11 @@ std::vector<Image> render_views(const Scene& scene, const std::vector<Device>& d
                                 const Quilt& quilt, int frame = 1,
                                 const RenderOptions& options = {});
 
-/// The image that render_quilt makes of the views that render_views has given. Throws Error::usage
-/// for other numbers or sizes of images.
+/// The image that render_quilt makes of the views of render_views. Throws Error::usage for other
+/// numbers or sizes of images.
 Image join_views(const std::vector<Image>& views, const Quilt& quilt);
 
-/// A frame that was rendered. What the job doesn't ask for is empty.
+/// A frame that was rendered. Results that the job doesn't ask for are empty.
 struct RenderedFrame {
     int frame = 1;                   ///< its number
     std::optional<Image> image{};    ///< empty if none was asked for, or it was written in bands
@@ -107,14 +107,14 @@ struct FrameFiles {
     int frame = 1;                                 ///< its number
     std::vector<std::filesystem::path> images{};   ///< files of images, .exr and .png
     std::vector<std::filesystem::path> volumes{};  ///< files in any format of volumes
-    /// The frame's OpenEXR file of an earlier job, of which nothing but the samples and the devices
-    /// differed, with fewer samples: 1, 2, 4, 8, ... They aren't rendered again, and the image has
-    /// the bits that it has with all samples in one job. It needs `float_color` and channels of
-    /// colour, geometry and numbers alone. Empty: there is none.
+    /// The frame's OpenEXR file of an earlier job that differed only in its number of samples, 1,
+    /// 2, 4, 8, ... and fewer than now, and in its devices. These samples aren't rendered again,
+    /// and the image has the same bits as with all samples in one job. The file needs `float_color`
+    /// and only channels of colour, geometry and numbers. Empty: there is none.
     std::filesystem::path earlier{};
 };
 
-/// Frames to be rendered, and what becomes of them.
+/// Frames to be rendered, and the use of the results.
 struct FrameJob {
     std::vector<FrameFiles> frames{};  ///< frames in the order of delivery; one or more
     ImageFileOptions image_files{};    ///< how images are written
@@ -129,22 +129,22 @@ struct FrameJob {
 /// shows. A job without either stands for the OpenEXR files of its options.
 Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
 
-/// What frames are made from: 32 hexadecimal digits each, a hash of the library's version, of the
-/// scene with its size, samples, light and crop, and of the bytes of all files that the frame
-/// shows, with those that they lead to. render_frames writes it, for images with the options of
-/// their files, into the files of formats that have room for a text in their headers (.exr, .png,
-/// .nrrd, .vdb, .ply), with a hash of all their bytes.
+/// Hashes of everything from which frames are made, 32 hexadecimal digits each: of the library's
+/// version, of the scene with its size, samples, light and crop, and of the bytes of all files that
+/// the frame shows, with those that they lead to. render_frames writes them, for images with the
+/// options of their files, into files of formats that have room for a text in their headers (.exr,
+/// .png, .nrrd, .vdb, .ply), with a hash of all their bytes.
 std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames);
 
 /// The hashes of the frames' volumetric images, which are whole where the scene has a crop.
 std::vector<std::string> volume_hashes(const Scene& scene, const std::vector<int>& frames);
 
-/// What is known of a frame's file that was written before.
+/// The state of a frame's file that was written before.
 enum class FrameFileState {
-    missing,  ///< there is none
-    damaged,  ///< it isn't as it was written, or its format has no room for a hash
-    stale,    ///< it was made from something else
-    current   ///< it is whole, and what would be rendered
+    missing,  ///< there is no file
+    damaged,  ///< the file isn't as it was written, or its format has no room for a hash
+    stale,    ///< the file was made from something else
+    current   ///< the file is whole, and equals what would be rendered
 };
 
 /// Reads the file of a frame's image, .png or .exr, and compares it with the frame's hash and the
@@ -156,8 +156,8 @@ FrameFileState image_file_state(const std::filesystem::path& file, const std::st
 /// volume_hashes.
 FrameFileState volume_file_state(const std::filesystem::path& file, const std::string& hash);
 
-/// Puts an image together from the OpenEXR files of its parts and writes it to `files`, .exr or
-/// .png, with the bytes that render_frames writes of the whole image.
+/// Joins the OpenEXR files of an image's parts and writes the image to `files`, .exr or .png, with
+/// the bytes that render_frames writes for the whole image.
 ///
 /// The parts are those of Scene::with_crop, whole rows one below the other in any order, written
 /// with `float_color` and with all channels that `files` need. `hash` is that of the whole frame,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene: read from a file or text, or built from plain structs; checked once, then unchangeable.
+// A scene: read from a file or text, or built from plain structs; checked once, then immutable.
 #pragma once
 
 #include <filesystem>
@@ -18,57 +18,58 @@
 
 namespace voxelume::v1 {
 
-/// All that a scene file says, as plain structs. Lengths are metres, angles degrees, colours linear
-/// Rec. 709; axes are right-handed with Y up. Defaults and ranges are those of the scene format.
+/// Everything that a scene file says, as plain structs. Lengths are metres, angles degrees, colours
+/// linear Rec. 709; axes are right-handed with Y up. Defaults and ranges are those of the scene
+/// format.
 struct SceneDescription {
-    std::string name = "scene";         ///< what messages call it
-    World world{};                      ///< the lattice, and the space in it
-    std::vector<Material> materials{};  ///< materials, which objects name
-    std::vector<Model> models{};        ///< models, which objects name
+    std::string name = "scene";         ///< name in messages
+    World world{};                      ///< the lattice, and the environment
+    std::vector<Material> materials{};  ///< materials, to which objects refer
+    std::vector<Model> models{};        ///< models, to which objects refer
     std::vector<Object> objects{};      ///< models placed in the world
-    /// Sources of light. Without a value, and without a material that shines, one comes from over
-    /// the observer's left shoulder; an empty list is dark.
+    /// Lights. Without a value, and without an emissive material, one light comes from over the
+    /// observer's left shoulder; with an empty list there is none.
     std::optional<std::vector<Light>> lights{};
-    /// Who looks, from where, at what; without a value one who sees all objects, from the right of
-    /// the front and from above.
+    /// The observer and its display; without a value an observer who sees all objects, from the
+    /// right of the front and from above.
     std::optional<Observer> observer{};
-    Animation animation{};    ///< frames, and what moves
+    Animation animation{};    ///< frames, and the tracks that change them
     RenderSettings render{};  ///< the flat image
 };
 
 /// A value that replaces one of a scene's, or is added to it, before the scene is read and checked.
 struct SceneChange {
-    /// The path to the value by the keys of the scene format, as tracks have it:
-    /// "objects.ball.position". Items of lists go by their names or by their places, "lights[0]" or
-    /// "lights.0". Keys that the scene lacks are added; names of models and materials with them if
-    /// the path ends there.
+    /// The path to the value by the keys of the scene format, as in tracks:
+    /// "objects.ball.position". Items of lists are named by their names or their indices,
+    /// "lights[0]" or "lights.0". Keys that the scene lacks are added; new models and materials are
+    /// added if the path ends at their name.
     std::string path{};
-    /// JSON; or numbers with commas between, which are a list; or a text without quotes.
+    /// JSON; or numbers separated by commas, which are a list; or a text without quotes.
     std::string value{};
-    /// What messages call the change: "--set objects.ball.position=0,1,0"; empty: its path.
+    /// The change in messages: "--set objects.ball.position=0,1,0"; empty: its path.
     std::string origin{};
 };
 
-/// Where a scene's files are, and what replaces its values.
+/// The folders of a scene's files, and changes of its values.
 struct SceneOptions {
     /// Folders in which files that the scene names are looked for, after the scene's own and before
     /// those of the environment variable VOXELUME_ASSETS. Files must lie below these folders.
     std::vector<std::filesystem::path> assets{};
-    /// What is known of models that the scene is fitted to. Rendering with the same options uses
-    /// what was read for that, once.
+    /// The cache of known models to which the scene is fitted. Rendering with the same options uses
+    /// files that were read for fitting, once.
     CacheOptions cache{};
-    /// Values to be changed, one after the other. What is wrong with one is Error::usage, whose
-    /// sentence begins with the change's origin.
+    /// Values to be changed, one after the other. A mistake in one is Error::usage, whose sentence
+    /// begins with the change's origin.
     std::vector<SceneChange> changes{};
     /// False for a text that a program made: messages then name keys alone, not lines.
     bool has_lines = true;
-    /// Voxels in memory that models name in place of files; read while the scene is made. Throws
-    /// Error::usage for two of one name, for no or negative sizes, and for arrays without a voxel,
-    /// Error::limit for more voxels than a model may have.
+    /// Voxels in memory that models name in place of files; they are read while the scene is made.
+    /// Throws Error::usage for two arrays of one name, for zero or negative sizes, and for arrays
+    /// without a voxel, Error::limit for more voxels than a model may have.
     std::vector<VoxelArray> voxels{};
-    /// Degrees by which the observer goes to his right, around a vertical axis through what he
-    /// looks at, or through the middle of the world if he looks at nothing. Throws Error::usage for
-    /// an observer that moves.
+    /// Degrees by which the observer moves to the right, around a vertical axis through the point
+    /// that it looks at, or through the middle of the world without such a point. Throws
+    /// Error::usage for an observer that moves.
     double orbit = 0;
 };
 
@@ -92,8 +93,8 @@ class Scene {
     /// the description's name as its file, and a key such as "objects[0].material", but no line.
     static Scene build(const SceneDescription& description, const SceneOptions& options = {});
 
-    /// Returns the scene with another image size, whole; the angles of a display with square pixels
-    /// follow, and so does a fitted observer.
+    /// Returns the scene with another image size, as a whole picture; the angles of a display with
+    /// square pixels follow, and so does a fitted observer.
     Scene with_size(Size size) const;
     /// Returns the scene with a part of its flat image as the image: `size` pixels from column and
     /// row `first` on, counted from 0 at the top left. The bits are those of the whole image there;
@@ -104,33 +105,34 @@ class Scene {
     /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
-    /// Returns the scene with as many samples as its flat images need: those of each 4 x 4 pixels
-    /// are doubled, from 16 to at most `max_samples`, until their standard error is at most
-    /// `error` of their mean light, by half of what two halves of them differ by. With `seconds`
-    /// above 0 none are doubled for which an image's time won't suffice, and an `error` of 0 is
-    /// never reached. Throws Error::usage for numbers below 0, for two zeros, for samples that
-    /// aren't from 32 to 4096, and for a part of an image that `with_crop` refuses with them.
+    /// Returns the scene with as many samples as its flat images need: the samples of each 4 x 4
+    /// pixels are doubled, from 16 to at most `max_samples`, until their standard error is at most
+    /// `error` times their mean light. The error is estimated as half of the difference between two
+    /// halves of the samples. With `seconds` above 0 samples are only doubled if the image's time
+    /// suffices, and an `error` of 0 is never reached. Throws Error::usage for numbers below 0, for
+    /// two zeros, for samples that aren't from 32 to 4096, and for a part of an image that
+    /// `with_crop` refuses with them.
     Scene with_noise(double error, double seconds = 0, int max_samples = 4096) const;
 
     /// Returns the scene in another light.
     Scene with_light(LightMode light) const;
 
-    /// The file that it was read from; empty for a scene that was built.
+    /// The file from which the scene was read; empty for a scene that was built.
     const std::filesystem::path& file() const;
-    /// Width and height of its image, pixels.
+    /// Width and height of the scene's image, pixels.
     Size size() const;
     bool moves() const;  ///< true if any frame may differ from another
     int frames() const;  ///< number of frames of the animation; 1 without one
-    /// Frames a second of its animation.
+    /// Frames per second of the scene's animation.
     double frames_per_second() const;
-    /// Names of the objects, in the order of the numbers that images have for them, from 1 on.
+    /// Names of the objects, in the order of their numbers in images, from 1 on.
     std::vector<std::string> object_names() const;
-    /// What the scene leaves out and was found from its objects: members of a scene file, a line
-    /// each; empty where nothing was.
+    /// The parts that the scene leaves out and that were found from its objects: members of a scene
+    /// file, a line each; empty if there are none.
     std::string fitted() const;
-    /// True if its only light is the one of scenes that say nothing of lights.
+    /// True if the scene's only light is the default one of scenes without a key for lights.
     bool has_default_light() const;
-    /// What the scene holds, in lines for people.
+    /// A description of the scene in lines for people.
     std::string describe() const;
 
     struct Implementation;

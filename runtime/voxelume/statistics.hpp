@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rendering took: counts, times and memory.
+// The work of rendering: counts, times and memory.
 #pragma once
 
 #include <array>
@@ -15,21 +15,21 @@
 
 namespace voxelume::v1 {
 
-/// What a frame's world is to the one before on its device.
+/// The relation of a frame's world to the one before on its device.
 enum class WorldReuse { kept, instances_moved, built };
 
-/// What a frame's image is to the one before on its device.
+/// The relation of a frame's image to the one before on its device.
 enum class ImageReuse {
-    kept,    ///< the frame is still
+    kept,    ///< the image didn't change
     shaded,  ///< new light on the same surfaces
     traced
 };
 
-/// The word for it in JSON: "kept", "instances moved" or, for `built`, "formed": the word that
-/// older versions wrote, which scripts compare.
+/// The word in JSON: "kept", "instances moved" or, for `built`, "formed", which older versions
+/// wrote and scripts compare.
 const char* name_of(WorldReuse world);
 
-/// The word for it in summaries and in JSON: "kept", "shaded" or "traced".
+/// The word in summaries and in JSON: "kept", "shaded" or "traced".
 const char* name_of(ImageReuse image);
 
 /// Seconds that each stage took.
@@ -48,11 +48,11 @@ struct RayCounts {
     uint64_t beams = 0;                ///< beams sent along 16 sight rays each
     uint64_t clear_beams = 0;          ///< beams among these that see nothing
     uint64_t display_lines = 0;        ///< probe lines along a display's lattice
-    uint64_t clear_display_lines = 0;  ///< lines not sent, as they pass all objects by
+    uint64_t clear_display_lines = 0;  ///< lines not sent, as they miss all objects
     uint64_t contrasting_pixels = 0;   ///< pixels of adaptive images that have all samples
     uint64_t shadow_rays = 0;          ///< rays to lights
     uint64_t light_beams = 0;          ///< beams from lights, where shadow rays end
-    uint64_t secondary_rays = 0;       ///< rays reflected, refracted or gone on through surfaces
+    uint64_t secondary_rays = 0;       ///< rays reflected, refracted or continued through surfaces
     uint64_t ended_paths = 0;          ///< paths not followed for their small weight
     uint64_t medium_overflows = 0;     ///< rays in more overlapping objects than they can remember
     uint32_t not_finite = 0;           ///< values that became 0
@@ -70,12 +70,12 @@ struct InstanceCounts {
     double seconds = 0;      ///< making them ready
 };
 
-/// What one frame made again.
+/// The work of one frame.
 struct FrameStatistics {
     int frame = 1;                          ///< its number
-    size_t device = 0;                      ///< its place in Statistics::devices
-    WorldReuse world = WorldReuse::built;   ///< what was done to the world
-    ImageReuse image = ImageReuse::traced;  ///< what was done for the image
+    size_t device = 0;                      ///< its index in Statistics::devices
+    WorldReuse world = WorldReuse::built;   ///< change of the world
+    ImageReuse image = ImageReuse::traced;  ///< work for the image
     uint64_t meshes_read = 0;               ///< files of models
     uint64_t voxelized = 0;                 ///< models, and exact objects
     uint64_t models_from_cache = 0;         ///< models whose voxels were on the disk
@@ -83,9 +83,9 @@ struct FrameStatistics {
     bool world_from_cache = false;          ///< the world of an earlier run was read
     uint32_t instances_moved = 0;           ///< instances that are new or stand elsewhere
     uint32_t instance_models_indexed = 0;   ///< models made ready for rays
-    /// True: nothing is kept for the device's next frame, for want of memory.
+    /// True: nothing is kept for the device's next frame, for lack of memory.
     bool keeps_nothing = false;
-    StageSeconds seconds{};  ///< waiting included, where frames overlap
+    StageSeconds seconds{};  ///< includes waiting, where frames overlap
     uint32_t moments = 1;    ///< moments that the image's samples show, while a shutter is open
 };
 
@@ -94,10 +94,10 @@ struct DeviceStatistics {
     std::string name{};     ///< name that its driver gives
     std::string driver{};   ///< version of its driver
     int compute_units = 0;  ///< compute units, as OpenCL counts them
-    int lanes = 1;          ///< rays that one work-item takes
+    int lanes = 1;          ///< rays that one work-item handles
 };
 
-/// What a run took: the sums over its frames and devices, or the largest of a frame for sizes.
+/// The work of a run: sums over its frames and devices; sizes are those of the largest frame.
 struct Statistics {
     std::vector<DeviceStatistics> devices{};          ///< devices that rendered
     Size size{};                                      ///< pixels of an image
@@ -105,20 +105,20 @@ struct Statistics {
     int bands = 1;                                    ///< bands of each image; 1: it was whole
     std::optional<std::array<int, 3>> volume_size{};  ///< voxels of a volumetric image, if any
     size_t files = 0;                                 ///< files written
-    uint64_t voxels = 0;          ///< voxels with a surface, in the frame with most
-    uint64_t triangles = 0;       ///< triangles of the models, in the frame with most
+    uint64_t voxels = 0;          ///< voxels with a surface, in the largest frame
+    uint64_t triangles = 0;       ///< triangles of the models, in the largest frame
     uint64_t culled_objects = 0;  ///< objects that no ray can meet: not voxelized
-    uint64_t world_bytes = 0;     ///< bytes on the device, in the frame with most
+    uint64_t world_bytes = 0;     ///< bytes on the device, in the largest frame
     RayCounts rays{};             ///< counts of all frames
-    InstanceCounts instances{};   ///< counts of the frame with most
+    InstanceCounts instances{};   ///< counts of the frame with the maximum
     StageSeconds seconds{};       ///< seconds of all frames, by stage
     double open_seconds = 0;      ///< seconds before the first frame
     double write_seconds = 0;     ///< seconds of writing files, perhaps while other work went on
     double total_seconds = 0;     ///< seconds by the clock
-    /// Frame from which on none overlapped, for want of memory.
+    /// Frame from which on none overlapped, for lack of memory.
     std::optional<int> one_by_one_from;
     std::vector<FrameStatistics> frames{};  ///< one for each frame
-    std::vector<Warning> warnings{};        ///< what is probably wrong, each once
+    std::vector<Warning> warnings{};        ///< probable mistakes, each once
 
     // Counters of the devices since they were opened.
     uint64_t peak_device_bytes = 0;              ///< bytes in buffers at once, all devices together

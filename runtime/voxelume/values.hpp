@@ -6,7 +6,7 @@
 
 namespace voxelume::v1 {
 
-/// Components x, y, z; metres where nothing else is said.
+/// Components x, y, z; metres unless stated otherwise.
 using Vec3 = std::array<double, 3>;
 
 /// Red, green and blue: linear Rec. 709.

@@ -19,11 +19,11 @@
 
 namespace voxelume::v1 {
 
-/// What a voxel of a display shows.
+/// The content of a voxel of a display.
 enum class VoxelKind : uint8_t {
     space,   ///< the medium
     object,  ///< a surface
-    unseen   ///< what lies behind a surface; rendering lists none
+    unseen   ///< space behind a surface; rendering lists none
 };
 
 /// The file formats of volumetric images; scenes/VOLUMES.md describes them.
@@ -48,7 +48,7 @@ VolumeFormat volume_format_named(std::string_view name);
 /// The names of all formats, in the order of VolumeFormat.
 std::span<const std::string_view> volume_format_names();
 
-/// How light becomes the few levels of a display's voxel.
+/// The conversion of light to the few levels of a display's voxel.
 enum class Dither {
     none,   ///< the nearest level
     bayer8  ///< ordered: 8 x 8 thresholds, shifted from plane to plane
@@ -57,7 +57,7 @@ enum class Dither {
 /// An axis of the observer.
 enum class Axis { x, y, z };
 
-/// How a volumetric image becomes a file.
+/// The options of a volumetric image's file.
 struct VolumeFileOptions {
     std::optional<VolumeFormat> format{};  ///< format; without it the name's ending says it
     bool compress = true;                  ///< NRRD: gzip instead of raw
@@ -70,9 +70,9 @@ struct VolumeFileOptions {
     int radii = 0;                   ///< radii of cylinders; 0: half of the shorter side
 };
 
-/// Where the voxels of a volumetric image are.
+/// The positions of a volumetric image's voxels.
 struct VolumeFrame {
-    VolumeLayout layout = VolumeLayout::lattice;  ///< what its voxels' axes are
+    VolumeLayout layout = VolumeLayout::lattice;  ///< meaning of its voxels' axes
     std::array<int, 3> size{};                    ///< voxels along the three axes of the layout
     /// Metres of the observer's coordinates. In a lattice, voxel (i, j, k) fills
     /// origin + edge * [(i, j, k), (i, j, k) + 1].
@@ -97,7 +97,7 @@ class Volume {
     /// file that is missing, damaged or none of these, Error::usage for formats that aren't read.
     static Volume read(const std::filesystem::path& file);
 
-    /// Where the volume's voxels lie in the world.
+    /// The positions of the volume's voxels in the world.
     const VolumeFrame& frame() const;
     size_t count() const;  ///< number of the voxels that are listed
 
@@ -108,7 +108,7 @@ class Volume {
     std::span<const float> opacities() const;      ///< 0..1
     std::span<const float> depths() const;         ///< metres from the observer
     std::span<const uint32_t> object_ids() const;  ///< numbers of objects, from 1; 0: no object
-    /// What each voxel shows.
+    /// The content of each voxel.
     std::span<const VoxelKind> kinds() const;
 
     /// Writes a file by the format of its ending. Each file appears whole or not at all, and the

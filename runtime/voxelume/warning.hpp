@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is probably wrong with a scene or its files, and doesn't stop a call.
+// Probable mistakes in a scene or its files, which don't stop a call.
 #pragma once
 
 #include <string>
 
 namespace voxelume::v1 {
 
-/// What a warning is about. More may be added at the end.
+/// The subject of a warning. More may be added at the end.
 enum class WarningKind {
     outside_world,        ///< nothing of an object can lie in the world
     no_voxels,            ///< an object became no voxel

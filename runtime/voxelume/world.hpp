@@ -12,7 +12,7 @@
 
 namespace voxelume::v1 {
 
-/// A number for each frame in place of the last run of `#` in a file's name.
+/// Numbered files, one for each frame. The number replaces the last run of `#` in the file's name.
 struct Sequence {
     int first = 1;      ///< number of the first file
     int last = 1;       ///< number of the last file
@@ -33,43 +33,43 @@ struct BallDensity {
     double falloff = 0;  ///< metres of the rim over which the density falls smoothly, up to radius
 };
 
-/// What light meets where a file has a value; see GridDensity::transfer.
+/// The optical properties of a medium at one value of a file; see GridDensity::transfer.
 struct TransferPoint {
     double value = 0;              ///< value of the file; above that of the point before
     double absorption = 0;         ///< absorption per metre, times the medium's
     std::optional<Color> color{};  ///< radiance of an infinitely deep medium; without it white
 };
 
-/// A float grid of an OpenVDB file, or the values of an array, in metres by its own transform and
-/// then placed.
+/// A float grid of an OpenVDB file, or the values of an array. Its own transform gives metres,
+/// which are then placed.
 struct GridDensity {
     std::filesystem::path file{};        ///< .vdb, .nrrd, .nii, .hdr or .npy
-    std::optional<Sequence> sequence{};  ///< makes it a file for each frame
+    std::optional<Sequence> sequence{};  ///< a file for each frame
     std::string grid = "density";        ///< its name in the file
-    Vec3 position{};                     ///< metres: where the grid's origin goes
+    Vec3 position{};                     ///< metres: position of the grid's origin
     Vec3 turn{};          ///< degrees [psi, theta, gamma]: R_y(psi) * R_x(theta) * R_z(gamma)
     Vec3 scale{1, 1, 1};  ///< negative ones mirror
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
-    /// The file's values are no densities, but what these points say, linear between them.
+    /// The transfer function, linear between these points, from the file's values to densities.
     std::vector<TransferPoint> transfer{};
-    std::optional<Vec3> lit{};  ///< direction of light that brings out surfaces, with a transfer
-    /// True: the scene's lights do, with a transfer, instead of `lit`.
+    std::optional<Vec3> lit{};  ///< with a transfer: direction of light that shows surfaces
+    /// With a transfer: true if the scene's lights show surfaces, instead of `lit`.
     bool is_lit_by_scene = false;
-    /// Up to 15 further scans in the same medium, or windows of one, without others of their own.
+    /// Up to 15 further scans in the same medium, or windows of one, without `others` of their own.
     std::vector<GridDensity> others{};
 };
 
-/// What fills the space between the objects.
+/// The medium between the objects.
 struct Medium {
-    Color absorption{};  ///< per metre at density 1, at least 0; with a transfer 0 stands for 1
-    Color color{};       ///< radiance that an infinitely deep medium shows, at least 0
+    Color absorption{};  ///< per metre at density 1, at least 0; with a transfer 0 means 1
+    Color color{};       ///< radiance of an infinitely deep medium, at least 0
     /// The density at each voxel of the world; monostate: 1 everywhere.
     std::variant<std::monostate, HeightDensity, BallDensity, GridDensity> density{};
-    /// Per metre at density 1, at least 0: followed in global light. With a transfer, per metre
-    /// where the transfer's absorption is 1.
+    /// Per metre at density 1, at least 0; only in global light. With a transfer, per metre where
+    /// the transfer's absorption is 1.
     Color scattering{};
-    /// The mean cosine of the angle by which light is scattered (Henyey & Greenstein 1941), -0.99
-    /// to 0.99: 0 in all directions alike, above 0 forwards.
+    /// The mean cosine of the scattering angle (Henyey & Greenstein 1941), -0.99 to 0.99: 0 is
+    /// equal in all directions, positive values are forwards.
     double anisotropy = 0;
 };
 
@@ -87,10 +87,10 @@ struct GradientSky {
 
 /// A clear sky with a sun in it (Preetham, Shirley and Smits 1999).
 struct SunSky {
-    Vec3 direction{0, -1, 0};        ///< where the sun's light travels; downwards
+    Vec3 direction{0, -1, 0};        ///< direction in which the sun's light travels; downwards
     double angle = 0.53;             ///< degrees that the disc fills, up to 90
     Color color{1, 0.95, 0.88};      ///< colour of the disc's light
-    double intensity = 1;            ///< what arrives from the disc
+    double intensity = 1;            ///< irradiance of the disc
     double turbidity = 3;            ///< haze, 2 clear to 10 thick
     Color ground{0.25, 0.23, 0.21};  ///< radiance from below the horizon
 };
@@ -101,15 +101,15 @@ struct MapSky {
     double rotation = 0;           ///< degrees, counterclockwise as seen from above
 };
 
-/// What rays see that leave the world, and what lights surfaces from there.
+/// The environment that rays see where they leave the world, and that lights surfaces.
 struct Sky {
-    std::variant<ConstantSky, GradientSky, SunSky, MapSky> kind{};  ///< what it looks like
-    double strength = 1;  ///< multiplies its radiance, but for the sun's disc
-    int samples = 16;     ///< directions that a point in local light looks to, 0..1024
+    std::variant<ConstantSky, GradientSky, SunSky, MapSky> kind{};  ///< the kind of sky
+    double strength = 1;  ///< multiplies the radiance, except that of the sun's disc
+    int samples = 16;     ///< directions in which a point in local light samples the sky, 0..1024
     bool visible = true;  ///< true: observers see it, who otherwise see the background
 };
 
-/// The lattice S that all objects are placed in, and the space around it.
+/// The lattice S in which all objects are placed, and the space around it.
 struct World {
     Vec3 voxel_size{};                ///< metres along each axis; 0: by `resolution`
     std::optional<int> resolution{};  ///< voxels along the longest side; without it 256
@@ -119,25 +119,25 @@ struct World {
     Vec3 max{};          ///< the opposite corner; the last voxels may reach past it
     Color background{};  ///< radiance where a ray leaves the world
     Color ambient{};     ///< light that reaches every surface; black: none, or the default light's
-    std::optional<Medium> medium{};  ///< what fills the space between objects
-    std::optional<Sky> sky{};        ///< instead of the background
+    std::optional<Medium> medium{};  ///< the medium between objects
+    std::optional<Sky> sky{};        ///< replaces the background
 };
 
-/// A second colour in every other block of a lattice that stands still in the world.
+/// A second colour in every other block of a lattice that is fixed in the world.
 struct Checker {
     Color color{};  ///< linear Rec. 709, of every other block
     Vec3 size{};    ///< edges of a block; 0: no change along that axis
     Vec3 origin{};  ///< a corner of a block of the material's own colour
 };
 
-/// How a surface looks (Whitted 1980), and the body behind it. The material named "default" is what
-/// objects without a material have.
+/// The look of a surface (Whitted 1980), and of the body behind it. Objects without a material have
+/// the material named "default".
 struct Material {
     std::string name{};          ///< name by which objects refer to it
     Color color{0.8, 0.8, 0.8};  ///< 0..1
     double diffuse = 1;          ///< part of the light that Lambert's term returns, 0..1
     /// Part of the light that the Blinn-Phong highlight returns, 0..1; otherwise 0. Physically
-    /// based: what the reflectance of what isn't metal is multiplied by; otherwise 1.
+    /// based: factor of the reflectance of the non-metallic part; otherwise 1.
     std::optional<double> specular{};
     double shininess = 50;  ///< exponent of the highlight, 1..1e6
     double reflection = 0;  ///< part of the reflected ray's value, 0..1
@@ -148,13 +148,13 @@ struct Material {
     Color absorption{};     ///< inside of the object, per metre, at least 0
     Color emission{};       ///< radiance that the surface sends out, at least 0
     std::optional<Checker> checker{};  ///< a second colour in every other block
-    /// One of these makes the material physically based: then `color`, `diffuse`, `shininess`,
-    /// `reflection`, `refraction` and `fresnel` say nothing. scenes/manual/materials.md tells what
-    /// is shown.
+    /// The material is physically based if it has one of these: then `color`, `diffuse`,
+    /// `shininess`, `reflection`, `refraction` and `fresnel` have no effect. See
+    /// scenes/manual/materials.md.
     std::optional<Color> base_color{};       ///< 0..1; otherwise `color`
     std::optional<double> metallic{};        ///< share of metal, 0..1; otherwise 0
     std::optional<double> roughness{};       ///< 0 polished to 1 dull; otherwise 0.5
-    std::optional<double> transmission{};    ///< share of glass, of what isn't metal, 0..1
+    std::optional<double> transmission{};    ///< share of glass in the non-metallic part, 0..1
     std::optional<double> coat{};            ///< share under a clear coat, 0..1; otherwise 0
     std::optional<double> coat_roughness{};  ///< roughness of the coat, 0..1; otherwise 0
 };

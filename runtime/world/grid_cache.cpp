@@ -20,8 +20,8 @@ bool has_own_voxels(const Model& model) {
     return !model.voxels.empty() && !lists_primitives(model.surface);
 }
 
-/// A model without its name, its place in the scene, and the values that its frame contains
-/// already.
+/// A model without its name, its place in the scene's text, and the values that its frame already
+/// contains.
 Model source_of(Model model) {
     model.name.clear();
     model.where = {};
@@ -34,19 +34,20 @@ Model source_of(Model model) {
     return model;
 }
 
-/// True if a model may be closed where a lattice ends, and isn't because light goes through it.
+/// True if a model may be closed where a lattice ends, but stays open because light goes through
+/// it.
 bool stays_open(const Model& model, bool transmits) {
     return transmits && model.solid && lists_primitives(model.surface);
 }
 
-/// The whole mesh of a model with cuts, as a set.
+/// The whole mesh of a model with cuts, as a voxel set.
 Model whole_of(Model model, VoxelSet set) {
     model.cuts.clear();
     model.set = set;
     return model;
 }
 
-/// The sets of its whole mesh from which a cut model is made.
+/// The sets of the whole mesh from which a cut model is made.
 std::vector<VoxelSet> body_sets(const Model& model) {
     if (shows_voxels(model.surface) && model.set != VoxelSet::solid)
         return {model.set, VoxelSet::solid};
@@ -146,8 +147,8 @@ void GridCache::use(const Source& source) {
     if (found != kept_.end()) found->is_used = true;
 }
 
-/// Makes the grid of a model with cuts. The mesh's own grids are kept like any others, so while
-/// cuts move only the cuts are voxelized again.
+/// Makes the grid of a model with cuts. The mesh's own grids are kept like others, so moving cuts
+/// are the only thing that is voxelized again.
 BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool keeps) {
     const Solid rest = rest_of(source.frame, source.frame_from_model, model.cuts);
     const auto body = [&](VoxelSet set) {
@@ -167,7 +168,8 @@ BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool kee
     return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});
 }
 
-/// True if a grid is one of a model, and no other of it was asked for: that is old.
+/// True if a grid belongs to a model of which no grid was asked for: it is left from earlier
+/// frames.
 bool GridCache::is_old(const Model& model, const Source& source) const {
     const std::optional<Model> part = source.model.is_thin_part ? thin_part_of(model) : model;
     if (!part) return false;

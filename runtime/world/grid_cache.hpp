@@ -12,31 +12,31 @@
 
 namespace voxelume {
 
-/// The grids of a scene's objects. A model is voxelized in its own space for all its objects, or
-/// in the world for each object. What the store's cache has of a mesh that an
-/// earlier run voxelized is taken from there.
+/// The grids of a scene's objects. A model is voxelized in its own space for all its objects, or in
+/// the world for each object. Meshes that an earlier run voxelized are taken from the store's
+/// cache.
 class GridCache {
   public:
     GridCache(const Device& device, AssetStore& meshes)
         : device_(device), meshes_(meshes), voxelizer_(device) {}
 
-    /// The grid that shows `object`, of which `model` is the model, on a lattice. An exact solid is
-    /// closed where the lattice ends, unless light goes through it: water that the world's sides
-    /// cut goes on beyond them. Throws Error::input and Error::limit as voxelizing does, with
+    /// The grid that shows `object`, whose model is `model`, on a lattice. An exact solid is closed
+    /// where the lattice ends, unless light goes through it: water that the world's sides cut
+    /// continues beyond them. Throws Error::input and Error::limit as voxelizing does, with
     /// messages that begin with the place in the scene.
     SharedGrid grid_of(const Object& object, const Model& model, const ObjectLattice& lattice,
                        bool transmits);
 
-    /// The grid of a model in its own space, as instances use it; of exact models, too.
+    /// The grid of a model in its own space for instances, also of exact models.
     SharedGrid own_grid_of(const Model& model, bool transmits);
 
-    /// Forgets the grids that weren't asked for since the last call. Grids of models that are
-    /// `retained` and of which none was asked for stay as they are in `scene`: the first made that
-    /// take at most `room` bytes of the device. It keeps the first made because models that are
-    /// shown in turns would otherwise push each other out.
+    /// Forgets the grids that weren't asked for since the last call. Unused grids of `retained`
+    /// models are kept if they are as in `scene`: those made first, up to `room` bytes of the
+    /// device. Keeping the first ones helps models that are shown in turns, which would otherwise
+    /// displace each other.
     void forget_unused(const Scene& scene, const std::vector<bool>& retained, uint64_t room);
 
-    /// The bytes on the device of the grids that the last call kept though nothing asked for them.
+    /// The bytes on the device of unused grids that the last call kept.
     uint64_t retained_bytes() const { return retained_bytes_; }
 
     uint64_t voxelized() const { return voxelized_; }      ///< grids made so far
@@ -46,7 +46,7 @@ class GridCache {
   private:
     /// Everything that a grid depends on.
     struct Source {
-        Model model;  ///< without the values that only its frame and messages depend on
+        Model model;  ///< without values that only matter to its frame and messages
         glm::dmat4 frame_from_model{1};
         GridFrame frame;
         bool is_open = false;  ///< a solid isn't closed where the frame ends
@@ -60,7 +60,7 @@ class GridCache {
 
     /// `where` begins messages; it is empty if a caller adds the place. `keeps` lets the cache
     /// store the grid. It is false for an object in the world that moves: each frame has another
-    /// grid, of many times its mesh's bytes.
+    /// grid, with many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const SourcePlace& where,
                             bool keeps = true);
     bool is_retained(const Scene& scene, const std::vector<bool>& retained,

@@ -14,7 +14,7 @@ struct InstanceReport {
     uint32_t instances = 0, models = 0;
     uint32_t moved = 0;  ///< instances that have another place than in the frame before, or are new
     uint32_t indexed = 0;            ///< models whose pyramid was built for this frame
-    uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
+    uint64_t voxels = 0, bytes = 0;  ///< voxels and bytes of the models, each counted once
     double seconds = 0;              ///< indexing and joining models, placing instances
 };
 
@@ -23,9 +23,8 @@ class InstanceModels {
   public:
     explicit InstanceModels(const Device& device) : device_(device) {}
 
-    /// Forgets the pyramids of models that aren't `listed`, except those whose grids others keep.
-    /// Among those it keeps the ones made first, as far as they take at most `room` bytes of the
-    /// device.
+    /// Forgets the pyramids of models that aren't `listed`, except those whose grids are retained
+    /// elsewhere: of these it keeps the ones made first, up to `room` bytes of the device.
     void forget_unused(const ListedInstances& listed, uint64_t room);
 
     /// The world with the scene's instances; without instances the world is unchanged. Throws
@@ -57,12 +56,12 @@ std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& wo
 uint32_t count_moved(const std::vector<InstancePlace>& before,
                      const std::vector<InstancePlace>& now);
 
-/// Removes, in a copy of a scene's models and objects, the values that change if only instances
-/// move.
+/// Removes the values that change if only instances move from copies of a scene's models and
+/// objects.
 void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,
                                    std::vector<Object>& objects);
 
-/// Moves a world's instances to where the scene's objects are now.
+/// Moves a world's instances to the current placements of the scene's objects.
 void move_instances(const Device& device, const Scene& scene, Pyramid& world);
 
 }  // namespace voxelume

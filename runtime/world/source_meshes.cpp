@@ -14,8 +14,8 @@
 namespace voxelume {
 namespace {
 
-/// Voxels by which a surface may lie off its mesh. What is farther away, as a cut or the cap over a
-/// hole, has its voxels' colours.
+/// The maximum distance, in voxels, of a surface from its mesh. Surfaces farther away, such as cuts
+/// or caps over holes, show the colours of voxels.
 constexpr double kReach = 2;
 
 /// The map from a lattice's voxels to the space that it lies in.
@@ -42,7 +42,7 @@ SourceRecord record_of(const SourcePlaces& places, const glm::dmat4& mesh_from_v
     return record;
 }
 
-/// The longest edge of the voxels that an object was made of; 0 on the world's own lattice.
+/// The longest edge of the voxels from which an object was made; 0 on the world's own lattice.
 double own_edge(ObjectLattices& lattices, const Object& object) {
     if (lattices.lattice_of(object) == Lattice::world) return 0;
     const glm::dvec3 edge = lattices.own_frame(object).voxel_edge;
@@ -84,7 +84,7 @@ SourceMeshes SourceMeshCache::meshes_of(const Scene& scene, AssetStore& meshes,
     models.reserve(sources.models.size());
     for (const int model : sources.models) {
         models.push_back(scene.models[size_t(model)]);
-        models.back().extent = {};  // which changes with the places of objects
+        models.back().extent = {};  // the extent changes with the placements of objects
     }
     if (models != models_) {
         forget();

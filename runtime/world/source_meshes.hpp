@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene -> what rays look up for each object: the meshes whose textures smooth objects show, and
-// the steps of cubes with normals.
+// scene -> the data of each object that rays look up: the meshes whose textures smooth objects
+// show, and the steps of cubes with normals.
 #pragma once
 
 #include <span>
@@ -14,20 +14,20 @@
 
 namespace voxelume {
 
-/// Brings source meshes to a device, and keeps those of the frame before.
+/// Uploads source meshes to a device, and keeps those of the frame before.
 class SourceMeshCache {
   public:
     explicit SourceMeshCache(const Device& device) : device_(device) {}
 
-    /// The meshes of a scene whose instances are `listed`. Throws Error::limit for textures that
-    /// memory doesn't suffice for.
+    /// The meshes of a scene whose instances are `listed`. Throws Error::limit if memory doesn't
+    /// suffice for the textures.
     SourceMeshes meshes_of(const Scene& scene, AssetStore& meshes, const ListedInstances& listed);
 
     void forget() { models_.clear(), joined_ = {}; }
 
   private:
     Device device_;
-    std::vector<Model> models_;  ///< those of the frame before
+    std::vector<Model> models_;  ///< models of the frame before
     JoinedSources joined_;
 };
 

@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// Why an object may have become no voxel, and what helps.
+/// The reason why an object may have no voxel, and advice.
 const char* advice_for(const Model& model) {
     if (model.solid && !model.solid->parts.empty())
         return "its parts leave nothing of each other, it is too small or thin for its voxels, or "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// built world -> the objects that became no voxel, and a world that the cache doesn't keep
+// built world -> warnings for objects without voxels, and for a world that the cache doesn't store
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace voxelume {
 void add_empty_objects(const Scene& scene, std::span<const PlacedObject> placed,
                        std::vector<Warning>& warnings);
 
-/// Adds a warning for each of the `placed` objects of a world that has no voxel. Their grids may be
+/// Adds a warning for each of the `placed` objects of a world without voxels. Their grids may be
 /// gone.
 void add_all_objects(const Scene& scene, std::span<const PlacedObject> placed,
                      std::vector<Warning>& warnings);
@@ -26,7 +26,7 @@ void add_all_objects(const Scene& scene, std::span<const PlacedObject> placed,
 void add_empty_instances(const Scene& scene, const InstanceSet& instances,
                          std::vector<Warning>& warnings);
 
-/// Adds a warning for a world that took `seconds` and is too large to be kept.
+/// Adds a warning for a world that took `seconds` and is too large for the cache.
 void add_large_world(const World& world, uint64_t bytes, double seconds, const ModelCache& cache,
                      std::vector<Warning>& warnings);
 

@@ -30,13 +30,14 @@ auto for_world(const World& world, const Part& part) {
                           world.where);
 }
 
-/// A number that no other world of this process has.
+/// A number that is unique among the worlds of this process.
 uint64_t new_version() {
     static std::atomic<uint64_t> last = 0;
     return ++last;
 }
 
-/// Adds to a report the number of models that are voxelized while it lives, and their time.
+/// Adds the number of models that are voxelized during this object's life, and their time, to a
+/// report.
 class VoxelizingReport {
   public:
     VoxelizingReport(const GridCache& grids, const AssetStore& meshes, WorldReport& report)
@@ -80,7 +81,7 @@ WorldBuilder::Origin WorldBuilder::origin_of(const Scene& scene) {
     return origin;
 }
 
-/// The world before, with its instances where they are now.
+/// The world of the frame before, with its instances moved to their current placements.
 BuiltWorld WorldBuilder::kept_world(const Scene& scene, WorldReport& report) {
     if (density_ != scene.world.medium.density) {
         density_ = scene.world.medium.density;
@@ -122,8 +123,8 @@ BuiltWorld WorldBuilder::build(const Scene& scene, WorldReport& report,
     return rebuilt_world(scene, origin, report, retained);
 }
 
-/// Decides whether the world is kept for the next frame. Returns the bytes that may be retained of
-/// models.
+/// Decides whether the world is kept for the next frame. Returns the number of bytes of models that
+/// may be retained.
 uint64_t WorldBuilder::room_to_retain(const ScenePlan& plan, WorldReport& report) {
     const double memory = double(device_.info().memory);
     keeps_ = follows_ && plan.min_with_next < memory;
@@ -192,7 +193,7 @@ BuiltWorld WorldBuilder::rebuilt_world(const Scene& scene, const Origin& origin,
     return built;
 }
 
-/// The first of these worlds that the cache has and the device has room for.
+/// The first of these worlds that is in the cache and fits the device.
 std::optional<WorldBuilder::ReadWorld> WorldBuilder::read_world(
     const std::vector<std::string>& keys) {
     for (const std::string& key : keys) {
@@ -206,8 +207,8 @@ std::optional<WorldBuilder::ReadWorld> WorldBuilder::read_world(
     return std::nullopt;
 }
 
-/// The world's voxels from an earlier run, with only the potentially visible objects if there are
-/// such; else new voxels, which are written to the cache for later runs.
+/// The world's voxels from an earlier run, if possible with only the potentially visible objects;
+/// else new voxels, which are written to the cache for later runs.
 Pyramid WorldBuilder::kept_or_new_world(const Task& task, Indexer& indexer) {
     const std::vector<std::string> keys =
         placer_ ? std::vector<std::string>() : world_sources(task.scene, meshes_);
@@ -226,7 +227,7 @@ Pyramid WorldBuilder::kept_or_new_world(const Task& task, Indexer& indexer) {
     }
     task.report.is_from_cache = false;
     Pyramid world = new_world(task, indexer);
-    if (!task.report.warnings.empty()) return world;  // which a kept world couldn't say again
+    if (!task.report.warnings.empty()) return world;  // a cached world couldn't repeat the warnings
     const double seconds = task.report.place_seconds + task.report.index_seconds;
     Stopwatch keeping(task.report.keep_seconds);
     meshes_.cache().keep(keys.front(), world, seconds);
@@ -258,7 +259,7 @@ Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
     return world;
 }
 
-/// `shown` are the objects' grids.
+/// Places and indexes objects. `shown` are the objects' grids.
 Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
                                          std::vector<SharedGrid> shown, Indexer& indexer) {
     Stopwatch placing(task.report.place_seconds);
@@ -277,11 +278,11 @@ Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<Pla
     return pyramid;
 }
 
-/// Frees the sources that weren't used in this frame, except models that are retained. If the task
-/// keeps nothing for the next frame, it frees all of them.
+/// Frees the sources that weren't used in this frame, except retained models. If the task keeps
+/// nothing for the next frame, all are freed.
 void WorldBuilder::forget_sources(const Task& task) {
     grids_->forget_unused(task.scene, task.retained, task.room);
-    uint64_t room = device_.info().memory / kRetainedPart;  // a CPU's memory is the meshes', too
+    uint64_t room = device_.info().memory / kRetainedPart;  // for a CPU, meshes use the same memory
     for (size_t model = 0; model < task.retained.size(); ++model)
         if (task.retained[model]) meshes_.retain(task.scene.models[model], room);
     meshes_.forget_unused();

@@ -23,7 +23,7 @@ struct ScenePlan;
 enum class WorldChange : uint8_t {
     none,       ///< the same world
     instances,  ///< the same voxels; instances have moved
-    built       ///< built again, from parts that could be kept
+    built       ///< rebuilt, from kept parts where possible
 };
 
 /// The time and work of building the world, for people and tests.
@@ -35,10 +35,10 @@ struct WorldReport {
     double keep_seconds = 0;  ///< writing models and the world to the cache on disk
     uint64_t triangles = 0;
     uint64_t meshes_read = 0;
-    uint64_t culled = 0;          ///< visible objects that no ray meets, which aren't voxelized
+    uint64_t culled = 0;          ///< visible objects that no ray can meet, which aren't voxelized
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
-    uint64_t from_cache = 0;      ///< number of those whose voxels the model cache had
-    uint64_t painted_bricks = 0;  ///< bricks of the world that objects were painted into
+    uint64_t from_cache = 0;      ///< number of those whose voxels were in the model cache
+    uint64_t painted_bricks = 0;  ///< bricks of the world that were painted
     WorldChange change = WorldChange::built;
     bool is_from_cache = false;  ///< true if an earlier run built it
     bool lacks_room = false;     ///< true if memory doesn't suffice to keep what the next frame may
@@ -53,12 +53,12 @@ struct BuiltWorld {
     uint64_t version = 0;  ///< equal versions are equal worlds
 };
 
-/// Builds the worlds of successive frames, and of each only the parts that differ from the one
+/// Builds the worlds of successive frames, each time only the parts that differ from the frame
 /// before.
 ///
 /// Models' grids, the world's bricks and its pyramid are kept as long as frames show them, if the
-/// device has memory for their minimum size. Instances that move then only cost new maps. What a
-/// frame shows is the same, bit for bit, whatever came before it.
+/// device has memory for their minimum size. Moving instances then only need new maps. A frame
+/// shows the same, bit for bit, whatever came before it.
 class WorldBuilder {
   public:
     /// With `follows` = false no second frame follows the first, and nothing is retained. Meshes
@@ -90,8 +90,8 @@ class WorldBuilder {
     bool keeps() const { return keeps_; }
 
   private:
-    /// The data from which the kept world was built, if it depends on nothing else of a scene but
-    /// the places of its instances.
+    /// The data from which the kept world was built, if it depends on nothing else of a scene
+    /// except the placements of its instances.
     struct Origin {
         World world;
         std::vector<Model> models;
@@ -110,7 +110,7 @@ class WorldBuilder {
     struct Task {
         const Scene& scene;
         const std::vector<bool>& retained;
-        bool keeps;     ///< true if to keep what the next frame may use
+        bool keeps;     ///< true to keep parts for the next frame
         uint64_t room;  ///< bytes on the device for retained models
         WorldReport& report;
     };
@@ -131,10 +131,10 @@ class WorldBuilder {
     bool keeps_ = false;
     bool retains_ = true;  ///< true if models that aren't shown are retained
     AssetStore meshes_;
-    double load_seconds_ = 0;  ///< time of meshes_ in reports so far
+    double load_seconds_ = 0;  ///< time of meshes_ that is already reported
     uint64_t meshes_read_ = 0;
     std::optional<GridCache> grids_;
-    std::vector<SharedGrid> shown_;  ///< the grids that the placer's objects point to
+    std::vector<SharedGrid> shown_;  ///< the grids to which the placer's objects point
     std::optional<ReadWorld> read_;
     std::optional<WorldPlacer> placer_;
     Indexer indexer_;
@@ -144,7 +144,7 @@ class WorldBuilder {
     std::vector<InstancePlace> instance_places_;
     InstanceReport instances_;
     BuiltWorld world_;
-    Density density_;  ///< the medium's density to which world_.pyramid.clear applies
+    Density density_;  ///< the medium's density for which world_.pyramid.clear is set
 };
 
 /// The world of a single frame.

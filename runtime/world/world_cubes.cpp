@@ -22,7 +22,7 @@
 namespace voxelume {
 namespace {
 
-/// Throws where a file has a surface that isn't one of cubes.
+/// Refuses a file whose surface isn't cubes.
 void refuse_field(const Model& model) {
     if (model.voxels.empty() || model.given) return;
     const std::optional<Surface> found = surface_of_voxel_model(model.voxels);
@@ -47,7 +47,7 @@ void show_as_cubes(Scene& scene) {
     for (Object& object : scene.objects) object.placement = Placement::world;
 }
 
-/// Gives the world voxels of the edge, and the models those that become such.
+/// Gives the world, and the models that become cubes in it, voxels of this edge.
 void resize_voxels(double edge, Scene& scene) {
     World& world = scene.world;
     const glm::dvec3 factor = edge / world.voxel_size;
@@ -57,8 +57,8 @@ void resize_voxels(double edge, Scene& scene) {
         if (!model.is_sized) model.voxel_size *= factor;
 }
 
-/// Throws Error::limit if `bricks` have no room in main memory: their colours and the numbers of
-/// their materials, and the colours twice more while a file is written.
+/// Throws Error::limit if main memory can't hold `bricks`: their colours, the numbers of their
+/// materials, and two more copies of the colours while a file is written.
 void check_room(const World& world, uint32_t bricks) {
     constexpr double kBytes = 4.0 * sizeof(uint32_t) * kVoxelsPerBrick;
     const double needed = kBytes * bricks, there = double(main_memory());
@@ -70,7 +70,7 @@ void check_room(const World& world, uint32_t bricks) {
         world.where, world.voxel_size.x, bytes_text(needed), bytes_text(there));
 }
 
-/// Reads a buffer that is needed no longer.
+/// Reads a buffer and frees it.
 template <class Element>
 std::vector<Element> taken(Buffer<Element>& buffer) {
     std::vector<Element> elements = buffer.read();

@@ -11,12 +11,12 @@ namespace voxelume {
 /// The voxels of a world's cubes.
 struct CubeSize {
     double edge = 0;     ///< metres; 0: `resolution` decides
-    int resolution = 0;  ///< along the longest side of all that is shown; 0: they are the scene's
+    int resolution = 0;  ///< along the longest side of everything shown; 0: the scene's voxels
 };
 
-/// The voxels of the scene's world with every object as cubes in it, in the colours of voxels times
-/// those of materials. A voxel's opacity is its material's times its own; one below 1/512 is no
-/// voxel. Checkers, and what shines, reflects or refracts, aren't told.
+/// The voxels of the scene's world with every object as cubes, in the product of the voxels' and
+/// the materials' colours. A voxel's opacity is its material's times its own; voxels below 1/512
+/// are left out. Checkers, emission, reflection and refraction are ignored.
 ///
 /// Throws as WorldBuilder::build does, and Error::input for a world without voxels.
 VoxelModel world_cubes(const Device& device, Scene scene, AssetStore meshes, CubeSize size = {});

@@ -37,9 +37,9 @@ bool is_placed(const Scene& scene, const Object& object) {
     return !is_instanced(scene, object);
 }
 
-/// True if objects that are placed in the world change, or their models. Lights, observers, the
-/// environment and instances don't change the world's voxels, and materials only change which are
-/// seen inside.
+/// True if objects in the world's voxels, or their models, change. Lights, observers, the
+/// environment and instances don't change the world's voxels; materials only change which voxels
+/// are visible inside.
 bool world_moves(const Scene& scene) {
     return any_part_changes(scene, [&](const MovingPart& part) {
         if (part.part == ScenePart::object) return is_placed(scene, scene.objects[part.place]);
@@ -65,7 +65,7 @@ std::string world_source(const Scene& scene, AssetStore& meshes) {
         if (!model.voxels.empty()) return {};
         words.add(number).add(object.priority).add(shows_inside(scene, object));
         words.add_columns(object.world_from_object);
-        // What is made on the world's own lattice depends on its map alone.
+        // Grids on the world's own lattice depend on their map alone.
         const Lattice lattice = lattices.lattice_of(object);
         words.add(int(lattice));
         if (lattice != Lattice::world) add_frame(words, lattices.own_frame(object));

@@ -18,8 +18,8 @@ namespace voxelume {
 /// hashed.
 std::string world_source(const Scene& scene, AssetStore& meshes);
 
-/// The names of worlds that show the same to the observer: that of the potentially visible objects,
-/// and that of all objects if there are others.
+/// The names of worlds that look the same to the observer: with the potentially visible objects,
+/// and with all objects if there are others.
 std::vector<std::string> world_sources(const Scene& scene, AssetStore& meshes);
 
 }  // namespace voxelume

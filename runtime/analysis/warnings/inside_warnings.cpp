@@ -62,8 +62,8 @@ bool encloses(const Scene& scene, const Object& object, const Object& other, Ass
     return true;
 }
 
-/// Where the sight ray through the image's middle begins; nothing where rays begin on a sphere
-/// around the observer, or anywhere.
+/// The point at which the sight ray through the image's middle begins; empty if rays begin on a
+/// sphere around the observer, or anywhere.
 std::optional<glm::dvec3> start_of_sight(const Observer& observer) {
     const Display& display = observer.display;
     const bool is_sphere = !shape_row(display).depth_is_along_z && display.near > 0;

@@ -74,7 +74,7 @@ std::vector<std::string> missing_materials(const Object& object, const MeshSumma
     return missing;
 }
 
-/// What of the material library is missed; empty if nothing is.
+/// A clause on what is missing from the material library; empty if nothing is.
 std::string missed_materials(const Object& object, const MeshSummary& mesh) {
     const std::vector<std::string> missing = missing_materials(object, mesh);
     if (!missing.empty()) return missing_materials_sentence(missing, mesh);
@@ -86,7 +86,7 @@ std::string missed_materials(const Object& object, const MeshSummary& mesh) {
     return object.material == 0 ? fmt::format("{} {} read", library, verb) : "";
 }
 
-/// What is wrong with each library.
+/// A clause on the fault of each library.
 std::string faults_of_libraries(const std::vector<std::string>& faults) {
     const std::span<const std::string> shown(faults.data(), std::min(faults.size(), kMaxNotes));
     if (faults.size() == shown.size() && shown.size() > 1)
@@ -99,7 +99,7 @@ std::string faults_of_libraries(const std::vector<std::string>& faults) {
     return text;
 }
 
-/// What to do about what is missed.
+/// Advice on missing materials.
 std::string material_advice(const Object& object, const MeshSummary& mesh) {
     if (mesh.group_names.size() < 2) return "give the object a \"material\" of the scene";
     const std::vector<std::string> missing = missing_materials(object, mesh);
@@ -107,7 +107,7 @@ std::string material_advice(const Object& object, const MeshSummary& mesh) {
                        quote(missing.empty() ? mesh.group_names.front() : missing.front()));
 }
 
-/// An object whose file is told of.
+/// An object, and its file that warnings are about.
 struct ShownFile {
     const Scene& scene;
     const Object& object;
@@ -115,8 +115,8 @@ struct ShownFile {
     const MeshSummary& mesh;
 };
 
-/// Adds a sentence on a file, which is told of the first object that shows it. Names in files may
-/// be of any length.
+/// Adds a warning about a file, at the first object that shows the file. Names in files may be of
+/// any length.
 void add_note(const ShownFile& of, const std::string& sentence, std::vector<Warning>& warnings) {
     constexpr size_t kMaxLength = 600;
     std::string text = fmt::format("{}: {}", file_of(of.scene, of.model), sentence);
@@ -144,7 +144,7 @@ void add_material_warning(const ShownFile& of, std::vector<Warning>& warnings) {
     add_note(of, fmt::format("{}; {}", missed, material_advice(of.object, of.mesh)), warnings);
 }
 
-/// What of the textures a surface doesn't show; empty if it shows all.
+/// A clause on what a surface doesn't show of the textures; empty if it shows all.
 std::string missed_of_textures(const MeshPaint& paint, Surface surface) {
     const bool is_cubes = shows_voxels(surface);
     const bool maps = is_cubes && paint.mapped > 0,

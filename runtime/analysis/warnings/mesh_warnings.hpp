@@ -17,7 +17,8 @@ namespace voxelume {
 void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
                        std::vector<Warning>& warnings);
 
-/// Says why a mesh has groups whose materials no library has. There are some.
+/// Returns a sentence on why a mesh has groups whose materials no library has. `missing` isn't
+/// empty.
 std::string missing_materials_sentence(const std::vector<std::string>& missing,
                                        const MeshSummary& mesh);
 

@@ -23,15 +23,15 @@ namespace {
 /// The ratio by which voxels of a model and the world may differ.
 constexpr double kMaxRatio = 4;
 
-/// From where on a mesh is too large for the world it stands in to be meant so, and too small;
-/// instances may show things that are small.
+/// The ratios of a mesh's size to its world's size at which the mesh is probably too large or too
+/// small by mistake. Instances may show things that are small.
 constexpr double kTooLarge = 100, kTooSmall = 1.0 / 500, kTooSmallInstance = 1.0 / 1000;
 
 std::string point_text(const glm::dvec3& p) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x + 0.0, p.y + 0.0, p.z + 0.0);
 }
 
-/// What makes a mesh that is too large fit the world.
+/// Advice on making a mesh that is too large fit the world.
 std::string unit_advice(const Model& model, double times_world) {
     struct Unit {
         double metres;
@@ -48,7 +48,7 @@ std::string unit_advice(const Model& model, double times_world) {
     return "coordinates are metres; change its model's \"unit\", or the object's \"scale\"";
 }
 
-/// What makes a mesh that is too small fit the world.
+/// Advice on making a mesh that is too small fit the world.
 std::string small_unit_advice(const Model& model) {
     const FileMap& map = model.object_from_file;
     if (map.scale < 1)
@@ -60,7 +60,8 @@ std::string small_unit_advice(const Model& model) {
            "1000 times as large";
 }
 
-/// Files have no unit, so this is the most frequent mistake.
+/// Warns of a mesh whose size doesn't suit the world. Files have no unit, so a wrong unit is the
+/// most frequent mistake.
 bool add_unit_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                       std::vector<Warning>& warnings) {
     if (placed.model.mesh.empty()) return false;
@@ -128,7 +129,7 @@ void add_rounding_warning(const Model& model, std::vector<Warning>& warnings) {
              warnings);
 }
 
-/// What lets an object show all of its cubes. A file's voxels are as large as the file says.
+/// Advice on how an object shows all of its cubes. A file's voxels are as large as the file says.
 std::string finer_advice(const Model& model, double voxel_size) {
     const std::string placement = "the object \"placement\": \"instance\"";
     if (!model.voxels.empty())
@@ -136,8 +137,8 @@ std::string finer_advice(const Model& model, double voxel_size) {
     return fmt::format("the model a \"voxel_size\" of {:.3g}, or {}", voxel_size, placement);
 }
 
-/// `smooth` objects in the world have voxels of the world's size, but for those whose coarser ones
-/// the scene asks for.
+/// Warns of voxels far finer or coarser than the world's. `smooth` objects in the world have voxels
+/// of the world's size, unless the scene asks for coarser ones.
 void add_ratio_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                        std::vector<Warning>& warnings) {
     const Model& model = placed.model;
@@ -162,7 +163,7 @@ void add_ratio_warning(const Scene& scene, const Object& object, const PlacedMod
                  warnings);
 }
 
-/// What makes a ray test fewer triangles. Instances of glass are slow in lattices.
+/// Advice on how a ray tests fewer triangles. Instances of glass are slow in lattices.
 std::string density_advice(const Scene& scene, const Object& object, const Model& model,
                            double triangles) {
     std::string finer = fmt::format("the world a \"voxel_size\" of {:.3g}",
@@ -173,7 +174,7 @@ std::string density_advice(const Scene& scene, const Object& object, const Model
                        model.is_sized ? ", without a size of its model's voxels" : "", finer);
 }
 
-/// Exact meshes of which `auto` makes no instances.
+/// Warns of an exact mesh with many triangles per voxel that `auto` doesn't make an instance.
 void add_density_warning(const Scene& scene, const Object& object, const PlacedModel& placed,
                          AssetStore& meshes, std::vector<Warning>& warnings) {
     if (placed.is_instance) return;

@@ -11,8 +11,8 @@
 
 namespace voxelume {
 
-/// What holds in all of these `frames` of a scene: an object that flies into the world is no
-/// mistake. If there are many frames, some are looked at, spread evenly.
+/// Returns the warnings that hold in all of these `frames` of a scene, so an object that flies into
+/// the world gets none. If there are many frames, some are looked at, spread evenly.
 ///
 /// Works on boxes, formulas of solids and summaries of meshes. A mesh is read only if its summary
 /// isn't known, or if a light or the observer is in its box. Also says that the cache of `meshes`

@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// Its thinnest width over the edge of the voxels that show it.
+/// The thinnest width of an object over the edge of the voxels that show it.
 struct Thinness {
     double width = INFINITY, voxel = 1;
     void consider(double other_width, double other_voxel) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// object -> whether its voxels are too large for what is thin of it
+// object -> whether its voxels are too large for its thin parts
 #pragma once
 
 #include <vector>

@@ -18,11 +18,11 @@ inline double smallest(const glm::dvec3& v) {
     return std::min({v.x, v.y, v.z});
 }
 
-/// How far rounding may take sizes that are meant to be equal apart, as a share of them: turned
-/// maps and a "resolution" round theirs.
+/// The relative difference that rounding may cause between sizes that are meant to be equal: turned
+/// maps and a "resolution" round their sizes.
 inline constexpr double kSizeRounding = 1e-9;
 
-/// Lengths are metres.
+/// A model as an object places it. Lengths are metres.
 struct PlacedModel {
     const Model& model;
     bool is_instance = false;
@@ -30,11 +30,11 @@ struct PlacedModel {
     bool is_void = false;   ///< ... or anywhere
     Bounds own{};           ///< box in object space
     Bounds world{};         ///< box in the world
-    glm::dvec3 scale{1};    ///< by which lengths along the axes of object space grow
+    glm::dvec3 scale{1};    ///< factors by which lengths along the axes of object space grow
     glm::dvec3 voxel{0};    ///< edges of its voxels, in the world
 };
 
-/// Throws as AssetStore does.
+/// The object's model as it is placed. Throws as AssetStore does.
 PlacedModel placed(const Scene& scene, const Object& object, AssetStore& meshes);
 
 /// How sentences name an object: by its name in quotes, or as "the object" if it has none.

@@ -26,7 +26,7 @@ inline glm::ivec2 vector_of(const v1::Size& size) {
     return {size[0], size[1]};
 }
 
-/// The upper three rows; glm has columns.
+/// The upper three rows of a matrix, which glm stores by columns.
 inline v1::Matrix rows_of(const glm::dmat4& m) {
     v1::Matrix rows{};
     for (int row = 0; row < 3; ++row)

@@ -12,7 +12,7 @@
 
 namespace voxelume::api {
 
-/// What a caller's callback threw, on its way through the library.
+/// An exception of a caller's callback, on its way through the library.
 struct CallerException {
     std::exception_ptr exception;
 };
@@ -20,7 +20,7 @@ struct CallerException {
 /// An engine's error as the type that callers catch.
 v1::Error error_for_callers(const Error& error);
 
-/// Does what a function of the library does for its caller.
+/// Calls the body of a library function and rethrows its errors as callers know them.
 template <class Action>
 auto guarded(const Action& action) -> decltype(action()) {
     try {

@@ -24,7 +24,7 @@ namespace voxelume {
 
 namespace api {
 
-/// What was read to fit a scene, for the first that renders or plans it.
+/// The files that were read to fit a scene, for the first call that renders or plans it.
 class ReadAssets {
   public:
     ReadAssets(AssetStore store, v1::CacheOptions cache)
@@ -59,7 +59,7 @@ struct v1::Device::Implementation {
 
 struct v1::Scene::Implementation {
     voxelume::Scene scene;
-    std::string hash;                       ///< of the document that it was read from
+    std::string hash;                       ///< hash of the document that the scene was read from
     std::shared_ptr<api::ReadAssets> read;  ///< shared by scenes that differ in settings alone
 };
 
@@ -100,7 +100,7 @@ inline const Volume& inside(const v1::Volume& volume) {
     return *volume.implementation().volume;
 }
 
-/// Throws Error::usage for no device.
+/// The devices inside these handles. Throws Error::usage if there are none.
 std::vector<Device> inside(const std::vector<v1::Device>& devices);
 
 }  // namespace api

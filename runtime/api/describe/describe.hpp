@@ -12,10 +12,11 @@ namespace voxelume::api {
 
 using Report = nlohmann::ordered_json;
 
-/// What is in a mesh file, and how many voxels it would become.
+/// The content of a mesh file, and the number of voxels that it would become.
 Report describe_mesh(const std::filesystem::path& path);
 
-/// A deep OpenEXR, OpenVDB, NRRD or JSON header of voxelume. `kind` opens the report.
+/// A volumetric image: a deep OpenEXR, OpenVDB or NRRD file, or a JSON header of voxelume. `kind`
+/// opens the report.
 Report describe_volume(const std::filesystem::path& path, const char* kind);
 
 /// The JSON header that accompanies a raw file or a display's own.
@@ -30,7 +31,7 @@ Report describe_vox(const std::filesystem::path& path);
 /// The size, voxels and colours of a file of a voxel editor or game, and what of it isn't shown.
 Report describe_art(const std::filesystem::path& path, const VoxelFileFormat& format);
 
-/// The place, values or labels of an array, and what is assumed where the file doesn't say it.
+/// The placement, values or labels of an array, and what is assumed where the file doesn't say it.
 Report describe_array(const std::filesystem::path& path, const VoxelFileFormat& format);
 
 /// True if a file is to be read as a scene: it has a scene's keys, or it isn't JSON; then reading

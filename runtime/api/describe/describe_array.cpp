@@ -15,7 +15,7 @@ Report coordinates_of(const Vector& v) {
     return {v.x, v.y, v.z};
 }
 
-/// How many colours the voxels have. Cells without a voxel have none that is seen.
+/// The number of different colours of the voxels, without cells that hold no voxel.
 size_t colors_in(const VoxelModel& model) {
     std::set<uint32_t> colors;
     for (size_t i = 0; i < model.colors.size(); ++i) {
@@ -26,7 +26,7 @@ size_t colors_in(const VoxelModel& model) {
     return colors.size();
 }
 
-/// What was assumed, with what the colours tell.
+/// Notes on what was assumed of the array, and on its colours.
 std::vector<std::string> notes_of(const CellArray& array) {
     std::vector<std::string> notes = array.notes;
     if (!array.is_color()) return notes;

@@ -20,7 +20,7 @@
 namespace voxelume::api {
 namespace {
 
-/// What the mesh becomes as a smooth model.
+/// The size of the mesh's voxels at this resolution, and the surface that suits them.
 Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
                      const MeshSummary& summary, const MeshShape& shape, int resolution) {
     Model model;
@@ -55,8 +55,8 @@ Report clips_in(const GltfFile& file) {
     return clips;
 }
 
-/// What of the libraries of an OBJ file no surface shows. Nearly every file has some such textures,
-/// so rendering says nothing.
+/// Notes on textures in the libraries of an OBJ file that no surface shows. Nearly every file has
+/// some, so rendering doesn't warn of them.
 std::vector<std::string> unshown_maps(const std::filesystem::path& path, const Mesh& mesh) {
     bool has_bumps = false, has_specular = false;
     std::vector<std::string> faults;  // the mesh's summary has them, too
@@ -74,7 +74,7 @@ std::vector<std::string> unshown_maps(const std::filesystem::path& path, const M
     return notes;
 }
 
-/// What of the file isn't shown.
+/// Notes on what isn't shown of the file.
 std::vector<std::string> notes_of(const MeshSummary& mesh, std::vector<std::string> notes) {
     notes.insert(notes.begin(), mesh.notes.begin(), mesh.notes.end());
     notes.insert(notes.end(), mesh.library_faults.begin(), mesh.library_faults.end());

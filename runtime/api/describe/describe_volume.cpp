@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Places of the display in the frame's own words, without its longer matrix.
+/// Adds the display's keys as the frame's text has them, and the observer's position instead of its
+/// matrix.
 void add_volume_frame(Report& report, const VolumeFrame& frame) {
     const Report text = Report::parse(write_frame_text(frame));
     report["layout"] = text["layout"];

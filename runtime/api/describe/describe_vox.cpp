@@ -9,7 +9,7 @@
 namespace voxelume::api {
 namespace {
 
-constexpr size_t kMaxRows = 1000;  // of a list
+constexpr size_t kMaxRows = 1000;  // maximum length of a list
 
 Report numbers(const glm::ivec3& v) {
     return {v.x, v.y, v.z};
@@ -87,7 +87,7 @@ Report settings_of(const VoxRender& render) {
     return report;
 }
 
-/// What of the render settings a picture lacks or assumes, in words.
+/// Adds notes on the render settings that a picture lacks or assumes.
 void add_unlike(const VoxFile& vox, Report& list) {
     const VoxRender& render = vox.render;
     for (const std::string& name : render.not_shown) list.push_back(name);
@@ -102,7 +102,7 @@ void add_unlike(const VoxFile& vox, Report& list) {
         list.push_back("the camera's projection, which is perspective here");
 }
 
-/// What of the file a picture lacks, in words.
+/// Notes on what a picture of the file lacks.
 Report not_shown(const VoxFile& vox, const std::array<uint64_t, 256>& uses) {
     Report list = Report::array();
     const auto add = [&](int count, const char* what) {

@@ -40,12 +40,12 @@ class ObjectTree {
     ObjectTree& add(std::string_view key, const Value& value) {
         return put(key, tree(value));
     }
-    /// A key that is left out where there is no value.
+    /// Adds a key, unless there is no value.
     template <class Value>
     ObjectTree& add(std::string_view key, const std::optional<Value>& value) {
         return value ? put(key, tree(*value)) : *this;
     }
-    /// A key that is left out where the text is empty.
+    /// Adds a key, unless the text is empty.
     ObjectTree& add_text(std::string_view key, const std::string& text) {
         return text.empty() ? *this : put(key, tree(text));
     }
@@ -58,8 +58,8 @@ class ObjectTree {
     JsonValue value_;
 };
 
-/// The position, turn and scale of what has them, or its matrix; where it has both, the reader says
-/// that it needs one.
+/// Adds the position, turn and scale of a placed thing, or its matrix. If both are given, the
+/// document has both, and the reader asks for one.
 template <class Placed>
 void add_pose(const Placed& placed, ObjectTree& object) {
     const v1::Vec3 none{}, one{1, 1, 1};

@@ -57,7 +57,7 @@ JsonValue list_of_parts(const std::vector<v1::Part>& parts) {
     return list_of(std::move(items));
 }
 
-/// How large what a file holds becomes.
+/// Adds the keys that scale a file's content to metres.
 void add_file_size(const std::optional<double>& fit, const std::optional<v1::Unit>& unit,
                    ObjectTree& object) {
     constexpr std::array kUnits = {"um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd"};

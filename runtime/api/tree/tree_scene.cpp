@@ -19,7 +19,7 @@ void add_source(const v1::DirectionalLight& light, ObjectTree& object) {
     object.add("type", "directional").add("direction", light.direction);
 }
 
-/// What lights have that are aimed.
+/// Adds the keys of lights that are aimed.
 template <class Aimed>
 void add_aim(const Aimed& light, ObjectTree& object) {
     object.add("position", light.position);
@@ -98,7 +98,8 @@ JsonValue tree_of_list(const std::vector<Part>& parts) {
     return list_of(std::move(items));
 }
 
-/// Parts by their names, of which none may be there twice. `section` is the scene's key for them.
+/// An object with the parts under their names, which must differ. `section` is the scene's key for
+/// them.
 template <class Part>
 JsonValue tree_by_name(const std::vector<Part>& parts, const std::string& section,
                        const std::string& file) {

@@ -126,7 +126,7 @@ void AtomicFile::create_temporary() {
     // The longer temporary name has to stay within the file system's limit on names, too.
     const std::string stem =
         fmt::format(".{}.{}", final_.filename().string().substr(0, 130), process_tag());
-    // The first name is taken by a second writer in this process.
+    // The first name is taken if this process already writes a file for this target.
     for (int attempt = 1; attempt <= 1000; ++attempt) {
         const std::string ending = attempt == 1 ? kEnding : fmt::format("-{}{}", attempt, kEnding);
         const fs::path candidate = folder / (stem + ending);
@@ -134,7 +134,8 @@ void AtomicFile::create_temporary() {
         if (descriptor_ >= 0) {
             temporary_ = candidate;
             registered_ = TemporaryFile(temporary_);
-            // Tells processes that can't see this one, in other containers, that it lives.
+            // The lock tells processes in other containers, which can't see this one, that it is
+            // alive.
             lock_ = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
             flock(lock_, LOCK_EX | LOCK_NB);
             return;

@@ -56,7 +56,7 @@ std::string whole_file(const PrivateFolder& folder, const std::string& name) {
     return text;
 }
 
-/// What a folder has under a key.
+/// The entry that a folder has under a key.
 struct Found {
     std::optional<std::string> bytes;
     bool is_damaged = false;
@@ -88,8 +88,8 @@ bool is_temporary(const std::string& name) {
     return name.starts_with('.');
 }
 
-/// Why nothing can be made in a folder; nothing is left there. Permissions alone don't tell: root
-/// has all of them for /proc, where nobody can make anything.
+/// The reason why no file can be made in a folder; empty if one can. Leaves nothing behind.
+/// Permissions alone don't tell: root has all of them for /proc, where nobody can make a file.
 std::string refusal_of_new_entries(const fs::path& folder) {
     const int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (file >= 0) {

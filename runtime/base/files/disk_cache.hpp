@@ -22,7 +22,7 @@ std::filesystem::path cache_folder();
 /// and nothing is written there. With `name`, the folders of that name below them.
 std::vector<std::filesystem::path> cache_bases(const std::string& name = {});
 
-/// Why a base isn't read, or one of the folders in it, in words for people. Empty if it is.
+/// The reason why a base, or a folder in it, isn't read, in words for people; empty if all is read.
 std::string refusal_of_base(const std::filesystem::path& base);
 
 /// A 128-bit hash (XXH3) of all `parts` and their lengths, as 32 hexadecimal digits.

@@ -23,9 +23,10 @@ std::string host_name() {
     return std::string(name.data()).substr(0, 64);
 }
 
-/// When a process started, by the 22nd field of its `stat`; the second is a name in parentheses
-/// that may contain anything, the third its state. Empty if it is gone, or if the system doesn't
-/// tell; "ended" if only its number is left until its parent asks for its end.
+/// The start time of a process, from the 22nd field of its `stat`. The second field is a name in
+/// parentheses that may contain anything, the third the process's state. Empty if the process is
+/// gone, or if the system doesn't tell; "ended" if only its number is left until its parent asks
+/// for its end.
 std::string start_of(pid_t process) {
     std::ifstream file(fmt::format("/proc/{}/stat", process));
     const std::string text(std::istreambuf_iterator<char>(file), {});

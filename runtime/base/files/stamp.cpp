@@ -25,7 +25,7 @@ constexpr size_t kStampHeader = size_t{1} << 20;  // stamps lie in the headers o
 constexpr std::string_view kPngStart = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kTextChunk = "tEXt";
 
-/// The CRC-32 of PNG's chunks, bit by bit: it is that of a hundred bytes.
+/// The CRC-32 of PNG's chunks, bit by bit: its input is about a hundred bytes.
 uint32_t crc_of(std::string_view bytes) {
     uint32_t sum = ~0u;
     for (const char byte : bytes) {
@@ -35,11 +35,11 @@ uint32_t crc_of(std::string_view bytes) {
     return ~sum;
 }
 
-/// Where a stamp's check is, and how many bytes from there on no hash covers.
+/// The position of a stamp's check, and the number of bytes from there on that no hash covers.
 struct StampPlace {
     size_t hash = 0, check = 0;
     size_t blank = kCheckDigits;
-    std::optional<size_t> chunk;  ///< of a PNG: where the type of the text's chunk begins
+    std::optional<size_t> chunk;  ///< in a PNG: start of the type of the text's chunk
 };
 
 bool is_hex(std::string_view text) {

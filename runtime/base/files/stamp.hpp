@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// What is known of a file by its stamp.
+/// The state of a file by its stamp.
 enum class StampState {
     missing,  ///< there is no file
     damaged,  ///< its bytes aren't those that were written, or it has no stamp
@@ -25,8 +25,8 @@ std::string stamp_of(std::string_view hash);
 /// The hexadecimal digits of a stamp's check.
 inline constexpr size_t kStampCheckDigits = 16;
 
-/// Where in a file's first bytes the check of its stamp begins; empty where there is none. A
-/// checksum of another kind in the same file leaves it out.
+/// The position of the stamp's check in a file's first bytes; empty if there is none. Other
+/// checksums in the same file leave the check out.
 std::optional<size_t> stamp_check_place(std::string_view header);
 
 /// Fills in the check of the stamp in a file's bytes, if there is one near its start: a hash of all

@@ -19,7 +19,7 @@ class TemporaryFile {
     std::filesystem::path file_;
 };
 
-/// Deletes all of them. Any thread may call it.
+/// Deletes all registered files. Any thread may call it.
 void delete_temporary_files();
 
 }  // namespace voxelume

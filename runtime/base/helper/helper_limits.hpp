@@ -7,9 +7,9 @@
 namespace voxelume {
 
 struct HelperLimits {
-    uint64_t memory_bytes = 0;      ///< of address space
+    uint64_t memory_bytes = 0;      ///< bytes of address space
     uint64_t max_memory_bytes = 0;  ///< after raise_memory_limit()
-    uint64_t seconds = 0;           ///< of computing
+    uint64_t seconds = 0;           ///< seconds of processor time
 };
 
 /// Limits this process for the rest of its life: memory, computing, descriptors, no written files,

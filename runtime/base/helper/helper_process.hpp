@@ -20,9 +20,9 @@ inline constexpr int kHelperInput = 0, kHelperAnswer = 3;
 class HelperFailure : public std::runtime_error {
   public:
     enum class Cause {
-        missing,   ///< it couldn't be started, or is another program than expected
+        missing,   ///< the program couldn't be started, or is another one than expected
         died,      ///< a signal ended it, or it answered what can't be
-        too_long,  ///< it met its limit of time
+        too_long,  ///< the helper met its limit of time
     };
 
     /// `clause` is the part of a sentence that follows "the file ...: ".
@@ -34,8 +34,8 @@ class HelperFailure : public std::runtime_error {
     Cause cause_;
 };
 
-/// A program started by posix_spawn, for that is what a process with threads may do: between a bare
-/// fork and the next exec, every lock may be held by a thread that isn't there.
+/// A program started by posix_spawn, which is safe in a process with threads: between a bare fork
+/// and the next exec, every lock may be held by a thread that isn't there.
 ///
 /// The helper inherits the environment, `input` as kHelperInput, a pipe as kHelperAnswer, and no
 /// other descriptor; what it prints is dropped. Signals of the terminal don't reach it. It never
@@ -53,7 +53,7 @@ class HelperProcess {
     /// HelperFailure if there are none, or if they come too late.
     size_t read(void* data, size_t size);
 
-    /// The end of its pipe, for those who wait for other things, too.
+    /// The descriptor of the answer's pipe, for callers that wait for other descriptors, too.
     int answer() const { return answer_; }
 
   private:

@@ -69,7 +69,7 @@ class WireSender {
     std::vector<char> block_;
 };
 
-/// The other end. Throws HelperFailure where the helper ends early or says what can't be.
+/// The receiver's end. Throws HelperFailure where the helper ends early or sends impossible values.
 class WireReceiver {
   public:
     explicit WireReceiver(HelperProcess& helper) : helper_(helper) {}

@@ -13,19 +13,19 @@ namespace {
 
 constexpr size_t kMaxEdges = 32;
 
-/// How many times as much a right angle turns as an edge that is just sharp.
+/// The turn of a right angle over that of an edge that is just sharp.
 constexpr double kRightAngle = 90 / kSharpAngle;
 
-/// Around a rounded edge the surface bends to its side alone, within this many widths on each side,
-/// except for a tenth. Scans have bumps and dents there.
+/// Around a rounded edge the surface bends to the edge's side alone, within this many widths on
+/// each side, except for a tenth. Scans have bumps and dents there.
 constexpr double kFlanks = 4, kRough = 1.1;
 
-/// A way that turns by kMaxTurnBack degrees to the other side ends there. kEndless is a turn that
-/// no way has.
+/// A way that turns by kMaxTurnBack degrees to the other side ends there. kEndless is larger than
+/// any way's turn.
 constexpr double kMaxTurnBack = 20, kEndless = 1e6;
 
-/// The edges that are crossed on one side of an edge: `way` is how far away each lies, metres,
-/// `turn` what the surface turns as far as there, degrees, and `bent` the same without signs.
+/// The edges that are crossed on one side of an edge: `way` is the distance to each in metres,
+/// `turn` the turn of the surface up to there in degrees, and `bent` the sum of unsigned turns.
 /// Number 0 is the edge itself.
 struct Arm {
     std::array<double, kMaxEdges + 1> way, turn, bent;  // filled as far as `count`
@@ -34,7 +34,7 @@ struct Arm {
 
     Arm() { way[0] = turn[0] = bent[0] = 0; }
 
-    /// What the surface bends within a width.
+    /// The unsigned turn of the surface within a width.
     double bent_within(double width) const {
         size_t last = 0;
         while (last + 1 < count && way[last + 1] <= width) ++last;
@@ -59,8 +59,8 @@ struct Walk {
     double height(const glm::dvec3& p) const { return glm::dot(axis, p - middle); }
 
     /// Goes away from `side` into its face, whose normal looks out of the surface as it is or, for
-    /// a `sign` of -1, turned over. `sense` is 1 if turns around the axis count as they come.
-    /// Nothing further away than `reach` counts.
+    /// a `sign` of -1, turned over. `sense` is 1 if turns around the axis count with their sign.
+    /// Nothing farther away than `reach` counts.
     Arm go(uint32_t side, double sign, double sense, double own, double reach) const {
         Arm arm;
         glm::dvec3 at = middle, normal = sign * edges.normal(side);
@@ -135,7 +135,7 @@ EdgeTurn turn_around(const MeshEdges& edges, const MeshEdge& edge, double reach)
     const double sense = edges.sense(edge.a, edge.b);
     const double turn = turn_about(walk.axis, edges.normal(edge.a), sense * edges.normal(edge.b));
     const Arm a = walk.go(edge.a, 1, -1, turn, reach);
-    // Where that bends back too far, all that is as wide is too rough.
+    // Where the first side bends back too far, everything of that width is too rough.
     const Arm b = walk.go(edge.b, sense, 1, turn, std::min(reach, a.end));
     const double width = min_width(a, b, turn);
     if (!(width < std::numeric_limits<double>::infinity())) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// edges of a mesh -> how far across them the surface takes for a sharp turn.
+// edges of a mesh -> the width across them within which the surface makes a sharp turn.
 #pragma once
 
 #include <limits>
@@ -8,15 +8,15 @@
 
 namespace voxelume {
 
-/// The turn of the normal, in degrees, from which on an edge counts as sharp.
+/// The turn of the normal, in degrees, at and above which an edge counts as sharp.
 inline constexpr double kSharpAngle = 40;
 
-/// How sharply a surface turns around an edge.
+/// The sharpness of a surface's turn around an edge.
 struct EdgeTurn {
     /// Metres across the edge in which the surface turns by kSharpAngle; 0 if it does so at the
     /// edge itself.
     double width = std::numeric_limits<double>::infinity();
-    double share = 0;  ///< of the turn; those of the edges across a rounded one add up to 1
+    double share = 0;  ///< part of the turn; all edges across a rounded one have 1 together
 };
 
 /// Follows the surface from the middle of an edge to both sides, in the plane that the edge is

@@ -45,7 +45,7 @@ std::vector<SharpEdge> sharp_edges(const MeshEdges& edges, double reach) {
 
 /// Edges that follow each other.
 struct Crease {
-    double length = 0, share = 0;  ///< metres; and those that count, see EdgeTurn
+    double length = 0, share = 0;  ///< metres; and the part of it that counts, see EdgeTurn
 
     void add(const SharpEdge& edge) {
         length += edge.length;
@@ -53,7 +53,7 @@ struct Crease {
     }
 };
 
-/// Follows sharp edges from one to the next that goes on straightest.
+/// Follows sharp edges, each time to the one that goes on straightest.
 class Creases {
   public:
     Creases(const MeshEdges& mesh, std::vector<SharpEdge> edges)
@@ -63,8 +63,8 @@ class Creases {
         std::ranges::sort(at_);
     }
 
-    /// The crease that `edge` is part of; its edges are part of no other. 0 if it is part of one
-    /// already.
+    /// The crease that `edge` is part of; its edges are part of no other. 0 if `edge` was part of
+    /// an earlier crease.
     Crease through(uint32_t edge) {
         if (is_used_[edge]) return {};
         is_used_[edge] = true;
@@ -93,7 +93,7 @@ class Creases {
         return way / glm::length(way);
     }
 
-    /// The unused edge at `place` that goes on from `edge` with the least turn.
+    /// The unused edge at position `place` that continues `edge` with the smallest turn.
     std::optional<uint32_t> next_of(uint32_t edge, uint32_t place) const {
         const glm::dvec3 onward = direction(other_end(edge, place), place);
         std::optional<uint32_t> best;
@@ -116,7 +116,7 @@ class Creases {
     const MeshEdges& mesh_;
     std::vector<SharpEdge> edges_;
     std::vector<bool> is_used_;
-    std::vector<std::pair<uint32_t, uint32_t>> at_;  ///< place and edge, sorted
+    std::vector<std::pair<uint32_t, uint32_t>> at_;  ///< position and edge, sorted
 };
 
 double longest_side(const Mesh& mesh) {
@@ -145,7 +145,7 @@ double length_within(const MeshEdges& mesh, const std::vector<SharpEdge>& edges,
     return sum;
 }
 
-/// Widths are found among kRungs to an octave, over kOctaves octaves.
+/// Candidate widths: kRungs per octave, over kOctaves octaves.
 constexpr int kRungs = 16, kOctaves = 12;
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// For each position the number of the first one at the same place.
+/// For each position the index of the first one that is equal to it.
 std::vector<uint32_t> places_of(const Mesh& mesh) {
     std::vector<uint32_t> order(mesh.positions.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -68,12 +68,12 @@ std::vector<glm::dvec3> normals_of(const Mesh& mesh) {
     return normals;
 }
 
-/// Faces whose normals differ by less count as coplanar: single precision turns faces of
-/// millimetres in a mesh of metres by that much.
+/// Faces whose normals have a larger cosine than this count as coplanar: single precision turns
+/// faces of millimetres in a mesh of metres by that much.
 constexpr double kSameFace = 0.9999;  // 0.8 degrees
 
-/// Leaves of an edge's sides one of those whose faces lie in each other and look to the same side.
-/// Faces without an area lie in all others.
+/// Keeps one of an edge's sides for each group of faces that lie in each other and look to the same
+/// side. Faces without an area lie in all others.
 void leave_distinct(const std::vector<glm::dvec3>& normals, std::vector<Side>& sides) {
     std::vector<Side> distinct;
     for (const Side& side : sides) {
@@ -108,7 +108,7 @@ MeshEdges::MeshEdges(const Mesh& mesh)
         if (here.size() > 2) continue;
         for (const Side& side : all)
             across_[side.number] = here[side.is_up == here[0].is_up ? 1 : 0].number;
-        across_[here[0].number] = here[1].number;  // which run alike where one looks inwards
+        across_[here[0].number] = here[1].number;  // alike if one looks inwards
         across_[here[1].number] = here[0].number;
     }
 }

@@ -23,7 +23,7 @@ inline uint32_t next_side(uint32_t side) {
 }
 
 /// The edges of a mesh at which two faces or more meet, in the order of their ends. Vertices at one
-/// place are one; sides without length and faces without area have no edges. Faces of several
+/// position are one; sides without length and faces without area have no edges. Faces of several
 /// bodies that lie in one another and look to the same side count as one, as where parts of a mesh
 /// overlap with equal corners.
 class MeshEdges {
@@ -38,7 +38,7 @@ class MeshEdges {
     /// The side that lies across a side, kNoSide at rims and forks.
     uint32_t across(uint32_t side) const { return across_[side]; }
 
-    /// The number of the place where a side begins: that of the first position there.
+    /// The index of the first position that is equal to the one at which a side begins.
     uint32_t begin(uint32_t side) const {
         return places_[mesh_.triangles[side / 3][int(side % 3)]];
     }
@@ -57,7 +57,7 @@ class MeshEdges {
 
   private:
     const Mesh& mesh_;
-    std::vector<uint32_t> places_;  ///< of each position
+    std::vector<uint32_t> places_;  ///< for each position
     std::vector<glm::dvec3> normals_;
     std::vector<MeshEdge> edges_;
     std::vector<uint32_t> across_;

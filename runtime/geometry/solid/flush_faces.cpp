@@ -15,7 +15,8 @@
 namespace voxelume {
 namespace {
 
-/// Decimal numbers in scenes and maps in doubles leave no larger differences, relative to sizes.
+/// The largest differences, relative to sizes, that come from decimal numbers in scenes and from
+/// maps in doubles.
 constexpr double kRounding = 1e-9;
 
 constexpr double kFar = 1e9;  // metres
@@ -26,7 +27,7 @@ struct FacePlane {
     double offset;
 };
 
-/// Half of what a shape measures between its planes along each axis; 0 along others.
+/// Half of the distance between a shape's planes along each axis; 0 along axes without planes.
 glm::dvec3 half_edges(const Solid& shape) {
     switch (shape.kind) {
         case SolidKind::box:

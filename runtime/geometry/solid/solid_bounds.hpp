@@ -26,7 +26,8 @@ struct SolidBounds {
 SolidBounds bounds(const Solid& solid, const glm::dmat4& frame_from_solid,
                    const std::optional<SolidBounds>& clip = std::nullopt);
 
-/// True if a part of that box, exact or an outer bound as above, lies outside of `box`.
+/// True if a part of the solid's box, exact or an outer bound as in bounds(), lies outside of
+/// `box`.
 bool reaches_past(const Solid& solid, const glm::dmat4& frame_from_solid, const SolidBounds& box);
 
 /// The grid over the solid with at least `margin` empty voxels on every side. Its planes lie at

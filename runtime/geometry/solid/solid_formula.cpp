@@ -16,9 +16,9 @@ Solid union_of(Solid a, Solid b) {
     return both;
 }
 
-/// Joins shapes among a term's that have faces in one plane.
+/// Joins those of a term's shapes that have faces in one plane.
 void join_flush_shapes(SolidTerm& term) {
-    // What lies outside of several shapes at once is what lies outside of their union.
+    // The points outside of several shapes at once are those outside of their union.
     const bool of_complements = term.link == FieldLink::largest;
     const auto is_open = [&](const SolidTerm& inner) {
         return inner.is_shape() && inner.is_complement == of_complements;
@@ -33,7 +33,7 @@ void join_flush_shapes(SolidTerm& term) {
             }
             terms[i].whole = union_of(std::move(terms[i].whole), std::move(terms[j].whole));
             terms.erase(terms.begin() + std::ptrdiff_t(j));
-            j = i + 1;  // what is joined may continue others
+            j = i + 1;  // a joined shape may continue others
         }
 }
 

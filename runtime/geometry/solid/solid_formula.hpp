@@ -20,8 +20,9 @@ struct SolidTerm {
 };
 
 /// A solid's terms, by De Morgan's laws. Shapes of a union that have faces in one plane where they
-/// meet are one term: such a face has no edge where one of them ends, but their own edges, which
-/// fields round, would show there. So are shapes that are taken away together.
+/// meet are one term: such a face has no edge where one of the shapes ends, but the shapes' own
+/// edges, which fields round, would show there. Shapes that are taken away together are joined
+/// likewise.
 SolidTerm formula_of(const Solid& solid);
 
 }  // namespace voxelume

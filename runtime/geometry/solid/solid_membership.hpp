@@ -13,8 +13,8 @@ namespace voxelume {
 ///
 /// The result is exact for the program's sources, whose maps and parameters are doubles. It decides
 /// the points that kernels can't decide in float. Combinations take the minimum (union) or maximum
-/// (intersection) of their shapes' sides. So a point counts as in the solid when this is not 1, and
-/// the boundary of what a difference takes away stays in the solid.
+/// (intersection) of their shapes' sides. So a point counts as in the solid when the result isn't
+/// 1, and the boundary of what a difference takes away stays in the solid.
 int exact_side(const SolidProgram& program, const glm::ivec3& half_voxels);
 
 }  // namespace voxelume

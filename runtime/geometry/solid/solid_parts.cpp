@@ -9,9 +9,9 @@
 namespace voxelume {
 namespace {
 
-/// Brackets that a term needs within each other when it is written without any around itself.
+/// The number of nested brackets that a term needs when it is written without any around itself.
 size_t depth_of(const SolidTerm& term) {
-    size_t deepest = 0, second = 0;  // of inner terms, with brackets around them
+    size_t deepest = 0, second = 0;  // depths of inner terms, with brackets around them
     for (const SolidTerm& inner : term.terms) {
         if (inner.is_shape()) continue;
         const size_t depth = depth_of(inner) + 1;

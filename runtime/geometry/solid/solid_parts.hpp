@@ -17,18 +17,18 @@ struct SolidPart {
     bool is_undivided = false;   ///< `solid` is a combination whose brackets were too many
 };
 
-/// The parts that make up a solid when they are joined by their places: all shapes of its tree.
-/// Combinations stay whole that would need more brackets than kMaxBracketDepth and kMaxBrackets,
-/// which takes a tree of 32 shapes at least. Shapes of a union that have faces in one plane where
+/// The parts that make up a solid when they are joined by their places: all shapes of its tree. A
+/// combination that would need more brackets than kMaxBracketDepth and kMaxBrackets stays whole,
+/// which takes a tree of at least 32 shapes. Shapes of a union that have faces in one plane where
 /// they meet are one part.
 std::vector<SolidPart> parts_of(const Solid& solid);
 
 /// The parts of a difference whose first part is a shape: that shape comes first.
 std::vector<SolidPart> parts_behind_first(const Solid& difference);
 
-/// Combinations among a solid's parts that stay whole, so that edges within them are rounded.
+/// The number of combinations in a solid that stay whole, so that edges within them are rounded.
 size_t count_undivided(const Solid& solid);
-/// Counts the same of solids that are taken away from a mesh, which has the first place.
+/// Counts the same for solids that are taken away from a mesh, which comes first in the formula.
 size_t count_undivided(const std::vector<Solid>& cuts);
 
 /// The nodes of a solid's tree.

@@ -41,8 +41,8 @@ struct SolidProgram {
 /// along its axes for box; turns and scales that keep it round for cylinder and cone; turns and
 /// uniform scales for torus and capsule. Otherwise distances are scaled down by the map's smallest
 /// singular value, so that they never exceed the true ones. Throws Error::limit when a shape's
-/// centre is more than 2^24 voxels from the grid's origin. With `is_complement` the program is that
-/// of all that lies outside of the solid.
+/// centre is more than 2^24 voxels from the grid's origin. With `is_complement` the program
+/// describes all that lies outside of the solid.
 SolidProgram make_solid_program(const Solid& solid, const glm::dmat4& frame_from_solid,
                                 const GridFrame& frame, bool is_complement = false);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which values of an array are voxels.
+// The choice of the values of an array that are voxels.
 #pragma once
 
 #include <fmt/format.h>
@@ -53,7 +53,8 @@ void choose(const Value* row, size_t count, const CellArray& array, const VoxelV
         for (size_t i = 0; i < count; ++i) chosen[i] = is_label(slope * double(row[i]) + intercept);
     } else if (values.iso || (std::is_floating_point_v<Value> && !values.each_label)) {
         const double iso = values.iso.value_or(0.5);
-        // Without doubles, of which a register holds few: 512^3 bytes take 100 instead of 160 ms.
+        // Comparing as doubles would be slower, since a register holds few: 512^3 bytes take 160 ms
+        // instead of 100.
         if constexpr (sizeof(Value) <= 4)
             if (is_plain) return choose_from(row, count, first_from<Value>(iso), chosen);
         for (size_t i = 0; i < count; ++i) chosen[i] = slope * double(row[i]) + intercept >= iso;
@@ -64,13 +65,14 @@ void choose(const Value* row, size_t count, const CellArray& array, const VoxelV
     }
 }
 
-/// A channel of a colour in 8 bits: of a share of 1, or of such a number.
+/// The 8-bit code of a colour's channel: of a value from 0 to 1 if `is_fraction`, else from 0 to
+/// 255.
 inline uint32_t code_of(double value, bool is_fraction) {
     const double v = is_fraction ? 255 * value : value;
     return uint32_t(std::lround(std::clamp(std::isnan(v) ? 0.0 : v, 0.0, 255.0)));
 }
 
-/// One bit a cell of a row of `count` words of 16, from bytes that are 0 or 1.
+/// Packs a row of bytes that are 0 or 1 into `count` words of 16 bits, a bit for each cell.
 inline void pack_row(const uint8_t* chosen, size_t count, uint16_t* words) {
     for (size_t word = 0; word < count; ++word) {
         uint64_t low = 0, high = 0;
@@ -82,7 +84,7 @@ inline void pack_row(const uint8_t* chosen, size_t count, uint16_t* words) {
     }
 }
 
-/// Why no cell is a voxel, for people.
+/// The reason why no cell is a voxel, in words for people.
 inline std::string reason_for_none(const CellArray& array, const VoxelValues& values) {
     if (array.is_color()) return "has no voxel: all of its colours are black or clear";
     if (values.label) return fmt::format("no cell has the value {}", *values.label);

@@ -33,7 +33,8 @@ struct Rows {
     ByteRow at[kBrickSize];
 };
 
-/// Makes rows of the columns: four times rows are mixed with those eight behind them, as cards are.
+/// Transposes 16 rows of 16 bytes: four times, rows are interleaved with those eight behind them,
+/// like cards that are shuffled.
 void transpose(Rows& rows) {
     for (int round = 0; round < 4; ++round) {
         Rows mixed;
@@ -48,7 +49,7 @@ void transpose(Rows& rows) {
     }
 }
 
-/// Writes a brick without missing cells, of whose axes `side` runs along the model's rows.
+/// Writes a brick without missing cells. Axis `side` of the file runs along the model's rows.
 void write_whole(const ByteBrick& brick, const PlacesInBrick& places, size_t side, uint8_t* codes) {
     const bool is_mirrored = places[side][0] > places[side][1];
     const size_t other = side == 1 ? 2 : 1;

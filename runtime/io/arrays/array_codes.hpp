@@ -9,14 +9,14 @@
 
 namespace voxelume {
 
-/// The cells of a brick among those of an array of bytes.
+/// The cells of a brick within an array of bytes.
 struct ByteBrick {
     const uint8_t* first;
-    size_t row, layer;  ///< bytes from a row and a layer to the next
+    size_t row, layer;  ///< bytes from one row, or layer, to the next
     glm::ivec3 count;   ///< cells along the file's axes, 16 at most
 };
 
-/// By the file's axis and the cell along it: its share of the place in a brick.
+/// The part that a cell's coordinate along each of the file's axes adds to its index in a brick.
 using PlacesInBrick = std::array<std::array<uint32_t, 16>, 3>;
 
 /// Writes 4096 bytes, those without a cell as 0.

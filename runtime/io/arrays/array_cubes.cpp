@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// array -> cubes. Slabs of 16 layers become rows of bits, and those the bits of bricks: the file is
-// read in its own order, whatever the model's is.
+// array -> cubes. Slabs of 16 layers become rows of bits, and these become the bits of bricks: the
+// file is read in its own order, whatever the order of the model is.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -76,12 +76,12 @@ class ArrayCubes {
     }
 
   private:
-    struct Bricks {                   ///< what one thread found
+    struct Bricks {                   ///< the results of one thread
         std::vector<uint32_t> found;  ///< numbers of bricks
-        std::vector<uint64_t> bits;   ///< of their voxels, in the same order
+        std::vector<uint64_t> bits;   ///< bits of their voxels, in the same order
     };
 
-    /// Where four bits of a row along the file's first axis go in a leaf.
+    /// Makes the table of the bits in a leaf of four neighbours along the file's first axis.
     void make_spread(int axis) {
         for (size_t four = 0; four < 16; ++four)
             for (size_t i = 0; i < 4; ++i) {
@@ -95,8 +95,8 @@ class ArrayCubes {
         with_type(array_.type, slabs.values(), [&](const auto* values) {
             if (!array_.is_color()) return choose(values + first, count, array_, values_, chosen);
             for (size_t i = 0; i < count; ++i) {
-                // The fourth channel, an opacity, decides; without one, any colour but black is a
-                // voxel.
+                // The fourth channel, an opacity, decides if there is one; otherwise any colour but
+                // black is a voxel.
                 const size_t c_first = channels == 4 ? 3 : 0;
                 chosen[i] = 0;
                 for (size_t c = c_first; c < channels; ++c)
@@ -186,7 +186,7 @@ class ArrayCubes {
         model.transparent = transparent;
     }
 
-    /// True if the model has the file's bytes, as codes of colours.
+    /// True if the model keeps the file's bytes as codes of colours.
     bool has_codes() const { return !array_.is_color() && bytes_in_memory(array_.type) == 1; }
 
     /// True if a voxel lets light through.
@@ -239,7 +239,7 @@ class ArrayCubes {
                         const uint32_t color = is_last ? last_color : color_of(slabs, values, cell);
                         if (!array_.is_color()) last = values[cell];
                         last_color = color;
-                        // Where there is no voxel, no colour is to be seen.
+                        // Cells without a voxel have no visible colour.
                         if (color >= kClear) continue;
                         colors[place] = color;
                         transparent |= color >> VXL_TRANSPARENCY_SHIFT != 0;
@@ -266,7 +266,7 @@ class ArrayCubes {
             color |= code_of(full * channel(slabs, values, cell, c), is_fraction) << 8 * c;
         if (array_.channels == 4) {
             const double alpha = channel(slabs, values, cell, 3);
-            // The faintest voxel is still one.
+            // The faintest voxel still counts as a voxel.
             const uint32_t clear = 255 - code_of(full * alpha, is_fraction);
             color |= (alpha > 0 ? std::min(clear, 254u) : 255u) << VXL_TRANSPARENCY_SHIFT;
         }
@@ -278,16 +278,16 @@ class ArrayCubes {
     const InputFile file_;
     CubeLayout layout_;
     glm::ivec3 bricks_;
-    size_t rows_x_;   ///< words of a row of cells
+    size_t rows_x_;   ///< number of words in a row of cells
     bool has_masks_;  ///< colours are 0 or 1
     int first_brick_ = 0;
     std::array<int, 3> brick_stride_{};
-    // By the file's axis and the cell in a brick.
+    // Tables by the file's axis and the cell in a brick.
     std::array<std::array<uint32_t, 16>, 3> leaf_{}, bit_{}, place_{};
     std::array<uint64_t, 16> spread_{};
     std::array<uint32_t, 256> byte_colors_{};
     std::vector<Bricks> parts_;
-    std::mutex mutex_;  ///< of parts_
+    std::mutex mutex_;  ///< guards parts_
     std::atomic<size_t> stored_ = 0;
 };
 

@@ -50,7 +50,7 @@ class ArrayDensity : public DensityField {
             file.refuse(fmt::format("it has {} cells; a density has 2^28 at most", array.cells()));
         check_array(array, file);
         check_room(array, file);
-        // Coordinates in which the middle of the first cell is the origin, and the next one's 1.
+        // Coordinates in cells: the middle of the first cell is 0, and that of the next one 1.
         glm::dmat4 array_from_cell(1);
         for (int axis = 0; axis < 3; ++axis) array_from_cell[axis][axis] = array.voxel_edge[axis];
         array_from_cell[3] = glm::dvec4(array.first_corner + array.voxel_edge / 2.0, 1);
@@ -113,12 +113,12 @@ class ArrayDensity : public DensityField {
     }
 
   private:
-    /// The value at a point in cells.
+    /// The value at a point, whose coordinates are in cells.
     float at(const glm::dvec3& p) const {
         glm::ivec3 cell;
         glm::dvec3 share;
         for (int axis = 0; axis < 3; ++axis) {
-            // Points on the border that rounding moves out of the array are still in it.
+            // Points on the border that rounding moves out of the array still count as inside.
             if (!(p[axis] >= -0.5 - 1e-9 && p[axis] <= size_[axis] - 0.5 + 1e-9))
                 return kOutsideScan;
             const double within = std::clamp(p[axis], 0.0, double(size_[axis] - 1));
@@ -148,7 +148,7 @@ class ArrayDensity : public DensityField {
         return glm::ivec3(glm::clamp(cell, glm::dvec3(0), glm::dvec3(size_ - 1))) / kBlockEdge;
     }
 
-    /// Takes the values in the order of the model's axes.
+    /// Loads the values in the order of the model's axes.
     void load(const CellArray& array, const InputFile& file) {
         values_.resize(array.cells());
         ArraySlabs slabs(array, file, 1);
@@ -191,7 +191,7 @@ class ArrayDensity : public DensityField {
     glm::ivec3 size_, blocks_{0};
     glm::dmat4 cell_from_world_{1};
     std::vector<float> values_;
-    std::vector<Extremes> extremes_;  ///< of blocks, x fastest
+    std::vector<Extremes> extremes_;  ///< one for each block, x fastest
 };
 
 }  // namespace

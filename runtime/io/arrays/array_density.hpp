@@ -10,10 +10,10 @@
 
 namespace voxelume {
 
-/// Reads an array of values whose place in the world is that of its file, moved by
-/// `world_from_array`. Between the middles of cells values are trilinear, in the outer halves of
-/// the outer cells they are those of the middles, and beyond there are none. Values that aren't
-/// finite are none either. Throws Error::input for a file that is truncated or damaged, for
+/// Reads an array of values whose position in the world is that of its file, moved by
+/// `world_from_array`. Between the middles of cells, values are trilinear; in the outer halves of
+/// the outer cells, they equal those of the middles; beyond the array and where values aren't
+/// finite, there are none. Throws Error::input for a file that is truncated or damaged, for
 /// colours, and for more than 2^28 cells, and Error::limit for more values than main_memory() has
 /// room for.
 std::unique_ptr<DensityField> read_array_density(const CellArray& array,

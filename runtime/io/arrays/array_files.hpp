@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Headers of files of arrays -> what they say of the array.
+// Headers of files of arrays -> descriptions of the arrays.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,9 @@ CellArray read_nrrd_header(const std::filesystem::path& path);
 /// True for a NRRD file with a volumetric image of ours, which is shown as such.
 bool is_volume_nrrd(const std::filesystem::path& path);
 
-/// A NIfTI 1 or 2 file (.nii, .nii.gz), or a pair of which either file is named (.hdr and .img,
-/// each also with .gz behind it), turned likewise. If it has several volumes, the first is read.
+/// A NIfTI 1 or 2 file (.nii, .nii.gz), or a pair of files (.hdr and .img, each also with .gz
+/// behind it) of which either is named, turned as NRRD's spaces of patients are. If there are
+/// several volumes, the first is read.
 CellArray read_nifti_header(const std::filesystem::path& path);
 
 /// A stack of PNG slices, whose names have consecutive numbers: that of the file and those of its
@@ -28,7 +29,7 @@ CellArray read_nifti_header(const std::filesystem::path& path);
 /// one another as seen from +Z.
 CellArray read_png_stack_header(const std::filesystem::path& path);
 
-// All of them throw Error::input for a file that is damaged, truncated, or of a kind that isn't
-// read.
+// All these functions throw Error::input for a file that is damaged, truncated, or of an
+// unsupported kind.
 
 }  // namespace voxelume

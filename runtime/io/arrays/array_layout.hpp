@@ -10,12 +10,12 @@
 
 namespace voxelume {
 
-/// A cell's place along one axis of the model, by its number along the file's axis.
+/// The map from a cell's number along the file's axis to its position along an axis of the model.
 struct AxisMap {
-    int axis = 0;    ///< of the model
-    int bricks = 0;  ///< of the file's cells, 16 each
+    int axis = 0;    ///< axis of the model
+    int bricks = 0;  ///< number of bricks of 16 cells of the file
     int first = 0;   ///< the brick of the model in which cells 0..15 lie
-    int step = 1;    ///< from brick to brick
+    int step = 1;    ///< step in the model from one brick of the file to the next
     bool is_mirrored = false;
 };
 
@@ -27,14 +27,14 @@ struct CubeLayout {
 
 CubeLayout layout_of(const CellArray& array, const InputFile& file);
 
-/// Cells in a row that lie in one brick, to whose number they add.
+/// Consecutive cells that lie in one brick, and the part that they add to the brick's number.
 struct CellRun {
     int first, end;
     size_t brick;
 };
 
-/// The runs of cells that add the same to the number of their brick; `bricks` has what each cell
-/// adds.
+/// The runs of cells that lie in one brick; `bricks` has the part that each cell adds to the number
+/// of its brick.
 std::vector<CellRun> runs_of(const std::vector<size_t>& bricks);
 
 }  // namespace voxelume

@@ -14,7 +14,8 @@ namespace {
 /// Widens the range from `min` to `max` by the values that are numbers.
 template <class Value>
 void widen_range(const Value* values, size_t count, Value& min, Value& max) {
-    // A range for each lane of a register, which the compiler can't choose for floats itself.
+    // Each lane of a register has its own range, which compilers may not do for floats by
+    // themselves.
     constexpr size_t kLanes = 64 / sizeof(Value);
     std::array<Value, kLanes> low, high;
     low.fill(min);
@@ -83,13 +84,13 @@ SurfaceValues::SurfaceValues(const CellArray& array, const VoxelValues& values)
     inside_.label = values.label;
     if (!values.label && (values.iso || is_float(array.type))) {
         iso_ = values.iso.value_or(0.5);
-        inside_.iso = std::nextafter(*iso_, INFINITY);  // choose() has what is equal, too
+        inside_.iso = std::nextafter(*iso_, INFINITY);  // choose() takes equal values, too
     }
     may_be_infinite_ = iso_ && (is_float(array.type) || !is_plain);
 }
 
 float SurfaceValues::step_between(double high, double low) {
-    constexpr double kMaxStep = 1e37;  // of which floats hold sums
+    constexpr double kMaxStep = 1e37;  // sums of two such steps are finite floats
     const double step = high - low;
     return float(std::isfinite(step) ? std::clamp(step, -kMaxStep, kMaxStep) : step);
 }
@@ -135,7 +136,7 @@ ArraySides sides_of_array(const CellArray& array, const InputFile& file,
     if (values.may_be_infinite()) sides.finite = CellBits(array.counts);
     sides.min = INFINITY;
     sides.max = -INFINITY;
-    std::mutex mutex;  // of the range
+    std::mutex mutex;  // guards the range
     for_layer_ranges(array, 1, [&](int first, int end) {
         ArraySlabs slabs(array, file, 1, first, end);
         LayerReader reader(array, values, sides);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// array -> which of its cells lie inside a surface, and where neighbours lie on both sides of it.
+// array -> the cells that lie inside a surface, and the neighbours that lie on both sides of it.
 #pragma once
 
 #include "runtime/base/files/input_file.hpp"
@@ -8,32 +8,31 @@
 
 namespace voxelume {
 
-/// What a surface parts: one label or all values but 0 from the rest, or the values above another
-/// one from the others.
+/// The values inside a surface: one label, all values but 0, or the values above another one.
 class SurfaceValues {
   public:
     SurfaceValues(const CellArray& array, const VoxelValues& values);
 
-    /// What choose() takes for the inside of the surface.
+    /// The values that choose() selects as the inside of the surface.
     const VoxelValues& inside() const { return inside_; }
 
-    /// How far the value of a cell, as the file has it, is below what is looked for; negative
-    /// inside. 1 / 2 or -1 / 2 in a set.
+    /// The signed distance of a cell's value, as the file stores it, below the surface's value;
+    /// negative inside. In a set it is 1 / 2 or -1 / 2.
     template <class Value>
     float step(Value value) const {
         const double v = slope_ * double(value) + intercept_;
         if (iso_) return step_between(*iso_, v);
         return inside_.label ? (v == *inside_.label ? -0.5f : 0.5f) : (v != 0 ? -0.5f : 0.5f);
     }
-    /// How far a value is below another one. Infinity stays what it is.
+    /// The difference of two values. Infinity stays infinite.
     static float step_between(double high, double low);
 
-    /// True if values of some cells may be so large, or no numbers, that no surface is near them.
+    /// True if some values may be infinite or NaN, so that no surface is near them.
     bool may_be_infinite() const { return may_be_infinite_; }
 
     /// False where no value from `min` to `max` lies inside.
     bool are_crossed(double min, double max) const;
-    /// What is looked for, such as `the label 3`.
+    /// The values inside in words, such as `the label 3`.
     std::string in_words() const;
 
   private:
@@ -45,11 +44,11 @@ class SurfaceValues {
 
 struct ArraySides {
     CellBits inside;
-    CellBits finite;  ///< without cells where all are
+    CellBits finite;  ///< cells with finite values; empty if all have them
     double min = 0, max = 0;
 
-    /// One row of the pairs of neighbours with the surface between them: of each cell at (x, y, z)
-    /// and its next one along the file's axis. `out` has the words of a row.
+    /// Writes one row of bits: bit x is set if the surface lies between cell (x, y, z) and its next
+    /// one along the file's axis. `out` has the words of a row.
     void pairs(int axis, int y, int z, uint64_t* out) const;
 
     glm::ivec3 counts{0};

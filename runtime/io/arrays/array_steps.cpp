@@ -21,7 +21,7 @@ class StepMeter {
           weight_(weight),
           pairs_(sides.inside.words()) {}
 
-    /// Measures between neighbours in layer z.
+    /// Measures the steps between neighbours in layer z.
     template <class Value>
     void measure(const Value* layer, int z) {
         const int height = array_.counts.y;
@@ -36,7 +36,7 @@ class StepMeter {
         }
     }
 
-    /// Measures between layer z and the one after it.
+    /// Measures the steps between layer z and the next one.
     template <class Value>
     void measure(const Value* layer, const Value* next, int z) {
         for (int y = 0; y < array_.counts.y; ++y) {
@@ -62,11 +62,11 @@ class StepMeter {
     const SurfaceValues& values_;
     const ArraySides& sides_;
     const glm::vec3 weight_;
-    std::vector<uint64_t> pairs_;  ///< of a row
+    std::vector<uint64_t> pairs_;  ///< pairs of a row
     float steepest_ = 0;
 };
 
-/// The steepest step in layers, and between each of them and the one before.
+/// The steepest step within layers, and between each layer and the one before.
 float steepest_in(const CellArray& array, const InputFile& file, StepMeter meter, int first,
                   int end) {
     const int before = std::max(first - 1, 0);

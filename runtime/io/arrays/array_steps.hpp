@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// array, sides of its cells -> how steep its values are at the surface between them.
+// array and sides of its cells -> how steep its values are at the surface between them.
 #pragma once
 
 #include "runtime/io/arrays/array_sides.hpp"

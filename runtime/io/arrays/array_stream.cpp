@@ -15,7 +15,7 @@ void swap_bytes(std::byte* data, size_t size, size_t each) {
 
 /// The value of a number of 16 bits, exactly.
 float float_of_half(uint16_t half) {
-    // s eeeee mmmmmmmmmm: moved to a float's places, the exponent lacks 127 - 15. Multiplying by a
+    // s eeeee mmmmmmmmmm: shifted to a float's bits, the exponent lacks 127 - 15. Multiplying by a
     // power of 2 adds that, and gives subnormal numbers their exponent.
     uint32_t bits = uint32_t(half & 0x7fff) << 13;
     const bool is_finite = (half & 0x7c00) != 0x7c00;
@@ -24,7 +24,7 @@ float float_of_half(uint16_t half) {
     return (half & 0x8000) != 0 ? -magnitude : magnitude;
 }
 
-/// Bytes from the start of the data to a layer of cells, whose channels lie together.
+/// The bytes from the start of the data to a layer of cells whose channels are interleaved.
 uint64_t start_of_layer(const CellArray& array, int layer) {
     if (!in_any_order(array)) return 0;
     return array.skip + array.bytes() / uint64_t(array.counts.z) * uint64_t(layer);

@@ -14,8 +14,8 @@
 
 namespace voxelume {
 
-/// Bytes of values from a position of a file on. Never takes more memory than a few blocks and what
-/// it is asked for.
+/// Bytes of values from a position of a file on. Never takes more memory than a few blocks in
+/// addition to the caller's.
 class ByteStream {
   public:
     ByteStream(const InputFile& file, uint64_t start, DataEncoding encoding,
@@ -23,7 +23,7 @@ class ByteStream {
 
     /// Fills `data`. Throws Error::input where the file ends before that, or is damaged.
     void read(void* data, size_t size);
-    /// Fills `data` with up to `size` bytes, fewer only at the file's end. Returns how many.
+    /// Fills `data` with up to `size` bytes, fewer only at the file's end. Returns their number.
     size_t read_some(void* data, size_t size) { return decoder_->read_some(data, size); }
     void skip(uint64_t count);
 
@@ -41,11 +41,11 @@ class ArraySlabs {
     /// The layers from `first` to one before `end`; `first` is 0 unless layers are in_any_order().
     ArraySlabs(const CellArray& array, const InputFile& data, int thickness, int first, int end);
 
-    /// Reads the next slab. Returns how many layers it has; 0 after the last.
+    /// Reads the next slab. Returns its number of layers; 0 after the last.
     int next();
     int first() const { return first_; }  ///< number of its first layer
-    /// The values of channel `c`, of cells in the file's order; of interleaved channels, all of
-    /// them together. Those of float16 are float32.
+    /// The values of channel `c`, of cells in the file's order. Interleaved channels are in channel
+    /// 0 together. Values of float16 are float32 here.
     const std::byte* values(int c = 0) const { return bytes_.data() + size_t(c) * plane_; }
 
   private:
@@ -100,7 +100,7 @@ void with_type(CellType type, const std::byte* values, const Use& use) {
             return as(static_cast<const uint64_t*>(nullptr));
         case CellType::i64:
             return as(static_cast<const int64_t*>(nullptr));
-        case CellType::f16:  // as slabs have it
+        case CellType::f16:  // slabs have f16 as f32
         case CellType::f32:
             return as(static_cast<const float*>(nullptr));
         case CellType::f64:

@@ -21,15 +21,15 @@ namespace {
 constexpr int kPad = 4;    // nodes around the array, as around other models
 constexpr int kReach = 4;  // nodes from a crossing that gradients and resampling read
 constexpr uint64_t kMaxCells = uint64_t{1} << 30;
-constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // few bytes tell many of them
+constexpr uint64_t kMaxCompressedCells = uint64_t{1} << 28;  // a few bytes may stand for many cells
 
-/// Where the model has the cells along one of the file's axes.
+/// The model's positions of the cells along one of the file's axes.
 struct AxisPlaces {
-    int axis = 0;  ///< of the model
+    int axis = 0;  ///< axis of the model
     bool is_mirrored = false;
-    std::vector<int> node;      ///< of the model, by the file's cell
-    std::vector<size_t> brick;  ///< likewise: what it adds to the number of the brick
-    std::vector<size_t> cell;   ///< and to the cell in it
+    std::vector<int> node;      ///< node of the model, by the file's cell
+    std::vector<size_t> brick;  ///< by the file's cell: what it adds to the number of the brick
+    std::vector<size_t> cell;   ///< by the file's cell: what it adds to the index in the brick
 };
 
 class ArraySurface {
@@ -61,7 +61,7 @@ class ArraySurface {
         if (!values_.are_crossed(sides_.min, sides_.max)) file_.refuse(fault());
         find_close();
         measure_steps();
-        // A body that fills the array has no surface but its ends.
+        // A body that fills the array has no surface except at the array's ends.
         if (steepest_ == 0 && has_cut_)
             steepest_ = std::max(SurfaceValues::step_between(sides_.max, sides_.min), 1e-30f);
         if (!(steepest_ > 0)) file_.refuse(fault());
@@ -96,8 +96,8 @@ class ArraySurface {
     /// True if cell `i` along the file's axis has a next one.
     bool has_next(int axis, int i) const { return i >= 0 && i + 1 < array_.counts[axis]; }
 
-    /// Marks the cells at the surface: of two neighbours, the one that comes first in the model,
-    /// and what lies inside where the array ends.
+    /// Marks the cells at the surface: of two neighbours on both sides, the one that comes first in
+    /// the model, and cells inside at the array's ends.
     void find_close() {
         close_ = CellBits(array_.counts);
         std::atomic<bool> has_cut = false;
@@ -133,7 +133,8 @@ class ArraySurface {
         }
     }
 
-    /// True if the body goes on where the array ends.
+    /// Marks cells inside at the array's ends. True if there are some in this row, so that the body
+    /// is cut off.
     bool find_cut(int y, int z) {
         const bool is_edge =
             y == 0 || y + 1 == array_.counts.y || z == 0 || z + 1 == array_.counts.z;
@@ -226,7 +227,8 @@ class ArraySurface {
         });
     }
 
-    /// Far from the surface, nodes store nothing but their side, however flat the values are there.
+    /// Fills the nodes of a run. Far from the surface they store only their side, however flat the
+    /// values are there.
     template <class Value>
     void fill_run(const Value* row, const CellRun& run, int y, int z, const ArrayUnits& units) {
         const AxisPlaces &y_places = places_[1], &z_places = places_[2];
@@ -245,8 +247,9 @@ class ArraySurface {
         }
     }
 
-    /// Outside of the array the values are mirrored, and no farther than a voxel, so that the end
-    /// is found. Two nodes outside they are no nearer, or values close to 0 would go on as rods.
+    /// Fills nodes outside of the array with mirrored values, at most a voxel, so that the surface
+    /// closes at the array's end. Two nodes outside they are at least a voxel, or values close to 0
+    /// would go on as rods.
     void fill_pad(size_t slot) {
         const glm::ivec3 corner = brick_corner(model_.frame, model_.coordinates[slot]);
         const glm::ivec3 top = corner + (kBrickSize - 1);
@@ -280,7 +283,7 @@ class ArraySurface {
     CellBits close_;                ///< within kReach of the surface
     std::vector<uint8_t> is_near_;  ///< by brick
     float steepest_ = 0;
-    bool has_cut_ = false;  ///< the body goes on where the array ends
+    bool has_cut_ = false;  ///< the body is cut off by the array's ends
 };
 
 }  // namespace

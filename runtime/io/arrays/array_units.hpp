@@ -13,7 +13,7 @@
 
 namespace voxelume {
 
-inline constexpr int16_t kMaxUnits = 32767;  ///< what is far outside stores
+inline constexpr int16_t kMaxUnits = 32767;  ///< distance stored far outside
 
 /// Distances in which the steepest step through the surface is a voxel long.
 class ArrayUnits {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the values of an array come to.
+// Statistics of the values of an array.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -27,7 +27,7 @@ void for_each_value(const CellArray& array, const Use& use) {
         });
 }
 
-/// Where a cut, in bins, leaves two sets with the largest variance between them.
+/// The cut, in bins, between two sets of values with the largest variance between them.
 double otsu_bin(const std::array<uint64_t, kBins>& bins) {
     double total = 0, sum = 0;
     for (size_t i = 0; i < kBins; ++i) {
@@ -48,12 +48,12 @@ double otsu_bin(const std::array<uint64_t, kBins>& bins) {
             last = i;
         }
     }
-    // Between two sets that are far apart, the middle of the gap.
+    // Between two sets that are far apart, the cut is in the middle of the gap.
     return double(first + last) / 2 + 1;
 }
 
-/// What values come to that `for_each` calls a function with, and with how often each occurs in a
-/// row.
+/// Sums up the values that `for_each` passes to a function, each with the number of times that it
+/// occurs in a row.
 template <class ForEach>
 ArraySummary summary_of(const ForEach& for_each) {
     ArraySummary summary;
@@ -61,7 +61,7 @@ ArraySummary summary_of(const ForEach& for_each) {
     summary.max = -INFINITY;
     bool has_labels = true;
     int last = 0;
-    uint64_t run = 0;  // of cells with the value `last`, not yet counted
+    uint64_t run = 0;  // number of cells with the value `last` that aren't counted yet
     const auto count_run = [&] {
         if (run > 0 && last != 0) summary.labels[last] += run;
         run = 0;
@@ -95,7 +95,7 @@ ArraySummary summary_of(const ForEach& for_each) {
     }
     std::array<uint64_t, kBins> bins{};
     const double width = (summary.max - summary.min) / kBins;
-    // Values of the largest and the smallest magnitudes have no bins.
+    // Ranges too large or too small for normal numbers have no bins.
     if (!std::isnormal(width)) {
         summary.threshold = std::isinf(width) ? summary.min / 2 + summary.max / 2 : summary.max;
         return summary;
@@ -107,8 +107,8 @@ ArraySummary summary_of(const ForEach& for_each) {
     return summary;
 }
 
-/// Counts values of 8 bits, of which many in a row are often alike. Neighbours that almost are go
-/// to counts of their own, since each count waits for the one before.
+/// Counts 8-bit values, of which many in a row are often equal. Neighbouring cells have counters of
+/// their own, since each counter waits for its last update.
 void count_bytes(const uint8_t* values, size_t count, std::vector<uint64_t>& counts) {
     std::array<std::array<uint32_t, 256>, 4> apart{};
     size_t i = 0;
@@ -126,7 +126,8 @@ void count_bytes(const uint8_t* values, size_t count, std::vector<uint64_t>& cou
         for (size_t value = 0; value < some.size(); ++value) counts[value] += some[value];
 }
 
-/// How often each code of 8 or 16 bits occurs. 512^3 bytes take 40 ms, and one by one 1 s.
+/// The number of times that each 8-bit or 16-bit code occurs. 512^3 bytes take 40 ms, and 1 s if
+/// they are counted one by one.
 std::vector<uint64_t> count_codes(const CellArray& array) {
     const InputFile file(array.data);
     const size_t layer = size_t(array.counts.x) * size_t(array.counts.y);
@@ -150,7 +151,7 @@ std::vector<uint64_t> count_codes(const CellArray& array) {
     return all;
 }
 
-/// Calls `use` with the value of each code that occurs, and how often.
+/// Calls `use` with the value of each code that occurs, and with its count.
 template <class Use>
 void for_each_code(const CellArray& array, const std::vector<uint64_t>& counts, const Use& use) {
     const bool is_signed = array.type == CellType::i8 || array.type == CellType::i16;

@@ -12,24 +12,24 @@
 
 namespace voxelume {
 
-/// The cells that have such values as cubes. If the array has colours, they are the cells that
-/// aren't black, or with an opacity those that aren't clear. Throws Error::input for a file that is
-/// truncated or damaged, for arrays without such cells, and for `values` that colours don't have.
+/// The cells with these values as cubes. If the array has colours, all cells that aren't black, or
+/// with an opacity all that aren't clear. Throws Error::input for a file that is truncated or
+/// damaged, for arrays without such cells, and for `values` that colours don't have.
 VoxelModel cubes_of_array(const CellArray& array, const VoxelValues& values);
 
-/// The surface between the cells that have such values and the others. The field is linear in the
+/// The surface between the cells with these values and the others. The field is linear in the
 /// array's values: half-Taylor interpolation between the middles of cells is of third order. Beyond
 /// the array's end its values are mirrored, so that the surface is closed there. Throws
 /// Error::input as cubes_of_array does, and for colours and arrays of more than 2^30 cells, or 2^28
 /// in gzip.
 VoxelModel surface_of_array(const CellArray& array, const VoxelValues& values);
 
-/// What the values of an array come to.
+/// Statistics of the values of an array.
 struct ArraySummary {
     double min = 0, max = 0;
     uint64_t not_finite = 0;
     uint64_t zeros = 0;
-    /// The value that best parts the values in two, after Otsu 1979.
+    /// The value that best separates the values into two sets, after Otsu 1979.
     double threshold = 0;
     /// Empty unless all values are whole numbers and few: then the number of cells with each value
     /// but 0.
@@ -40,24 +40,24 @@ struct ArraySummary {
 /// arrays of colours.
 ArraySummary summary_of_array(const CellArray& array);
 
-/// The largest of an array's colours, or the first above `enough`: of many no more is read. Throws
-/// Error::input as summary_of_array.
+/// The largest of an array's colours, or the first one above `enough`, after which nothing more is
+/// read. Throws Error::input as summary_of_array.
 double largest_color(const CellArray& array, double enough);
 
-/// True if an array's colours are masks: 0 or 1, for none or all of a colour.
+/// True if an array's colours are masks: each channel is 0 or 1.
 bool has_color_masks(const CellArray& array);
 
-/// True if a value is a label: a whole number but 0. Fractions, NaN and infinity are none.
+/// True if a value is a label: a whole number other than 0. Fractions, NaN and infinity are not.
 inline bool is_label(double value) {
     return std::isfinite(value) && value != 0 && value == std::floor(value);
 }
 
-/// The number of a label; those beyond 32 bits are one.
+/// The number of a label, clamped to 32 bits.
 inline int label_of(double value) {
     return int(std::clamp(value, -2147483648.0, 2147483647.0));
 }
 
-/// The colour of a label, 0xBBGGRR, the same in all files.
+/// The colour of a label, 0xBBGGRR, which is equal in all files.
 uint32_t label_color(int label);
 
 }  // namespace voxelume

@@ -48,7 +48,7 @@ class PlainBytes : public ByteDecoder {
     Blocks blocks_;
 };
 
-/// Members of a compressed file, one after the other. A codec is a library's stream.
+/// Members of a compressed file, one after the other. A codec wraps a library's stream.
 template <class Codec>
 class InflatedBytes : public ByteDecoder {
   public:
@@ -74,7 +74,7 @@ class InflatedBytes : public ByteDecoder {
     }
 
   private:
-    /// Inflates into what the stream has room for. False at the end of the file.
+    /// Inflates into the stream's free output. Returns false at the end of the file.
     bool inflate_block() {
         auto& stream = codec_.stream;
         if (stream.avail_in == 0) {
@@ -84,7 +84,7 @@ class InflatedBytes : public ByteDecoder {
             stream.avail_in = unsigned(size);
         }
         if (has_ended_) {
-            // Another member may follow, which begins with no zero, or zeros that fill a block up.
+            // Another member may follow, after zeros that fill up a block.
             for (; stream.avail_in > 0 && *stream.next_in == 0; --stream.avail_in) ++stream.next_in;
             if (stream.avail_in == 0) return true;
             if (!codec_.restart()) damaged();
@@ -139,13 +139,13 @@ struct Bzip2 {
     }
 };
 
-/// Numbers that blanks or commas part.
+/// Numbers separated by blanks or commas.
 class TextValues : public ByteDecoder {
   public:
     TextValues(const InputFile& file, uint64_t start, CellType type)
         : blocks_(file, start), type_(type) {}
 
-    /// What is asked for must be whole values.
+    /// `size` must be a multiple of a value's size.
     size_t read_some(void* data, size_t size) override {
         const size_t each = bytes_of(type_);
         size_t done = 0;
@@ -201,7 +201,7 @@ class TextValues : public ByteDecoder {
                 return parse<int64_t>(word, value);
             case CellType::f32:
                 return parse<float>(word, value);
-            case CellType::f16:  // no format has it as text
+            case CellType::f16:  // no text format has f16
                 refuse(word);
             case CellType::f64:
                 break;
@@ -228,7 +228,7 @@ class TextValues : public ByteDecoder {
     Blocks blocks_;
     CellType type_;
     std::string text_;
-    size_t at_ = 0;  ///< of what isn't read yet in `text_`
+    size_t at_ = 0;  ///< position of the first unread byte in `text_`
     bool has_ended_ = false;
 };
 

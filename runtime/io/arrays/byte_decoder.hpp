@@ -14,13 +14,13 @@ namespace voxelume {
 class ByteDecoder {
   public:
     virtual ~ByteDecoder() = default;
-    /// Fills `data` with up to `size` bytes, fewer only at the end. Returns how many. Throws
+    /// Fills `data` with up to `size` bytes, fewer only at the end. Returns their number. Throws
     /// Error::input where the file is damaged.
     virtual size_t read_some(void* data, size_t size) = 0;
 };
 
-/// `type` is that of numbers in text. The file must outlive what is returned, which never takes
-/// more memory than a few blocks.
+/// Makes a decoder, which never takes more memory than a few blocks. `type` is the type of numbers
+/// in text. The file must outlive the decoder.
 std::unique_ptr<ByteDecoder> byte_decoder(const InputFile& file, uint64_t start,
                                           DataEncoding encoding, CellType type);
 

@@ -29,11 +29,11 @@ constexpr std::array<TypeRow, 12> kTypes = {{{"bool", 1},
                                              {"float64", 8},
                                              {"float16", 2}}};
 
-constexpr uint64_t kMaxDeflated = 1032;  // bytes that a byte of gzip becomes, at most
+constexpr uint64_t kMaxDeflated = 1032;  // maximum of bytes that a byte of gzip becomes
 constexpr uint64_t kMaxSkip = uint64_t{1} << 28;
 constexpr double kMaxExtent = 1e9;  // metres, as in scenes
 
-/// Gives each axis of the model the axis of the file that runs along it most.
+/// Assigns to each axis of the model the axis of the file that is closest to its direction.
 void match_axes(const std::array<glm::dvec3, 3>& directions, CellArray& array) {
     std::array<bool, 3> is_taken{}, is_matched{};
     for (int round = 0; round < 3; ++round) {
@@ -93,7 +93,7 @@ void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellAr
         angle = std::max(angle, std::acos(std::min(along, 1.0)) * 180 / 3.141592653589793);
         middle += glm::dvec3(model_from_index[from]) * ((array.counts[from] - 1) / 2.0);
     }
-    // The middle of all cells stays where it is, so that turned arrays are set straight about it.
+    // The middle of all cells stays, so turned arrays are straightened about it.
     array.first_corner = middle - array.voxel_edge * glm::dvec3(array.size()) / 2.0;
     const glm::dvec3& corner = array.first_corner;
     if (!(std::max({std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)}) <= kMaxExtent))
@@ -106,15 +106,15 @@ void set_place(const glm::dmat4& model_from_index, const InputFile& file, CellAr
 
 namespace {
 
-/// The bytes that the values take in a file at least.
+/// The minimum number of bytes that the values take in a file.
 uint64_t min_bytes(const CellArray& array) {
-    constexpr uint64_t kMaxBzip2 = 1'500'000;  // a block of zeros is as much shorter
+    constexpr uint64_t kMaxBzip2 = 1'500'000;  // the ratio of a block of zeros
     switch (array.encoding) {
         case DataEncoding::gzip:
             return array.bytes() / kMaxDeflated;
         case DataEncoding::bzip2:
             return array.bytes() / kMaxBzip2;
-        case DataEncoding::text:  // a digit each, and blanks between them
+        case DataEncoding::text:  // a digit for each, and blanks between them
             return 2 * array.cells() * uint64_t(array.channels) - 1;
         case DataEncoding::raw:
             break;
@@ -131,7 +131,7 @@ void check_array(const CellArray& array, const InputFile& data) {
     if (array.skip > kMaxSkip)
         data.refuse(fmt::format("its values begin after {} bytes, {} at most are possible",
                                 array.skip, kMaxSkip));
-    if (!array.slices.empty()) return;  // each is checked as it is read
+    if (!array.slices.empty()) return;  // each slice is checked as it is read
     const uint64_t stored = data.size() > array.start ? data.size() - array.start : 0;
     if (min_bytes(array) > stored)
         data.refuse(

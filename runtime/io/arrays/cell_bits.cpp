@@ -14,7 +14,7 @@ CellBits::CellBits(const glm::ivec3& counts)
       bits_(words_ * size_t(counts.y) * size_t(counts.z)) {}
 
 void CellBits::set_row(int y, int z, const uint8_t* bytes) {
-    // Bytes 0 or 1: the product brings byte i to bit 56 + i.
+    // The bytes are 0 or 1: the product moves byte i to bit 56 + i.
     constexpr uint64_t kGather = 0x0102040810204080;
     uint64_t* words = row(y, z);
     for (size_t word = 0; word < words_; ++word) {

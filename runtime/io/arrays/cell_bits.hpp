@@ -14,7 +14,7 @@ class CellBits {
     CellBits() = default;
     explicit CellBits(const glm::ivec3& counts);
 
-    size_t words() const { return words_; }  ///< of a row
+    size_t words() const { return words_; }  ///< number of words in a row
     uint64_t* row(int y, int z) { return bits_.data() + place(y, z); }
     const uint64_t* row(int y, int z) const { return bits_.data() + place(y, z); }
     bool operator()(const glm::ivec3& cell) const {
@@ -29,11 +29,11 @@ class CellBits {
         return uint32_t(bits[0] >> shift | (has_next ? bits[1] << (64 - shift) : 0)) & 0xFFFF;
     }
 
-    /// Sets a row from a byte for each cell, 0 or 1. `bytes` goes on to a multiple of 64, with 0.
+    /// Sets a row from one byte for each cell, 0 or 1. `bytes` is padded with 0 to a multiple of
+    /// 64.
     void set_row(int y, int z, const uint8_t* bytes);
 
-    /// Sets all cells that are no farther from one that is set than `reach` cells, at most 63,
-    /// along each axis.
+    /// Dilates: sets all cells within `reach` cells, at most 63, of a set cell along each axis.
     void dilate(int reach);
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The header of a NIfTI file.
 //
-// 348 bytes (version 1) or 540 (version 2) with numbers at fixed places, in the order of the
+// 348 bytes (version 1) or 540 (version 2) with numbers at fixed offsets, in the order of the
 // machine that wrote them: the first number is the header's size, which tells the order. X goes to
 // the patient's right, Y to the front, Z to the head.
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-/// The places of the two versions' numbers.
+/// The byte offsets of the two versions' numbers.
 struct Places {
     size_t header, dim, datatype, pixdim, vox_offset, slope, intercept, qform, sform, quatern,
         offset, srow, units;
@@ -54,7 +54,7 @@ class NiftiHeader {
     }
 
     bool is_swapped() const { return is_swapped_; }
-    /// The data are in a file of their own, of the header's name but for the ending .img.
+    /// True if the data are in a second file, whose name differs in the ending .img.
     bool has_data_elsewhere() const { return has_data_elsewhere_; }
     const Places& places() const { return *places_; }
 
@@ -67,7 +67,7 @@ class NiftiHeader {
         std::memcpy(&number, bytes.data(), sizeof number);
         return number;
     }
-    /// A float of version 1, a double of version 2: the `i`-th from a place on.
+    /// The `i`-th of the numbers at an offset: floats in version 1, doubles in version 2.
     double real(size_t place, size_t i = 0) const {
         const double v = places_->is_wide ? at<double>(place + 8 * i) : at<float>(place + 4 * i);
         return std::isfinite(v) ? v : 0;
@@ -102,8 +102,8 @@ bool is_gzip(const InputFile& file) {
     return mark[0] == 0x1f && mark[1] == 0x8b;
 }
 
-/// The other file of a pair: of a name that differs in the ending alone, as it is or with ".gz",
-/// in small letters or, where `path` has some, in capitals. Nothing where there is none.
+/// The other file of a pair. Its name differs in the ending alone, with or without ".gz", in small
+/// letters or, if `path` has some, in capitals. Empty where there is none.
 std::optional<std::filesystem::path> partner_of(const std::filesystem::path& path,
                                                 std::string_view ending) {
     std::filesystem::path stem = path.filename();
@@ -118,7 +118,7 @@ std::optional<std::filesystem::path> partner_of(const std::filesystem::path& pat
     return {};
 }
 
-/// The file with the header: the path itself, or that of a pair of which it has the data.
+/// The file with the header: the path itself, or the other file of a pair if the path has the data.
 std::filesystem::path header_file(const std::filesystem::path& path) {
     std::filesystem::path plain = path.filename();
     if (ending_of(plain) == ".gz") plain = plain.stem();
@@ -202,7 +202,7 @@ glm::dmat4 file_from_index(const NiftiHeader& header, CellArray& array) {
     if (header.code(places.qform) > 0) {
         glm::dvec3 turn(header.real(places.quatern), header.real(places.quatern, 1),
                         header.real(places.quatern, 2));
-        // Half a turn has no real part: what rounding leaves of it would turn the axes.
+        // Half a turn has no real part; the remainder of rounding would turn the axes.
         const double square = 1 - glm::dot(turn, turn);
         if (square < 1e-7) turn = glm::normalize(turn);
         const double a = square < 1e-7 ? 0 : std::sqrt(square), b = turn.x, c = turn.y, d = turn.z;

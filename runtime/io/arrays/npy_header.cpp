@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kMaxNpyHeader = 1 << 16;
 
-/// What stands behind a key of the dictionary.
+/// The text behind a key of the dictionary.
 std::string_view text_after(std::string_view header, std::string_view key, const InputFile& file) {
     for (const char quote : {'\'', '"'}) {
         const std::string quoted = quote + std::string(key) + quote;

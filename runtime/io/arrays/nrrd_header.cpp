@@ -77,7 +77,7 @@ size_t set_sizes(const NrrdFields& fields, const InputFile& file, CellArray& arr
         file.refuse(fmt::format("it has {} axes; 3 of space are read, and one of colours", axes));
     size_t first = 0;
     if (axes == 4) {
-        // The axis that isn't of space is the one without a direction, or else the first.
+        // The axis that isn't spatial is the one without a direction, or else the first.
         const std::vector<std::string> directions = fields.words("space directions");
         const bool is_last = directions.size() == 4 && directions[3] == "none";
         if (is_last && sizes[3] > 1)
@@ -131,7 +131,7 @@ void set_data(const NrrdFields& fields, const InputFile& file, CellArray& array)
         file.refuse(fmt::format("can't skip {} bytes", fields.text("byte skip")));
 }
 
-/// A space's axes as ours, where it is one of a patient: left, up, front.
+/// The axes of a patient's space in ours, whose directions are left, up and front.
 struct Space {
     std::string_view name, short_name;
     glm::dvec3 x, y, z;
@@ -172,7 +172,8 @@ double metres_per_unit(const std::string& unit, bool is_patient, CellArray& arra
     return is_patient ? 1e-3 : 1;
 }
 
-/// The map from indices to the file's space; spacings and the corner where it has no directions.
+/// The map from indices to the file's space. Spacings and the corner serve where there are no
+/// directions.
 glm::dmat4 space_from_index(const NrrdFields& fields, size_t first, CellArray& array) {
     glm::dmat4 map(1);
     const std::vector<std::string> directions = fields.words("space directions");
@@ -205,7 +206,7 @@ glm::dmat4 space_from_index(const NrrdFields& fields, size_t first, CellArray& a
     return map;
 }
 
-/// A unit for all axes of space.
+/// The unit of all spatial axes.
 std::string unit_of(const NrrdFields& fields, size_t first) {
     const std::vector<std::string> space = fields.words("space units"),
                                    axes = fields.words("units");
@@ -225,7 +226,7 @@ bool is_volume_nrrd(const std::filesystem::path& path) {
         if (std::string_view(start.data(), start.size()) != "NRRD000") return false;
         return NrrdFields(file).has_key("voxelume_frame");
     } catch (const Error&) {
-        return false;  // whoever reads it says what is wrong
+        return false;  // the reader reports what is wrong
     }
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kMaxSlices = 65536;
 constexpr uint64_t kMaxStackCells = uint64_t{1} << 30;
 
-/// The slices from a file on whose numbers follow one another: slice007.png, slice008.png.
+/// The slices with consecutive numbers, beginning with a file: slice007.png, slice008.png.
 std::vector<std::filesystem::path> slices_from(const std::filesystem::path& first) {
     const std::string stem = first.stem().string();
     size_t start = stem.size();
@@ -49,7 +49,7 @@ CellArray read_png_stack_header(const std::filesystem::path& path) {
     array.counts = {shape.width, shape.height, int(array.slices.size())};
     if (array.cells() > kMaxStackCells)
         file.refuse(fmt::format("begins a stack of {} cells; 2^30 are read", array.cells()));
-    // Rows go down, and slices away from who sees the first one.
+    // Rows go down; slices go away from an observer who sees the first one.
     glm::dmat4 model_from_index(1);
     model_from_index[1].y = model_from_index[2].z = -1;
     model_from_index[3] = {0.5, array.counts.y - 0.5, array.counts.z - 0.5, 1};

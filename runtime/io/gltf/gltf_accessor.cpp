@@ -47,7 +47,7 @@ uint32_t load(const uint8_t* at, size_t bytes) {
     return word;
 }
 
-/// Where the elements of an accessor, or of its sparse part, lie.
+/// The location of the elements of an accessor, or of its sparse part.
 struct Elements {
     const uint8_t* first = nullptr;  ///< null: all are 0
     size_t stride = 0;
@@ -87,7 +87,7 @@ struct Elements {
         }
     }
 
-    /// True if elements of a type are words that this machine has, too, one after the other.
+    /// True if elements of this type are adjacent words in this machine's byte order.
     bool are_words(uint64_t of_type) const {
         return std::endian::native == std::endian::little && first != nullptr && type == of_type &&
                components == rows && stride == sizeof(uint32_t) * size_t(components);
@@ -129,7 +129,7 @@ GltfValue accessor_of(const GltfFile& file, const GltfValue& from, const char* k
     return file.root().item("accessors", size_t(number));
 }
 
-/// Puts the values of a sparse accessor into their places.
+/// Stores the values of a sparse accessor at their indices.
 template <class Store>
 void read_sparse(const GltfFile& file, const GltfValue& accessor, uint64_t count, Elements elements,
                  const Store& store) {
@@ -221,7 +221,7 @@ std::vector<uint32_t> gltf_indices(const GltfFile& file, const GltfValue& from, 
     const auto number = size_t(from.index(key, SIZE_MAX));
     if (const auto* const decoded = file.decoded_accessor(number)) {
         elements.type = kUnsignedInt;
-        count = decoded->size() / 4;  // of strips, Draco makes more indices than their accessor has
+        count = decoded->size() / 4;  // Draco makes more indices of a strip than its accessor has
         take_decoded(file, accessor, number, count, elements);
     } else {
         place(file, accessor, count, elements);

@@ -9,26 +9,26 @@
 
 namespace voxelume {
 
-/// The most elements of an accessor: as many as the vertices of a mesh may be.
+/// The maximum number of elements of an accessor, which is that of a mesh's vertices.
 inline constexpr uint64_t kMaxGltfElements = uint64_t{1} << 31;
 
 /// The values of an accessor, element after element.
 struct GltfValues {
     uint64_t count = 0;
-    int components = 1;         ///< of an element; those of a matrix column by column
+    int components = 1;         ///< components of an element; those of a matrix are in column order
     std::vector<float> values;  ///< normalized integers as 0..1 or -1..1
 };
 
-/// Reads the accessor that `key` of `from` names. Its floats may be no numbers. Throws Error::input
-/// for a type that isn't one of `components` (by their numbers), and for one that doesn't lie in
-/// its buffer.
+/// Reads the accessor that `key` of `from` names. Its floats may be NaN. Throws Error::input for a
+/// type that isn't one of `components` (by their numbers), and for an accessor that doesn't fit its
+/// buffer.
 GltfValues gltf_values(const GltfFile& file, const GltfValue& from, const char* key,
                        std::initializer_list<int> components);
 
-/// How many elements the accessor has that `key` of `from` names; reads none of them.
+/// The number of elements of the accessor that `key` of `from` names. Reads none of them.
 uint64_t count_gltf_values(const GltfFile& file, const GltfValue& from, const char* key);
 
-/// The number of an accessor's type of components. Throws Error::input for a number that is none.
+/// The number of an accessor's component type. Throws Error::input for an unknown number.
 uint64_t gltf_component_type(const GltfValue& accessor);
 
 /// Reads the indices that `key` of `from` names; each is below `limit`.

@@ -18,7 +18,7 @@ namespace {
 struct Path {
     std::string_view name;
     GltfPath path;
-    int components;  ///< of its accessor
+    int components;  ///< number of its accessor's components
 };
 
 constexpr std::array<Path, 4> kPaths = {{{"translation", GltfPath::translation, 3},
@@ -71,7 +71,7 @@ void read_values(const GltfFile& file, const GltfValue& sampler, int components,
     }
 }
 
-/// The track of a channel; none for one that changes nothing that is known.
+/// The track of a channel; empty for one that changes nothing that is known.
 std::optional<GltfTrack> track_of(const GltfFile& file, const GltfValue& animation,
                                   const GltfValue& channel) {
     const GltfValue target = channel.at("target");

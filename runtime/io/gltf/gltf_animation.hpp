@@ -10,7 +10,7 @@
 
 namespace voxelume {
 
-/// What of a node a track changes.
+/// The value of a node that a track changes.
 enum class GltfPath : uint8_t { translation, rotation, scale, weights };
 
 /// A value of a node over time.
@@ -20,14 +20,14 @@ struct GltfTrack {
     Keyframes keys;  ///< frames are seconds; rotations are quaternions
 };
 
-/// What the format calls an animation.
+/// A clip, which the format calls an animation.
 struct GltfClip {
     std::string name;
-    double seconds = 0;  ///< the last key's
+    double seconds = 0;  ///< the time of the last key
     std::vector<GltfTrack> tracks;
 };
 
-/// The name of each clip, which no other one has: its own, or "clip 2".
+/// The name of each clip, made unique: its own, or "clip 2".
 std::vector<std::string> gltf_clip_names(const GltfFile& file);
 
 /// Reads a clip by its number. Channels without a node, and those of other paths, are left out.

@@ -23,7 +23,7 @@ std::optional<GltfValue> meshopt_of(const GltfValue& value) {
     return {};
 }
 
-/// The number of a word in a list of them.
+/// The index of a word in a list.
 template <class Number, size_t Size>
 Number number_of(const GltfValue& from, const char* key, const char* otherwise,
                  const std::array<const char*, Size>& words) {
@@ -71,7 +71,7 @@ CodecJob meshopt_job(const GltfFile& file, const GltfValue& view, const GltfValu
 /// A primitive whose accessors Draco's data fill.
 struct DracoPrimitive {
     CodecJob job;
-    std::vector<size_t> accessors;  ///< of the indices, then of the attributes
+    std::vector<size_t> accessors;  ///< accessors of the indices, then of the attributes
 };
 
 constexpr std::array kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -92,7 +92,7 @@ DracoPrimitive draco_primitive(const GltfFile& file, const GltfValue& primitive)
     task.count = count_gltf_values(file, attributes, "POSITION");
     for (const auto& [key, id] : from.at("attributes").json().items()) {
         const int number = attributes.index(key.c_str(), accessors);
-        if (number < 0) continue;  // nobody reads it
+        if (number < 0) continue;  // no accessor that is read
         if (task.attribute_count == kMaxDracoAttributes)
             from.fail(fmt::format("more than {} attributes", kMaxDracoAttributes));
         const GltfValue accessor = file.root().item("accessors", size_t(number));

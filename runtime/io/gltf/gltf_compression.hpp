@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_draco_mesh_compression and EXT_meshopt_compression: what a glTF file has compressed.
+// KHR_draco_mesh_compression and EXT_meshopt_compression: the compressed parts of a glTF file.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace voxelume {
 class GltfFile;
 class GltfValue;
 
-/// What the compressed parts of a file decode to, by the numbers of what they stand for.
+/// The decoded parts of a file, by the numbers of their buffer views and accessors.
 struct GltfDecoded {
     std::map<size_t, std::vector<uint8_t>> views;  ///< buffer views
     std::map<size_t, std::vector<uint8_t>>

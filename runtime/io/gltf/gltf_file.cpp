@@ -49,7 +49,7 @@ uint32_t load_word(std::string_view bytes, size_t at) {
     return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
 }
 
-/// The deepest nesting of objects and lists in a JSON text, as far as it is one.
+/// The maximum nesting depth of objects and lists in a JSON text, up to its first error.
 int depth_of(std::string_view text) {
     int depth = 0, deepest = 0;
     bool in_string = false;
@@ -101,7 +101,7 @@ Chunks chunks_of(std::string_view bytes, const std::string& name) {
     return chunks;
 }
 
-/// The name of each material, which no other one has.
+/// The name of each material, made unique.
 std::vector<std::string> names_of_materials(const std::vector<GltfValue>& materials) {
     std::vector<std::string> names;
     names.reserve(materials.size());
@@ -200,7 +200,7 @@ void GltfFile::read_buffers() {
         if (buffer.has("uri")) {
             bytes = read_.emplace_back(bytes_of_uri(buffer, buffer.text("uri")));
         } else if (!buffers_.empty()) {
-            bytes = {};  // only the first may be the binary chunk
+            bytes = {};  // only the first buffer may be the binary chunk
         }
         sum += bytes.size();
         if (sum > kMaxBuffers) buffer.fail("the buffers have more than 16 GiB");

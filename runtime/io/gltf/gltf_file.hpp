@@ -31,7 +31,7 @@ class GltfValue {
     GltfValue at(const char* key) const;
     GltfValue extension(const char* name) const;
     bool has_extension(const char* name) const;
-    /// How many items a list has, which may be missing, and one of them.
+    /// The number of items of a list, which is 0 if it is missing, and one of the items.
     size_t size(const char* key) const;
     GltfValue item(const char* key, size_t number) const;
     /// The items of a list, which may be missing.
@@ -56,7 +56,7 @@ class GltfValue {
     std::string place_;
 };
 
-/// A glTF file in memory. Nothing in it is known to be right but its JSON's syntax.
+/// A glTF file in memory. Of its content, only the JSON's syntax is known to be right.
 class GltfFile {
   public:
     /// Takes the file's bytes. `path` opens messages; buffers and images lie in its folder. Throws
@@ -72,7 +72,7 @@ class GltfFile {
     GltfValue root() const { return {name_, json_, ""}; }
     /// The bytes of a buffer view, decoded. `which` names it.
     std::span<const uint8_t> view(const GltfValue& which, const char* key) const;
-    /// The bytes that a view, or what stands for one, has in its buffer.
+    /// The bytes of a view, or of an extension in its place, in its buffer.
     std::span<const uint8_t> bytes_in_buffer(const GltfValue& view) const;
     /// The elements of an accessor that a Draco primitive fills; null for all others.
     const std::vector<uint8_t>* decoded_accessor(size_t number) const;
@@ -80,13 +80,12 @@ class GltfFile {
     size_t buffer_count() const { return buffers_.size(); }
     /// The bytes of an image: its file's, a data URI's or a buffer view's.
     std::vector<uint8_t> image(const GltfValue& image) const;
-    /// The name of a material, which no other one has; -1 stands for that of primitives without
-    /// one.
+    /// The name of a material, made unique; -1 stands for the material of primitives without one.
     std::string material_name(int material) const {
         return material < 0 ? std::string() : material_names_[size_t(material)];
     }
     const std::vector<std::string>& material_names() const { return material_names_; }
-    /// Extensions that the file uses and that aren't known, as sentences.
+    /// Sentences on extensions that the file uses and that aren't known.
     std::vector<std::string> notes() const;
 
   private:
@@ -99,8 +98,8 @@ class GltfFile {
     std::filesystem::path path_;
     std::string name_;
     nlohmann::json json_;
-    std::string_view chunk_;         ///< of a .glb, its binary chunk
-    std::vector<std::string> read_;  ///< buffers from elsewhere
+    std::string_view chunk_;         ///< binary chunk of a .glb
+    std::vector<std::string> read_;  ///< buffers that were read from other files
     std::vector<std::span<const uint8_t>> buffers_;
     std::vector<std::string> material_names_;
     GltfDecoded decoded_;
@@ -109,8 +108,8 @@ class GltfFile {
 /// True for names that end in .gltf or .glb.
 bool is_gltf_file(const std::filesystem::path& file);
 
-/// The files that a glTF file's buffers and images lie in. Throws Error::input for a .glb whose
-/// chunks are damaged.
+/// The files of a glTF file's buffers and images. Throws Error::input for a .glb whose chunks are
+/// damaged.
 std::vector<std::filesystem::path> gltf_companions(const std::string& bytes,
                                                    const std::filesystem::path& path);
 

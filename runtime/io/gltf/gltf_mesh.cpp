@@ -64,7 +64,7 @@ class MeshBuilder {
   public:
     explicit MeshBuilder(const GltfFile& file) : file_(file), textures_(file) {}
 
-    /// All meshes are expected before one is added.
+    /// Prepares for a mesh. All meshes are to be expected before the first is added.
     void expect_mesh(int number) { textures_.expect_mesh(number); }
 
     void add_mesh(int number, const glm::dmat4& map) {
@@ -145,7 +145,7 @@ class MeshBuilder {
         }
     }
 
-    /// Reads values of as many vertices as the primitive has.
+    /// Reads values; their number must be that of the primitive's vertices.
     GltfValues values(const GltfValue& attributes, const char* key, size_t vertices,
                       std::initializer_list<int> components) const {
         GltfValues found = gltf_values(file_, attributes, key, components);
@@ -169,7 +169,7 @@ class MeshBuilder {
         }
     }
 
-    /// Colours of glTF are linear already. `alphas_` becomes what they have of alpha.
+    /// Adds linear colours, as glTF has them. `alphas_` becomes their alpha.
     void add_colors(const GltfValue& attributes, size_t vertices, size_t base) {
         alphas_.clear();
         if (!attributes.has("COLOR_0")) return;
@@ -185,7 +185,7 @@ class MeshBuilder {
         }
     }
 
-    /// Gives vertices the places of their alpha; those of a primitive without any are opaque.
+    /// Gives vertices the UVs of their alpha; vertices of a primitive without alpha are opaque.
     void add_alphas(size_t vertices, size_t base) {
         mesh_.uvs.resize(base, glm::vec2(0));
         for (size_t i = 0; i < vertices; ++i)
@@ -218,7 +218,7 @@ class MeshBuilder {
             append_triangles(order, mode, uint32_t(base), is_mirrored, mesh_);
     }
 
-    /// The group of a material, which begins to exist with its first primitive.
+    /// The group of a material. A group begins to exist with its first primitive.
     uint32_t group_of(int material) {
         const auto [entry, is_new] =
             groups_.try_emplace(material, uint32_t(mesh_.group_names.size()));
@@ -231,7 +231,7 @@ class MeshBuilder {
         return entry->second;
     }
 
-    /// Gives the vertices behind the last that have colours and the like what says nothing.
+    /// Fills the lists of colours, UVs and normals with neutral values up to the last vertex.
     void fill(size_t vertices) {
         if (!mesh_.vertex_colors.empty()) mesh_.vertex_colors.resize(vertices, glm::vec3(1));
         if (!mesh_.normals.empty()) mesh_.normals.resize(vertices, glm::vec3(0));
@@ -242,7 +242,7 @@ class MeshBuilder {
     GltfTextures textures_;
     Mesh mesh_;
     std::map<int, uint32_t> groups_;
-    std::vector<float> alphas_;  ///< of the vertices of the primitive that is added
+    std::vector<float> alphas_;  ///< alphas of the current primitive's vertices
     size_t skipped_ = 0;
 };
 

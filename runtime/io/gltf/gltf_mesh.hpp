@@ -9,8 +9,8 @@
 
 namespace voxelume {
 
-/// A mesh of the file, numbered from 1 on, in its own space; with 0 all that the file's scene
-/// shows, in its places. Groups are named by GltfFile::material_name().
+/// A mesh of the file, numbered from 1 on, in its own space; with 0 everything that the file's
+/// scene shows, in the scene's space. Groups are named by GltfFile::material_name().
 ///
 /// Points and lines of a mesh without triangles become triangles without area; if it has triangles,
 /// they are left out with a note. Base colour textures are those of metallic-roughness and of
@@ -18,7 +18,8 @@ namespace voxelume {
 /// show, Error::limit for too many.
 Mesh gltf_mesh(const GltfFile& file, int part);
 
-/// Reads a mesh of any format, of a glTF file all that its scene shows. Throws as read_mesh() does.
+/// Reads a mesh of any format; of a glTF file, everything that its scene shows. Throws as
+/// read_mesh() does.
 Mesh read_mesh_file(const std::filesystem::path& path);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the nodes of a glTF file stand at a time of a clip.
+// The placements of a glTF file's nodes at a time of a clip.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace voxelume {
 
-/// A clip, which outlives it, that moves a file's nodes.
+/// A clip that moves a file's nodes. The file and the clip outlive this object.
 class GltfMotion {
   public:
-    /// `world_from_file` comes before the file's own places.
+    /// `world_from_file` is applied after the file's own placements.
     GltfMotion(const GltfFile& file, const GltfClip& clip,
                const glm::dmat4& world_from_file = glm::dmat4(1));
 
@@ -24,12 +24,12 @@ class GltfMotion {
         return tracks_[size_t(node)];
     }
     bool has_tracks(int node) const { return tracks_of(node) != std::array<const GltfTrack*, 3>{}; }
-    /// The numbers of a node's ancestors and its own, from the root on.
+    /// The numbers of a node's ancestors and of the node itself, from the root on.
     std::vector<int> line_of(int node) const;
     /// True if the node or an ancestor has tracks.
     bool moves(int node) const;
 
-    /// The place that the file gives a node with tracks in its parent, and that of any node.
+    /// The placement in its parent that the file gives a node with tracks, and that of any node.
     const Factors& factors_of(int node) const { return factors_[size_t(node)]; }
     const glm::dmat4& parent_from_node(int node) const { return places_[size_t(node)]; }
 

@@ -28,7 +28,7 @@ glm::dmat4 map_of(const glm::dvec3& translation, const glm::dvec4& rotation,
     return map;
 }
 
-/// The values of a member, or others where there is none.
+/// The values of a member, or default ones where there is none.
 template <int Size>
 glm::vec<Size, double> vector_of(const GltfValue& value, const char* key,
                                  const glm::vec<Size, double>& otherwise) {
@@ -38,7 +38,7 @@ glm::vec<Size, double> vector_of(const GltfValue& value, const char* key,
     return vector;
 }
 
-/// The maps of EXT_mesh_gpu_instancing; one that changes nothing without it.
+/// The maps of EXT_mesh_gpu_instancing; the identity alone without it.
 std::vector<glm::dmat4> instances_of(const GltfFile& file, const GltfValue& node) {
     if (!node.has_extension("EXT_mesh_gpu_instancing")) return {glm::dmat4(1)};
     const GltfValue attributes = node.extension("EXT_mesh_gpu_instancing").at("attributes");

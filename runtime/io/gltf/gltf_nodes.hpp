@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of a glTF file's scene, each with its way into the world.
+// The nodes of a glTF file's scene, each with its map into the world.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -14,13 +14,13 @@ namespace voxelume {
 struct GltfNode {
     std::string name;  ///< the node's, or else that of what it shows; may be empty
     glm::dmat4 world_from_node{1};
-    int number = 0;                    ///< of the node in the file
-    glm::dmat4 node_from_instance{1};  ///< of EXT_mesh_gpu_instancing; part of world_from_node
+    int number = 0;                    ///< number of the node in the file
+    glm::dmat4 node_from_instance{1};  ///< map of EXT_mesh_gpu_instancing; part of world_from_node
     int mesh = -1, camera = -1, light = -1;  ///< numbers in the file; -1: none
-    int skin = -1;                           ///< likewise; its joints, not the node, place the mesh
+    int skin = -1;  ///< number in the file; its joints, not the node, place the mesh
 };
 
-/// The most nodes and instances of a file that show something.
+/// The maximum number of a file's nodes and instances that show something.
 inline constexpr size_t kMaxGltfNodes = 50'000;
 
 /// The nodes of the scene that the file shows: its own choice, or the first, or without scenes all
@@ -32,11 +32,11 @@ std::vector<GltfNode> gltf_nodes(const GltfFile& file);
 /// gltf_nodes() does.
 std::vector<int> gltf_parents(const GltfFile& file);
 
-/// Where a node without tracks stands.
+/// The placement of a node without tracks.
 glm::dvec3 gltf_translation(const GltfValue& node);
 glm::dvec4 gltf_rotation(const GltfValue& node);  ///< a quaternion x, y, z, w
 glm::dvec3 gltf_scale(const GltfValue& node);
-/// The node's map, by these three or by its matrix.
+/// The node's map, from its translation, rotation and scale, or from its matrix.
 glm::dmat4 gltf_parent_from_node(const GltfValue& node);
 
 /// True if some primitive of a mesh with triangles has joints, so that a skin moves it.

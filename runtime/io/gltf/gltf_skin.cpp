@@ -17,7 +17,7 @@
 namespace voxelume {
 namespace {
 
-/// How many pairs of JOINTS_n and WEIGHTS_n a primitive has.
+/// The number of pairs of JOINTS_n and WEIGHTS_n in a primitive.
 size_t sets_of(const GltfValue& attributes) {
     size_t sets = 0;
     while (attributes.has(fmt::format("JOINTS_{}", sets).c_str()) &&
@@ -120,7 +120,7 @@ std::vector<glm::dmat4> inverse_binds_of(const GltfFile& file, const GltfValue& 
     return maps;
 }
 
-/// The box of the vertices that follow each joint, and behind those the box of all that none moves.
+/// The box of the vertices that follow each joint, and last the box of vertices that none moves.
 std::vector<Bounds> boxes_of(const GltfFile& file, const GltfValue& mesh,
                              const SkinWeights& weights, size_t joints) {
     std::vector<Bounds> boxes(joints + 1, {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)});

@@ -10,14 +10,14 @@
 
 namespace voxelume {
 
-/// The most pairs of a joint and a weight that a mesh's vertices have: 1 GiB.
+/// The maximum number of pairs of a joint and a weight over all of a mesh's vertices: 1 GiB.
 inline constexpr uint64_t kMaxSkinWeights = uint64_t{1} << 27;
 
-/// How much each vertex of a mesh follows which joints.
+/// The joints that each vertex of a mesh follows, and their weights.
 struct SkinWeights {
     size_t per_vertex = 0;         ///< 4 for each pair of JOINTS_n and WEIGHTS_n
     std::vector<uint32_t> joints;  ///< numbers in the skin
-    std::vector<float> weights;    ///< those of a vertex add up to 1, or all are 0: it stays
+    std::vector<float> weights;    ///< the weights of a vertex add up to 1, or are all 0: it stays
 };
 
 /// A mesh's vertices under a skin, while a clip moves the joints. Nothing moves in an empty clip:
@@ -31,8 +31,8 @@ class GltfSkin {
     GltfSkin(const GltfSkin&) = delete;  // the motion refers to the clip
     GltfSkin& operator=(const GltfSkin&) = delete;
 
-    /// Moves vertices from their places in the mesh, from number `first` on, into the world, as the
-    /// linear blends of their joints' maps say, and turns their normals.
+    /// Moves vertices from their positions in the mesh, from number `first` on, into the world by
+    /// linear blends of their joints' maps, and turns their normals.
     void move(Mesh& mesh, size_t first, double seconds) const;
     /// A box around the moved vertices, each of which may first be moved by something in `slack`.
     Bounds box_at(double seconds, const Bounds& slack = {}) const;
@@ -46,8 +46,8 @@ class GltfSkin {
     GltfClip clip_;
     GltfMotion motion_;
     SkinWeights weights_;
-    std::vector<Bounds> boxes_;              ///< of what follows each joint, and of what none moves
-    std::vector<int> joints_;                ///< nodes
+    std::vector<Bounds> boxes_;  ///< boxes of vertices by joint, and of those that none moves
+    std::vector<int> joints_;    ///< nodes
     std::vector<glm::dmat4> inverse_binds_;  ///< joint from mesh
 };
 

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kMoved[] = {"POSITION", "NORMAL"};
 
-/// Refuses a mesh whose targets take too much memory. A list of offsets reaches over the vertices
-/// of all primitives, however few of them its target moves.
+/// Refuses a mesh whose targets take too much memory. A list of offsets covers the vertices of all
+/// primitives, even if its target moves few of them.
 void check_size(const GltfFile& file, const GltfValue& mesh) {
     uint64_t vertices = 0, lists = 0;
     for (const char* const key : kMoved) {
@@ -34,7 +34,7 @@ void check_size(const GltfFile& file, const GltfValue& mesh) {
                 SourcePlace(file.path().string()), vertices, lists, kMaxTargetOffsets);
 }
 
-/// Appends the offsets of one attribute of a target, behind 0 for the vertices before them.
+/// Appends the offsets of one attribute of a target, after zeros for the vertices before them.
 void add_offsets(const GltfFile& file, const GltfValue& target, const char* key, size_t base,
                  size_t vertices, std::vector<glm::vec3>& offsets) {
     if (!target.has(key)) return;

@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// The most offsets of a mesh's targets, of positions and normals together: 768 MiB.
+/// The maximum number of offsets of a mesh's targets, positions and normals together: 768 MiB.
 inline constexpr uint64_t kMaxTargetOffsets = uint64_t{1} << 26;
 
 /// The targets of a mesh, numbered from 1 on, whose vertices are those of gltf_mesh(file, part).
@@ -17,7 +17,7 @@ inline constexpr uint64_t kMaxTargetOffsets = uint64_t{1} << 26;
 /// for more than kMaxTargetOffsets.
 std::vector<MorphTarget> gltf_targets(const GltfFile& file, int part);
 
-/// How many targets the mesh has: as many as its primitive with the most.
+/// The number of the mesh's targets: the largest of any of its primitives.
 size_t count_gltf_targets(const GltfValue& mesh);
 
 }  // namespace voxelume

@@ -26,7 +26,7 @@ GltfTextureUse use_of(const GltfFile& file, const GltfValue& info) {
     return use;
 }
 
-/// The linear part of a use's places.
+/// The linear part of a use's transform.
 glm::dmat2 matrix_of(const GltfTextureUse& use) {
     const double c = std::cos(use.rotation), s = std::sin(use.rotation);
     return {{c * use.scale.x, -s * use.scale.x}, {s * use.scale.y, c * use.scale.y}};

@@ -24,7 +24,7 @@ TextureWrap wrap_of(const GltfValue& sampler, const char* key) {
                              : TextureWrap::repeat;
 }
 
-/// What the alpha of a material's texture means, of which its factor is a part.
+/// The meaning of the alpha of a material's texture, which the material's factor multiplies.
 uint32_t alpha_of(const GltfValue& material) {
     const std::string mode = material.text("alphaMode", "OPAQUE");
     if (mode == "BLEND") return kAlphaBlend;
@@ -38,7 +38,7 @@ uint32_t alpha_of(const GltfValue& material) {
     return uint32_t(std::clamp(std::ceil(255 * cutoff / share), 0.0, 255.0));
 }
 
-/// What stands for a map that can't be read: nothing glows, and nothing is metal.
+/// The replacement of a map that can't be read: nothing is emissive, and nothing is metal.
 TextureImage without_map(size_t map) {
     return map == kEmissionMap ? one_texel(0, 0, 0) : one_texel(0, kUnknownRoughness, 0);
 }
@@ -111,7 +111,7 @@ uint32_t GltfTextures::append(int material, Mesh& mesh) {
     return entry->second = uint32_t(mesh.textures.size() - 1);
 }
 
-/// One of the file's textures, without an image where it has none that can be read.
+/// One of the file's textures. It has no image if none can be read.
 Texture GltfTextures::texture_of(int number, bool is_data, Mesh& mesh) {
     Texture made;
     if (number < 0) return made;
@@ -126,7 +126,7 @@ Texture GltfTextures::texture_of(int number, bool is_data, Mesh& mesh) {
     return made;
 }
 
-/// A map of the material. One of other texture coordinates counts by its mean.
+/// A map of the material. A map with other texture coordinates is replaced by its mean.
 TextureMap GltfTextures::map_of(int material, size_t map, Mesh& mesh) {
     const GltfValue item = file_.root().item("materials", size_t(material));
     const GltfTextureUse use = gltf_map(file_, item, map, unlit_.contains(material));

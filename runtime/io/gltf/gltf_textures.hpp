@@ -17,17 +17,17 @@ class GltfTextures {
   public:
     explicit GltfTextures(const GltfFile& file) : file_(file), unlit_(gltf_unlit_materials(file)) {}
 
-    /// Looks which materials the mesh has on vertices with alpha. All meshes that are added are
-    /// expected before.
+    /// Notes which materials the mesh uses on vertices with alpha. All meshes are to be expected
+    /// before the first is added.
     void expect_mesh(int number);
 
-    /// How the material uses its base colour's texture, or without one its first map; all of its
-    /// maps lie on the same places.
+    /// The material's use of its base colour's texture, or without one of its first map. All of its
+    /// maps share these texture coordinates.
     GltfTextureUse of_material(int material) const;
-    /// True if the alpha of vertices says how much is covered of what has the material. It is a
-    /// place on a texture of alpha_ramp.hpp, so that materials with other textures don't show it.
+    /// True if the alpha of vertices is the opacity of surfaces with the material. It is a UV on a
+    /// texture of alpha_ramp.hpp, so materials with other textures don't show it.
     bool shows_vertex_alpha(int material) const;
-    /// Notes that it isn't shown where vertices let light through, though the material wants it.
+    /// Adds a note that the vertices' alpha isn't shown, although the material asks for it.
     void note_lost_alpha(int material, Mesh& mesh);
     /// The number of the material's texture in the mesh, or kNoTexture; a note says why where the
     /// material has one that can't be read. A material with maps alone gets a white texture.
@@ -43,14 +43,14 @@ class GltfTextures {
     uint32_t append_map(const GltfTextureUse& use, size_t map, bool is_mean, Mesh& mesh);
 
     const GltfFile& file_;
-    std::set<int> unlit_;                           ///< materials
-    std::map<std::pair<int, bool>, Image> images_;  ///< by their numbers, and whether of data
+    std::set<int> unlit_;                           ///< numbers of unlit materials
+    std::map<std::pair<int, bool>, Image> images_;  ///< by number, and whether of data
     /// By their numbers and alpha, and the number of a material with maps.
     std::map<std::tuple<int, uint32_t, int>, uint32_t> appended_;
-    std::set<int> meshes_;         ///< that are expected
+    std::set<int> meshes_;         ///< numbers of expected meshes
     std::set<int> vertex_alphas_;  ///< materials of primitives whose vertices have alpha
-    std::set<int> lost_alphas_;    ///< materials of which a note says that it isn't shown
-    std::map<std::tuple<int, size_t, bool>, uint32_t> maps_;  ///< by numbers, kinds and being means
+    std::set<int> lost_alphas_;    ///< materials with such a note
+    std::map<std::tuple<int, size_t, bool>, uint32_t> maps_;  ///< by number, kind, and being a mean
 };
 
 }  // namespace voxelume

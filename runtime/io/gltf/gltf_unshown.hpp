@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What materials of glTF files have that their surfaces don't show.
+// Parts of glTF materials that their surfaces don't show.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace voxelume {
 
-/// Adds a sentence for each kind of texture or factor that the material has and its surface lacks,
-/// unless the notes have it. Normal, occlusion and thickness textures, which nearly every file has,
-/// are left to unshown_of_gltf().
+/// Adds a sentence for each kind of texture or factor that the material has and its surface doesn't
+/// show, unless the notes have the sentence. Normal, occlusion and thickness textures, which nearly
+/// every file has, are left to unshown_of_gltf().
 void note_unshown(const GltfValue& material, std::vector<std::string>& notes);
 
-/// The sentences that nothing but a description of the file has.
+/// Sentences on unshown parts that only descriptions of the file mention.
 std::vector<std::string> unshown_of_gltf(const GltfFile& file);
 
 }  // namespace voxelume

@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// What stands for a member that isn't there.
+/// The value of a missing member.
 const nlohmann::json& nothing() {
     static const nlohmann::json none;
     return none;

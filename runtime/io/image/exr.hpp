@@ -17,7 +17,7 @@ namespace voxelume {
 /// UINT.
 enum class ColorDepth { float16, float32 };
 
-/// How an image is stored.
+/// The storage format of an image.
 struct ExrStorage {
     ColorDepth color = ColorDepth::float16;
     bool is_multi_part = false;  ///< each layer is a part of its own, see exr_layers.hpp
@@ -43,7 +43,8 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  const std::map<std::string, std::string>& others = {});
 
 /// The file that `write_exr` writes, in bands. A text `noise` that is only known at the end may be
-/// told then. Chunks of all parts but the first wait in a hidden file next to it for the last band.
+/// replaced then. Chunks of all parts but the first wait for the last band in a hidden file next to
+/// it.
 std::unique_ptr<ImageRows> exr_rows(const std::filesystem::path& path, const ImageWindow& window,
                                     const ExrStorage& storage,
                                     const std::map<std::string, std::string>& others);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where compressed chunks wait until it is their turn in a file.
+// Temporary storage of compressed chunks until it is their turn in a file.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace voxelume {
 
-/// A hidden file in the folder of the one that chunks are for. It never gets a name, and is gone
-/// with the spool.
+/// A hidden file in the folder of the file that the chunks are for. It never gets a name, and is
+/// deleted with the spool.
 class ExrChunkSpool {
   public:
     explicit ExrChunkSpool(const std::filesystem::path& beside) : file_(beside) {}

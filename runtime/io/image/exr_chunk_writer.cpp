@@ -99,7 +99,7 @@ void ExrChunkWriter::add_texts(int part, const Attributes& texts) {
                 check(exr_attr_set_string(context_, part, name.c_str(), text.c_str()));
 }
 
-/// A part of a picture has its place in that as its data window.
+/// Sets the windows. The data window of a part of a picture is its position in the picture.
 void ExrChunkWriter::set_windows(int part, const ImageWindow& image, double pixel_aspect) {
     const auto window = [](glm::ivec2 first, glm::ivec2 size) {
         exr_attr_box2i_t box{};

@@ -37,7 +37,7 @@ class ExrChunkWriter {
     /// from the top down, part after part.
     void chunk(size_t part, int row, const std::string& bytes);
 
-    /// Replaces a text of the header that is there once, by one that is as long.
+    /// Replaces a text that occurs once in the header by one of the same length.
     void retell(const std::string& name, const std::string& text);
 
     /// Writes the table of rows.

@@ -31,11 +31,11 @@ struct ExrChunk {
     size_t replaced = 0;
 };
 
-/// How often the bytes of a chunk lie in memory while it is compressed.
+/// The number of copies of a chunk's bytes in memory while it is compressed.
 inline constexpr int kChunkCopies = 4;
 
-/// How many of `threads` compress chunks of `chunk_bytes` without taking much memory besides a band
-/// of an image: 64 MiB, or what one takes.
+/// The number of threads, at most `threads`, that can compress chunks of `chunk_bytes` with little
+/// memory in addition to a band of an image: 64 MiB, or what one thread takes.
 int threads_for_band(size_t chunk_bytes, int threads);
 
 /// Calls `write` with every chunk of the image, from the top down. `threads` threads compress them.

@@ -84,7 +84,7 @@ const exr_attr_chlist_t& ExrHeaderReader::list(int part) const {
     return *channels;
 }
 
-/// The first part is read in any case: what it can't be read for is told of it.
+/// True if a part is read. The first part always is, so that errors are reported for it.
 bool ExrHeaderReader::is_read(int part) const {
     return part == 0 || (is_flat(storage(part)) && equal(window(part), window(0)));
 }
@@ -147,7 +147,7 @@ void ExrHeaderReader::check_chunks() const {
             chunks));
 }
 
-/// Adds a part's attributes, but for those that an earlier one has.
+/// Adds a part's attributes, except those that an earlier part has.
 void ExrHeaderReader::add_attributes(int part, ExrHeader& header) const {
     int32_t count = 0;
     check(exr_get_attribute_count(context_, part, &count));

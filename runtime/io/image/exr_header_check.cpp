@@ -42,7 +42,7 @@ class Walk {
     uint64_t position_ = 0;
 };
 
-/// Checks the lengths inside of an attribute that has some.
+/// Checks the lengths inside of an attribute's value if its type has some.
 void check_value(Walk walk, const std::string& name, const std::string& type, uint64_t size) {
     const auto fail = [&] {
         walk.fail(fmt::format("its attribute {} declares more than it has", name));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an OpenEXR file's header declares, against the file's size, before OpenEXR sees it.
+// Checks of an OpenEXR header against the file's size, before OpenEXR reads it.
 #pragma once
 
 #include "runtime/base/files/input_file.hpp"

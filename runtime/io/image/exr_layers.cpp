@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-// The names of Nuke, which show first where a program shows one part alone.
+// Nuke's names of layers. Programs that show one part alone show the first.
 constexpr const char* kColor = "rgba";
 constexpr const char* kDepth = "depth";
 

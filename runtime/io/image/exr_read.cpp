@@ -62,7 +62,7 @@ void read_part(const InputFile& file, Imf::MultiPartInputFile& input, int number
     part.readPixels(window.min.y, window.max.y);
 }
 
-/// Gives an image its place in the display window, where its data window is a part of that.
+/// Sets an image's position in the display window, where its data window is a part of that.
 void set_place(const Imf::Header& header, Image& image) {
     const Imath::Box2i& window = header.dataWindow();
     const Imath::Box2i& display = header.displayWindow();

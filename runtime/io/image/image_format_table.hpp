@@ -18,17 +18,17 @@
 
 namespace voxelume {
 
-/// How an image is written. A format takes of it what it can say.
+/// The storage format of an image. A file format uses those options that it supports.
 struct ImageStorage {
-    PngOptions png;                                      ///< of formats for screens
-    ExrStorage exr;                                      ///< of formats that hold channels
+    PngOptions png;                                      ///< options of formats for screens
+    ExrStorage exr;                                      ///< options of formats that hold channels
     std::map<std::string, std::string> attributes = {};  ///< texts for the header, of the latter
 };
 
 /// One format. A new format is a row of the table and the functions that its row names, which lie
 /// in files of their own in this folder. A function is null where the format isn't used for that.
 struct ImageFormatEntry {
-    std::string_view ending;  ///< of file names: ".exr"
+    std::string_view ending;  ///< ending of file names: ".exr"
     std::string_view start;   ///< the first bytes of each file
     bool holds_channels;      ///< every channel as it is; otherwise colours for a screen, in codes
 

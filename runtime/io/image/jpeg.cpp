@@ -17,14 +17,14 @@ struct CloseDecoder {
     void operator()(void* decoder) const { tjDestroy(decoder); }
 };
 
-/// True if a JPEG has the marker of Adobe's programs, which save inks as what they leave white.
+/// True if a JPEG has the marker of Adobe's programs, which store inks inverted.
 bool has_adobe_marker(std::span<const uint8_t> bytes) {
     constexpr uint8_t kApp14 = 0xEE, kStartOfScan = 0xDA;
     constexpr std::string_view kName = "Adobe";
     // Segments are FF, a kind, and their length with its own two bytes.
     for (size_t at = 2; at + 4 <= bytes.size() && bytes[at] == 0xFF;) {
         const uint8_t kind = bytes[at + 1];
-        if (kind == 0xFF) {  // a byte that fills up
+        if (kind == 0xFF) {  // a fill byte
             ++at;
             continue;
         }
@@ -39,10 +39,10 @@ bool has_adobe_marker(std::span<const uint8_t> bytes) {
     return false;
 }
 
-/// What white light keeps of its colours where inks of cyan, magenta and yellow lie over black.
+/// Replaces inks by the colour that white light has after cyan, magenta and yellow over black.
 void light_of_inks(Picture& picture, bool is_inverted) {
     for (auto& pixel : picture.pixels) {
-        std::array<unsigned, 4> left{};  // white, of 255
+        std::array<unsigned, 4> left{};  // of 255, beginning with white
         for (size_t i = 0; i < 4; ++i) left[i] = is_inverted ? pixel[i] : 255u - pixel[i];
         for (size_t i = 0; i < 3; ++i) pixel[i] = uint8_t((left[i] * left[3] + 127) / 255);
         pixel[3] = 255;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file with an image that a mesh wears -> 8-bit picture.
+// Image file of a mesh's texture -> 8-bit picture.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,13 @@
 
 namespace voxelume {
 
-/// The most pixels of a picture that a mesh wears: 8192 x 8192.
+/// The maximum number of pixels of a texture's picture: 8192 x 8192.
 inline constexpr uint64_t kMaxTexturePixels = uint64_t{1} << 26;
 
-/// Decodes a JPEG, of grey, YCbCr, RGB, or inks (CMYK, YCCK), which become the light that they
-/// leave of white; alpha is 255. With Adobe's marker inks are stored inverted. The rotation that a
-/// camera noted isn't applied, as places on textures are those of the stored rows. Throws
-/// Error::input, which begins with `name`, for bytes that are damaged or cut off, and above
-/// kMaxTexturePixels.
+/// Decodes a JPEG of grey, YCbCr, RGB, or inks (CMYK, YCCK), which become the colour that they
+/// leave of white light; alpha is 255. With Adobe's marker inks are stored inverted. The rotation
+/// that a camera noted isn't applied, as UVs refer to the stored rows. Throws Error::input, which
+/// begins with `name`, for bytes that are damaged or cut off, and above kMaxTexturePixels.
 Picture parse_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& name);
 
 /// Decodes a PNG or JPEG, as its first bytes tell. Throws as parse_jpeg does.

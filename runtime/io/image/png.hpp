@@ -25,7 +25,7 @@ struct PngOptions {
     bool keep_alpha = false;     ///< if false, the background shows through where alpha is below 1
     glm::vec3 background{0.0f};  ///< linear Rec. 709, exposed like the image
     double pixel_aspect = 1;     ///< the width of a pixel over its height
-    std::string stamp = {};      ///< of the file, as a text chunk; empty for none
+    std::string stamp = {};      ///< stamp of the file, as a text chunk; empty for none
 };
 
 /// The pixels of a PNG: red, green, blue and alpha, row 0 at the top.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG file -> the numbers in it, as they are: slices of scans have values and no light.
+// PNG file -> the stored numbers: slices of scans hold values, not light.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace voxelume {
 
-/// What is in a PNG: grey, or colours with an opacity.
+/// The format of a PNG: grey, or colours with or without opacity.
 struct PngShape {
     int width = 0, height = 0;
-    int bits = 8;      ///< of a number, 8 or 16; those of fewer bits are spread over 0..255
+    int bits = 8;      ///< bits of a number, 8 or 16; fewer bits are spread over 0..255
     int channels = 1;  ///< 3 for colours, 4 with an opacity, both of 8 bits
 
     size_t bytes() const { return size_t(width) * size_t(height) * size_t(channels * bits / 8); }

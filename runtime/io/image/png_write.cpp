@@ -53,7 +53,7 @@ class Developer {
         return size_t(options_.keep_alpha ? 4 : 3) * size_t(options_.bits / 8);
     }
 
-    /// Puts `count` pixels from the `first` on in the place of those in `row`.
+    /// Replaces the content of `row` by `count` pixels, beginning with number `first`.
     void develop(const ColorPlanes& planes, size_t first, size_t count, std::vector<uint8_t>& row) {
         row.clear();
         for (size_t i = first; i < first + count; ++i) {
@@ -125,8 +125,8 @@ class PngEncoder {
     }
 
   private:
-    /// Texts of pictures come before their pixels. The library reads `stamp_` when it encodes
-    /// these.
+    /// Adds the stamp as a text. Texts come before pixels; the library reads `stamp_` when it
+    /// encodes the texts.
     void put_stamp() {
         if (stamp_.empty()) return;
         spng_text text{};
@@ -138,7 +138,7 @@ class PngEncoder {
         check(spng_set_text(context_.get(), &text, 1));
     }
 
-    /// Says what the codes stand for: sRGB, or with a gamma of 1 light itself.
+    /// Stores the meaning of the codes: sRGB, or with a gamma of 1 linear light.
     void put_meaning(ViewTransform transform) {
         constexpr uint8_t kPerceptual = 0;
         if (transform == ViewTransform::none)
@@ -147,8 +147,7 @@ class PngEncoder {
             check(spng_set_srgb(context_.get(), kPerceptual));
     }
 
-    /// A pixel of width 1 is 1 / `aspect` high: as many pixels to a unit as these are to each
-    /// other.
+    /// Stores the aspect of pixels as resolutions: pixels of width 1 have the height 1 / `aspect`.
     void put_aspect(double aspect) {
         constexpr double kPixels = 1e6, kMaxAspect = 1e3;  // OpenEXR's are up to 1e6
         const double across = kPixels / std::max(aspect / kMaxAspect, 1.0);

@@ -24,7 +24,7 @@ class Reader {
     [[noreturn]] void refuse(const std::string& reason) const {
         throw Error(ErrorKind::input, "{}: {}", SourcePlace(name_.string()), reason);
     }
-    /// The text up to the end of a line, of which the header's have at most 2,048 bytes.
+    /// The text up to the end of a line. Lines of the header have at most 2,048 bytes.
     std::string_view line() {
         constexpr size_t kLongest = 2048;
         const std::span<const uint8_t> rest = bytes_.first(std::min(kLongest, bytes_.size()));
@@ -53,7 +53,7 @@ class Reader {
     const std::filesystem::path& name_;
 };
 
-/// The size in a picture, and whether its first row is the lowest.
+/// The size of a picture, and whether its first row is the lowest.
 struct Resolution {
     int width = 0, height = 0;
     bool is_upward = false;
@@ -156,7 +156,8 @@ ColorPicture parse_radiance(std::span<const uint8_t> bytes, const std::filesyste
     if (pixels > max_pixels)
         reader.refuse(fmt::format("has {} x {} pixels; at most {} are allowed", r.width, r.height,
                                   max_pixels));
-    // The shortest row is one pixel that runs of 255 repeat, or of 127 bytes in four planes.
+    // The shortest data of a row is one pixel that runs of 255 repeat, or runs of 127 bytes in four
+    // planes.
     if (pixels / 127 > reader.left())
         reader.refuse(
             fmt::format("declares {} x {} pixels and is far too small for them; it is "

@@ -16,8 +16,8 @@ struct ColorPicture {
     std::vector<float> values;
 };
 
-/// The size that the header of an .hdr tells. Throws Error::input, which begins with `name`, for
-/// bytes that aren't one, or whose rows don't go from left to right.
+/// The size in an .hdr's header. Throws Error::input, which begins with `name`, for bytes that
+/// aren't an .hdr, or whose rows don't go from left to right.
 glm::ivec2 parse_radiance_size(std::span<const uint8_t> bytes, const std::filesystem::path& name);
 
 /// Decodes an .hdr: four bytes red, green, blue and exponent, as they are or in runs, both old and

@@ -32,7 +32,7 @@ ColorPicture read_sky_picture(const std::filesystem::path& path, int64_t max_pix
     ColorPicture picture = format_of(path).read_colors(path, uint64_t(max_pixels));
     constexpr float kBrightest = 1e9f;
     for (float& value : picture.values)
-        value = value > 0 ? std::min(value, kBrightest) : 0.0f;  // not a number: 0
+        value = value > 0 ? std::min(value, kBrightest) : 0.0f;  // NaN becomes 0
     return picture;
 }
 

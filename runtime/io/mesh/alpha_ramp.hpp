@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alpha of vertices as places on a texture: a row of white texels that cover more and more.
-// Between corners the place, and so the alpha, is linear, as colours are.
+// The alpha of vertices as UVs on a texture: a row of white texels of increasing alpha. Between
+// corners the UV, and so the alpha, is linear, as colours are.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,7 +15,7 @@
 
 namespace voxelume {
 
-/// The texture, whose alpha means `alpha` (of Texture).
+/// The texture of all alphas. `alpha` becomes Texture::alpha.
 inline Texture alpha_ramp(uint32_t alpha) {
     Picture row{256, 1, {}};
     for (int i = 0; i < 256; ++i) row.pixels.push_back({255, 255, 255, uint8_t(i)});
@@ -27,19 +27,20 @@ inline Texture alpha_ramp(uint32_t alpha) {
             true};
 }
 
-/// The place on it of an alpha from 0 to 1, which is 1 for what is no number.
+/// The UV on this texture of an alpha from 0 to 1; NaN counts as 1.
 inline glm::vec2 place_on_ramp(double alpha) {
     const double share = std::isfinite(alpha) ? std::clamp(alpha, 0.0, 1.0) : 1;
     return {float((255 * share + 0.5) / 256), 0.5f};
 }
 
-/// True if vertices of these alphas let light through. Where all are 0, nobody meant them.
+/// True if some alpha is below 1. If all are 0, they count as opaque, because invisible meshes
+/// aren't meant.
 inline bool lets_through(const std::vector<float>& alphas) {
     return std::ranges::any_of(alphas, [](float a) { return a < 1; }) &&
            std::ranges::any_of(alphas, [](float a) { return a > 0; });
 }
 
-/// Gives a mesh the alphas of its vertices, one each, or a note if a texture has their places.
+/// Shows the alphas of a mesh's vertices, or adds a note if a texture already uses the UVs.
 inline void show_vertex_alpha(const std::vector<float>& alphas, bool has_texture, Mesh& mesh) {
     if (!lets_through(alphas)) return;
     if (has_texture) {

@@ -13,7 +13,7 @@ bool leads_out(const fs::path& name, const std::string& text) {
     return name.is_absolute() || has_drive || std::ranges::find(name, "..") != name.end();
 }
 
-/// The regular file, unless a link leads out of the folder.
+/// The path of a regular file, unless a link leads out of the folder.
 std::optional<fs::path> file_below(const fs::path& folder, const fs::path& name) {
     std::error_code error;
     const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);

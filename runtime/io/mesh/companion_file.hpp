@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that a mesh's file names: material libraries, textures, buffers.
+// The files to which a mesh's file refers: material libraries, textures, buffers.
 #pragma once
 
 #include <filesystem>

@@ -38,7 +38,7 @@ struct Statement {
         const std::string rest = this->rest(i);
         return rest.substr(0, rest.find_first_of(" \t\r\v\f"));
     }
-    /// The line from word number `i` on.
+    /// The rest of the line from word number `i` on.
     std::string rest(size_t i) const { return i < words() ? line.substr(starts[i]) : ""; }
     std::optional<double> number(size_t i) const {
         const std::string text = word(i);
@@ -61,7 +61,7 @@ void read_number(const Statement& statement, double& value) {
     if (const auto number = statement.number(1)) value = *number;
 }
 
-/// How many words of values an option of a texture has at most; those of numbers may have fewer.
+/// The maximum number of values of a texture's option; options of numbers may have fewer.
 struct TextureOption {
     std::string_view name;
     size_t values;
@@ -107,7 +107,7 @@ MtlTexture texture_of(const Statement& statement) {
     return texture;
 }
 
-/// The texture of a material that a statement names; null for another.
+/// The texture to which a statement's word belongs; null for other words.
 MtlTexture* map_named(const std::string& word, MtlMaterial& m) {
     if (word == "map_Kd") return &m.diffuse_map;
     if (word == "map_Ke") return &m.emission_map;
@@ -163,7 +163,7 @@ std::string bytes_of(const InputFile& file) {
     return is_utf16(bytes) ? utf8_of_utf16(bytes) : bytes;
 }
 
-/// A library by the name that the mesh's file has for it; no file: there is none.
+/// A library by its name in the mesh's file. Without a file, there is none.
 struct NamedLibrary {
     std::string name;
     std::optional<std::filesystem::path> file;
@@ -186,7 +186,7 @@ std::vector<NamedLibrary> find_libraries(const std::filesystem::path& mesh,
     return found;
 }
 
-/// Says which libraries, one or more, aren't there. The names are in quotes.
+/// A sentence that says which libraries, one or more, are missing. The names are in quotes.
 std::string missing_sentence(std::vector<std::string> names) {
     if (names.size() == 1)
         return fmt::format("its material library {} isn't in its folder", names[0]);

@@ -12,16 +12,16 @@
 
 namespace voxelume {
 
-/// A texture that a material names, with the options of the statement that count here.
+/// A texture of a material, with the options that are supported.
 struct MtlTexture {
-    std::string file;  ///< as the library has it; empty: none
+    std::string file;  ///< name in the library; empty: none
     bool clamps = false;
-    glm::dvec2 offset{0}, scale{1};  ///< a place on the texture is `offset` + `scale` · (u, v)
+    glm::dvec2 offset{0}, scale{1};  ///< UV on the texture: `offset` + `scale` · (u, v)
 
     friend bool operator==(const MtlTexture&, const MtlTexture&) = default;
 };
 
-/// A material, with the values of the format, which has colours as screens show them (sRGB).
+/// A material with the values of the format. Colours are sRGB.
 struct MtlMaterial {
     std::string name;
     glm::dvec3 diffuse{0.8}, specular{0}, emission{0};  ///< Kd, Ks, Ke
@@ -37,23 +37,23 @@ struct MtlMaterial {
     bool has_bumps = false;                             ///< map_Bump, norm, disp: not shown
     bool has_specular_maps = false;                     ///< map_Ks, map_Ns: not shown
 
-    /// True if it is described by roughness and metalness.
+    /// True if the material has a roughness or metalness.
     bool is_physical() const {
         return roughness || metallic || !roughness_map.file.empty() || !metallic_map.file.empty();
     }
 };
 
-/// Reads the statements that MtlMaterial has. Others are skipped, and so are values that are no
-/// numbers: a library never keeps a mesh from being read. At most 16,384 materials are read.
+/// Reads the statements that MtlMaterial has. Other statements are skipped, and so are values that
+/// aren't numbers, so that a library never keeps a mesh from being read. At most 16,384 materials
+/// are read.
 std::vector<MtlMaterial> parse_material_library(std::string_view text);
 
-/// Adds what a statement mtllib names to what others did, unless one of them did, or it is empty.
-/// At most 64 are kept.
+/// Adds the name in a statement mtllib, unless it is empty or known. At most 64 names are kept.
 void append_library(const std::string& name, std::vector<std::string>& names);
 
-/// The materials of the libraries that the OBJ file `mesh` names. A name with spaces that is no
-/// file is taken for several. `faults` gets a sentence for each that companion_file() doesn't find,
-/// and for each above 64 MiB.
+/// The materials of the libraries of the OBJ file `mesh`. A name with spaces that isn't a file is
+/// split into several names. `faults` gets a sentence for each library that companion_file()
+/// doesn't find, and for each above 64 MiB.
 std::vector<MtlMaterial> read_material_libraries(const std::filesystem::path& mesh,
                                                  const std::vector<std::string>& names,
                                                  std::vector<std::string>& faults);

@@ -9,8 +9,8 @@
 namespace voxelume {
 namespace {
 
-/// The places of a map by those of the base texture. v counts downwards there, and upwards in the
-/// library.
+/// The transform from UVs of the base texture to UVs of a map. v counts downwards in Texture, and
+/// upwards in the library.
 std::array<float, 6> places_by(const MtlTexture& map, const MtlTexture& base) {
     glm::dvec2 ratio(0);
     for (int i = 0; i < 2; ++i)
@@ -22,14 +22,14 @@ std::array<float, 6> places_by(const MtlTexture& map, const MtlTexture& base) {
 
 using Pixel = std::array<uint8_t, 4>;
 
-/// The pixel that a picture has at a place of one of another size.
+/// The pixel of a picture that corresponds to pixel (x, y) of a picture of another size.
 const Pixel& pixel_at(const Picture& picture, int x, int y, glm::ivec2 size) {
     const auto at_x = size_t((2 * int64_t{x} + 1) * picture.width / (2 * int64_t{size.x}));
     const auto at_y = size_t((2 * int64_t{y} + 1) * picture.height / (2 * int64_t{size.y}));
     return picture.pixels[at_y * size_t(picture.width) + at_x];
 }
 
-/// Its red channel, or a number where there is no picture.
+/// The red channel at (x, y), or `otherwise` without a picture.
 uint8_t value_at(const std::optional<Picture>& picture, int x, int y, glm::ivec2 size,
                  uint8_t otherwise) {
     return picture ? pixel_at(*picture, x, y, size)[0] : otherwise;
@@ -51,7 +51,8 @@ const Picture* pointer_to(const std::optional<Picture>& picture) {
     return picture ? &*picture : nullptr;
 }
 
-/// One picture as glTF has it, of the larger one's size: roughness is green, and metalness blue.
+/// Joins roughness in green and metalness in blue, as glTF has them, in the size of the larger
+/// picture.
 Picture joined(const std::optional<Picture>& rough, uint8_t no_rough,
                const std::optional<Picture>& metal, uint8_t no_metal) {
     const glm::ivec2 size = larger_size({pointer_to(rough), pointer_to(metal)});
@@ -111,7 +112,7 @@ void LibraryMaps::add(const MtlMaterial& material, Texture& texture) {
                                      [&] { return emission_image(emission.file); });
 }
 
-/// The number of a texture whose image is made once.
+/// The number of a texture, whose image is made once.
 uint32_t LibraryMaps::appended(const Key& key, bool clamps,
                                const std::function<TextureImage()>& image) {
     const auto [entry, is_new] = known_.try_emplace(key, kNoTexture);

@@ -122,7 +122,7 @@ class ObjParser {
         skip_statement();
     }
 
-    /// Reads a place on a texture, whose v may be missing.
+    /// Reads a UV, whose v may be missing.
     void parse_uv() {
         double uv[2] = {0, 0};
         p_ += 2;
@@ -199,7 +199,7 @@ class ObjParser {
         return static_cast<uint32_t>(index);
     }
 
-    /// Reads points or a line. What isn't one says nothing about a mesh, so it is skipped.
+    /// Reads points or a line. Other uses of the words are skipped.
     void parse_stroke(bool is_line) {
         corners_.clear();
         const auto count = static_cast<int64_t>(mesh_.positions.size());
@@ -214,7 +214,7 @@ class ObjParser {
         skip_statement();
     }
 
-    /// What follows the word on the line, with the spaces within it.
+    /// The name after the word on the line, with the spaces within it.
     std::string name_after_word(const char* word) const {
         const char* const begin = skip_blanks(skip_token(word));
         const char* end = after_line(word);

@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// Takes colours as the file has them; what they mean is known when all of them are.
+/// Collects colours as the file has them; their meaning is known when all are collected.
 class ObjColors {
   public:
     /// Appends the colour of the last position. `at` lies in its line.
@@ -31,8 +31,8 @@ class ObjColors {
         mesh.vertex_colors.push_back(color);
     }
 
-    /// Makes linear colours of all. Fractions that are little above 1 are no bytes: they are
-    /// refused, as dividing them would make the mesh almost black.
+    /// Makes all colours linear. Fractions little above 1 aren't bytes: they are refused, as
+    /// dividing them by 255 would make the mesh almost black.
     void settle(const MeshSource& source, Mesh& mesh) const {
         if (mesh.vertex_colors.empty()) return;
         mesh.vertex_colors.resize(mesh.positions.size(), kNone);
@@ -52,8 +52,8 @@ class ObjColors {
 
   private:
     static constexpr float kBytes = 255;
-    static constexpr float kMinBytes = 16;  ///< from this maximum on values are bytes
-    static constexpr glm::vec3 kNone{-1};   ///< of a vertex without a colour, which is white
+    static constexpr float kMinBytes = 16;  ///< maximum of values, from which on they are bytes
+    static constexpr glm::vec3 kNone{-1};   ///< marks vertices without a colour, which are white
 
     float max_ = 0;
     bool is_whole_ = true;

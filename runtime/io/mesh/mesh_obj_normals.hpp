@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The normals of an OBJ file, which may stand behind the faces whose corners name them.
+// The normals of an OBJ file, which may follow the faces that refer to them.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// The index of a normal that a corner names, `known` normals into the file; kNoNormal for one that
-/// can't be.
+/// The index of the normal to which a corner refers by `number`, when `known` normals were read;
+/// kNoNormal for an impossible number.
 inline uint32_t obj_normal_index(int64_t number, size_t known) {
     const int64_t index = number < 0 ? static_cast<int64_t>(known) + number : number - 1;
     return index >= 0 && index < int64_t{kNoNormal} ? static_cast<uint32_t>(index) : kNoNormal;
@@ -23,7 +23,8 @@ inline bool has_obj_normals(const Mesh& mesh, std::span<const uint32_t> face) {
            std::ranges::any_of(face, [](uint32_t n) { return n != kNoNormal; });
 }
 
-/// Settles what corners name, at the end of the file. A file whose faces name none has none.
+/// Checks the indices of normals at the end of the file. Without a valid one, the mesh has no
+/// normals.
 inline void settle_obj_normals(Mesh& mesh) {
     bool found = false;
     for (glm::uvec3& t : mesh.triangle_normals)

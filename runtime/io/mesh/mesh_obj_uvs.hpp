@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places on textures in an OBJ file, which may stand behind the faces whose corners name them.
+// The UVs of an OBJ file, which may follow the faces that refer to them.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace voxelume {
 
-/// The index of a place that a corner names at `text`, `known` places into the file; kNoUv for one
-/// that can't be, and where there is none, as in `7//4`.
+/// The index of the UV to which a corner refers at `text`, when `known` UVs were read; kNoUv for an
+/// impossible number, and without one, as in `7//4`.
 inline uint32_t obj_uv_index(const char* text, const Integer& number, size_t known) {
     if (number.end == text) return kNoUv;
     const int64_t index =
@@ -20,13 +20,14 @@ inline uint32_t obj_uv_index(const char* text, const Integer& number, size_t kno
     return index >= 0 && index < int64_t{kNoUv} ? static_cast<uint32_t>(index) : kNoUv;
 }
 
-/// True if some corner of a mesh or of its next face, whose corners name `face`, has a place.
+/// True if some corner of a mesh or of its next face, whose corners have the indices `face`, has a
+/// UV.
 inline bool has_obj_uvs(const Mesh& mesh, std::span<const uint32_t> face) {
     return !mesh.triangle_uvs.empty() ||
            std::ranges::any_of(face, [](uint32_t uv) { return uv != kNoUv; });
 }
 
-/// Settles what corners name, at the end of the file. A file whose faces name none has none.
+/// Checks the indices of UVs at the end of the file. Without a valid one, the mesh has no UVs.
 inline void settle_obj_uvs(Mesh& mesh) {
     bool found = false;
     for (glm::uvec3& t : mesh.triangle_uvs)

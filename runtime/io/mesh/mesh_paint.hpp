@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of faces and places on textures, which formats give to some faces or corners only.
+// Colours of faces and UVs, which some formats give to some faces or corners only.
 #pragma once
 
 #include "runtime/geometry/mesh.hpp"
@@ -9,13 +9,14 @@
 
 namespace voxelume {
 
-/// A place on a texture whose v counts upwards. One that is no number is the upper left corner.
+/// A UV whose v counts upwards in the file. NaN becomes the upper left corner.
 inline glm::vec2 upright_uv(double u, double v) {
     const glm::vec2 uv(u, 1 - v);
     return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : glm::vec2(0);
 }
 
-/// Gives a colour to all triangles from number `first` on. Those before that have none get white.
+/// Gives a colour to all triangles from number `first` on. Earlier triangles without a colour
+/// become white.
 inline void append_face_color(Mesh& mesh, const glm::vec3& color, size_t first) {
     if (mesh.vertex_colors.empty()) mesh.vertex_colors.emplace_back(1.0f);
     mesh.triangle_colors.resize(first, glm::uvec3(0));
@@ -24,7 +25,7 @@ inline void append_face_color(Mesh& mesh, const glm::vec3& color, size_t first) 
                                 glm::uvec3(uint32_t(mesh.vertex_colors.size() - 1)));
 }
 
-/// Gives white, and no place on a texture, to the triangles behind the last that have some.
+/// Extends the lists of colours and UVs to the last triangle, with white and without UVs.
 inline void fill_corner_lists(Mesh& mesh) {
     if (!mesh.triangle_colors.empty())
         mesh.triangle_colors.resize(mesh.triangles.size(), glm::uvec3(0));
@@ -32,12 +33,12 @@ inline void fill_corner_lists(Mesh& mesh) {
         mesh.triangle_uvs.resize(mesh.triangles.size(), glm::uvec3(kNoUv));
 }
 
-/// The strip of triangles that is being read: each turns the other way round than the one before.
+/// The triangle strip that is being read: every second triangle has the opposite orientation.
 struct PlyStrip {
     uint32_t before = 0, last = 0;
     size_t count = 0;
 
-    /// Appends the triangle that a vertex makes with the two before it, unless two are the same.
+    /// Appends the triangle of a vertex and the two before it, unless two of them are equal.
     void add(uint32_t vertex, std::vector<glm::uvec3>& triangles) {
         const bool is_flat = before == last || last == vertex || vertex == before;
         if (count >= 2 && !is_flat)

@@ -50,7 +50,7 @@ void PolygonCutter::append(const MeshSource& source, std::span<const uint32_t> c
         mesh.triangle_normals.emplace_back(normals[t.x], normals[t.y], normals[t.z]);
 }
 
-/// Cuts the polygon into triangles of its places.
+/// Cuts the polygon into triangles, as indices of its corners.
 void PolygonCutter::cut(const MeshSource& source, std::span<const uint32_t> corners,
                         const Mesh& mesh) {
     cut_.clear();

@@ -41,7 +41,7 @@ class PolygonCutter {
     void append(const MeshSource& source, std::span<const uint32_t> corners, Mesh& mesh,
                 std::span<const uint32_t> normals = {});
 
-    /// The triangles of the last polygon, as places of its corners.
+    /// The triangles of the last polygon, as indices of its corners.
     const std::vector<glm::uvec3>& places() const { return cut_; }
 
   private:
@@ -52,9 +52,9 @@ class PolygonCutter {
     double turn(size_t corner) const;
     bool is_ear(size_t corner) const;
 
-    std::vector<glm::uvec3> cut_;   ///< triangles of places in the polygon
+    std::vector<glm::uvec3> cut_;   ///< triangles, as indices of the polygon's corners
     std::vector<glm::dvec2> flat_;  ///< the corners, projected so that they run counter-clockwise
-    std::vector<size_t> before_;    ///< ring of the corners that remain
+    std::vector<size_t> before_;    ///< the corner before each in the ring of those that remain
     std::vector<size_t> after_;
     std::vector<char> ear_;
 };

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More bytes than the largest allowed mesh takes as binary PLY (13 bytes a triangle). A larger
+/// A limit above the size of the largest allowed mesh as binary PLY (13 bytes a triangle). A larger
 /// file could only exhaust the memory.
 constexpr uintmax_t kMaxFileBytes = uintmax_t{16} << 30;
 
@@ -69,7 +69,7 @@ std::string lower_extension(const fs::path& name) {
     return extension;
 }
 
-/// Normals that all have no direction are none: `auto` and shading then follow the faces.
+/// Drops normals if all of them have length 0, so that `auto` and shading follow the faces.
 void leave_out_normals_of_no_use(Mesh& mesh) {
     const auto has_direction = [](const glm::vec3& n) {
         return unit_or_zero(glm::dvec3(n)) != glm::dvec3(0);
@@ -79,10 +79,10 @@ void leave_out_normals_of_no_use(Mesh& mesh) {
     mesh.triangle_normals = {};
 }
 
-/// One format. A new format is a row of kFormats and the functions that it names, which lie in a
-/// file of their own.
+/// One format. A new format is a row of kFormats and the functions of the row, which lie in a file
+/// of their own.
 struct MeshFormat {
-    const char* extension;                         ///< of file names, in lower case
+    const char* extension;                         ///< extension of file names, in lower case
     bool (*looks_like)(const std::string& bytes);  ///< null where the content has no mark
     Mesh (*parse)(const MeshSource& source);
 };

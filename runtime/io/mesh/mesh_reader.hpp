@@ -17,7 +17,7 @@ struct MeshSource;
 /// its size, ascii STL by "solid" ... "facet" or "endsolid"), whatever the file's name; otherwise
 /// the extension decides. Vertex colours are taken as sRGB and become linear. Polygons are cut into
 /// triangles. If a file has no faces, its points and lines become triangles without area; if it has
-/// none of these either, all vertices do. What else a file has beyond struct Mesh (free-form
+/// no points or lines either, all vertices do. Content without a member in struct Mesh (free-form
 /// curves, lines of a file with faces) is skipped. Vertices that no face uses and triangles without
 /// area are kept. Units are taken as metres.
 ///

@@ -13,9 +13,9 @@ namespace voxelume {
 
 /// Gives a mesh the colours of its facets, of five bits a channel.
 ///
-/// Materialise Magics writes "COLOR=" and four bytes RGBA into the header: that colour is that of
-/// facets whose word has its highest bit set. The others' words have red in the lowest bits.
-/// VisCAM has no header: the highest bit tells that a facet has a colour, whose blue is in the
+/// Materialise Magics writes "COLOR=" and four bytes RGBA into the header: facets whose word has
+/// its highest bit set have that colour. Other facets have red in the lowest bits of their words.
+/// VisCAM has no such header: the highest bit marks a facet with a colour, whose blue is in the
 /// lowest bits. Facets without a colour are white.
 class StlColors {
   public:

@@ -30,7 +30,7 @@ uint64_t first_level_texels(const Mesh& mesh) {
     return count;
 }
 
-/// Gives the corners of a group's triangles places of their own: `offset` + `scale` · the old ones,
+/// Gives the corners of a group's triangles UVs of their own: `offset` + `scale` · the old UVs,
 /// whose v counts upwards.
 void move_uvs(Mesh& mesh, uint32_t group, const MtlTexture& map) {
     if (map.offset == glm::dvec2(0) && map.scale == glm::dvec2(1)) return;
@@ -52,7 +52,7 @@ std::string without_places(const std::string& texture) {
                        quote(texture));
 }
 
-/// The first picture that a material names.
+/// The first picture of a material.
 std::string first_file(const MtlMaterial& m) {
     for (const MtlTexture* map :
          {&m.diffuse_map, &m.opacity_map, &m.emission_map, &m.roughness_map})
@@ -60,8 +60,8 @@ std::string first_file(const MtlMaterial& m) {
     return m.metallic_map.file;
 }
 
-/// The material with the options of map_d for its colours, too, where it has no picture of them:
-/// the places on all of its textures follow from theirs.
+/// The material with the options of map_d for its colours, too, where it has no picture of colours:
+/// the UVs of all its textures follow from the colours' UVs.
 MtlMaterial with_base(MtlMaterial m) {
     if (!m.diffuse_map.file.empty()) return m;
     m.diffuse_map = m.opacity_map;
@@ -91,7 +91,7 @@ class LibraryTextures {
     }
 
   private:
-    /// The picture that says how much the material covers, besides that of its colours.
+    /// The picture of the material's opacity, apart from the alpha of its colours.
     std::string cover_of(const MtlMaterial& material) {
         const MtlTexture &map = material.diffuse_map, &cover = material.opacity_map;
         const bool is_plain = cover == MtlTexture{cover.file};
@@ -105,7 +105,7 @@ class LibraryTextures {
         return "";
     }
 
-    /// Notes what several materials may have only once.
+    /// Adds a note once, even if several materials need it.
     void note(const std::string& sentence) {
         if (std::ranges::find(mesh_.notes, sentence) == mesh_.notes.end())
             mesh_.notes.push_back(sentence);
@@ -119,7 +119,7 @@ class LibraryTextures {
                          quote(file)));
     }
 
-    /// Appends a texture of colours, which are white without a file, and of what they cover.
+    /// Appends a texture of colours, white without a file, with an opacity.
     uint32_t append_colors(const MtlTexture& map, const std::string& cover) {
         std::optional<Picture> colors, share;
         if (!map.file.empty()) colors = companion_picture(name_, map.file, mesh_);
@@ -133,7 +133,7 @@ class LibraryTextures {
         return uint32_t(mesh_.textures.size() - 1);
     }
 
-    /// A texture with the material's maps, and the colours of another one, or white.
+    /// A texture with the material's maps, and with the colours of another texture, or white.
     uint32_t with_maps(const MtlMaterial& material, uint32_t colors) {
         Texture texture;
         if (colors != kNoTexture)
@@ -148,7 +148,7 @@ class LibraryTextures {
     const fs::path& name_;
     Mesh& mesh_;
     LibraryMaps maps_;
-    /// By the files of colours and of what they cover, and by being clamped.
+    /// By the files of colours and of opacity, and by clamping.
     std::map<std::tuple<std::string, std::string, bool>, uint32_t> known_;
 };
 
@@ -189,7 +189,7 @@ void read_ply_texture(const fs::path& name, Mesh& mesh) {
     }
     mesh.group_textures = {append_texture(name, mesh.texture, TextureWrap::repeat, mesh)};
     if (mesh.textures.empty()) return;
-    // Programs write into vertices what the texture has more of.
+    // Programs store the texture's colours in vertices, too; the texture has more of them.
     mesh.vertex_colors = {};
     mesh.triangle_colors = {};
 }
@@ -200,7 +200,7 @@ bool begins_line(const std::string& text, size_t at) {
     return at == 0 || text[at - 1] == '\n';
 }
 
-/// The names that statements mtllib of an OBJ file have.
+/// The names in an OBJ file's statements mtllib.
 std::vector<std::string> library_names(const std::string& bytes) {
     constexpr std::string_view kWord = "mtllib";
     std::vector<std::string> names;

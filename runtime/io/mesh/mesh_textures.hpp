@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The textures that OBJ and PLY files name.
+// The textures to which OBJ and PLY files refer.
 #pragma once
 
 #include <filesystem>
@@ -12,24 +12,24 @@
 
 namespace voxelume {
 
-/// The most texels of all first levels of a mesh's textures.
+/// The maximum number of texels in the first levels of all of a mesh's textures.
 inline constexpr uint64_t kMaxMeshTexels = uint64_t{1} << 28;
 
 /// Reads the textures of the mesh of file `name`: map_Kd and the maps of an OBJ file's library, or
-/// that of a PLY file's comment TextureFile. One that isn't there, is damaged or too large is left
-/// out with a note. A mesh without textures loses its places on them.
+/// the comment TextureFile of a PLY file. A texture that is missing, damaged or too large is left
+/// out with a note. A mesh without textures loses its UVs.
 void read_textures(const std::filesystem::path& name, Mesh& mesh);
 
-/// A picture that a mesh's file names; nothing, but a note to say why, where it can't be read.
+/// A picture to which a mesh's file refers; empty, with a note that says why, if it can't be read.
 std::optional<Picture> companion_picture(const std::filesystem::path& mesh_file,
                                          const std::string& texture_file, Mesh& mesh);
 
-/// Appends the texture of a picture's file, unless a note says why there is none. Returns its
-/// number, or kNoTexture.
+/// Appends the texture of a picture's file. Returns its number, or kNoTexture with a note that says
+/// why.
 uint32_t append_texture(const std::filesystem::path& mesh_file, const std::string& texture_file,
                         TextureWrap wrap, Mesh& mesh);
 
-/// All other files that the bytes of a mesh's file lead to.
+/// All other files to which the bytes of a mesh's file lead.
 std::vector<std::filesystem::path> companion_files(const std::string& bytes,
                                                    const std::filesystem::path& name);
 

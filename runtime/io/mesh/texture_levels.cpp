@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// The texels of a level along one axis that a texel of the next level covers: at most four, as
-/// three go into one where the size was odd.
+/// The texels of a level that a texel of the next level covers along one axis: at most four, since
+/// a texel may cover three where the size was odd.
 struct Cover {
     int first = 0, count = 0;
     std::array<float, 4> weights{};

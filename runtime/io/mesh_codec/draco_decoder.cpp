@@ -62,7 +62,7 @@ std::vector<uint8_t> values_of(const draco::Mesh& mesh, const DracoAttribute& wa
     if (attribute->num_components() != wanted.components)
         refuse(fmt::format("attribute {} of its Draco data has {} components, and its accessor {}",
                            wanted.id, attribute->num_components(), wanted.components));
-    // glTF has no truth values, and the library reads damaged ones as neither true nor false.
+    // glTF has no boolean type, and the library reads damaged values as neither true nor false.
     if (attribute->data_type() == draco::DT_BOOL)
         refuse(
             fmt::format("attribute {} of its Draco data has truth values, not numbers", wanted.id));

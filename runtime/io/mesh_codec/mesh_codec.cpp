@@ -20,9 +20,9 @@ namespace {
 constexpr uint64_t kMaxElements = uint64_t{1} << 31;
 constexpr uint64_t kMaxDecoded = uint64_t{16} << 30;
 
-/// How often data may be smaller than what they decode to. meshoptimizer's vertices take at least 2
-/// bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no minimum size, so
-/// that its limit is a guess; what it may take is limited where it runs.
+/// The maximum number of bytes that a byte of data decodes to. meshoptimizer's vertices take at
+/// least 2 bits for 16 bytes, its triangles a byte each. Draco's entropy coder has no minimum size,
+/// so its limit is a guess; the helper that runs it has a limit of memory.
 uint64_t max_decoded_of_byte(MeshCodec codec) {
     return codec == MeshCodec::draco ? 8192 : codec == MeshCodec::meshopt_vertices ? 64 : 12;
 }
@@ -88,13 +88,13 @@ CodecArrays receive(WireReceiver& receiver, const CodecTask& task) {
     return arrays;
 }
 
-/// Bytes that inputs of jobs share or that lie side by side.
+/// A range of bytes that inputs of jobs share, or that joins adjacent inputs.
 struct Part {
     const uint8_t *begin, *end;
     uint64_t first_byte;  ///< in the request
 };
 
-/// The jobs' inputs without any byte twice, in their order in memory.
+/// The jobs' inputs in their order in memory, with each byte once.
 std::vector<Part> parts_of(std::span<const CodecJob> jobs, uint64_t first_byte) {
     std::vector<std::span<const uint8_t>> inputs;
     inputs.reserve(jobs.size());

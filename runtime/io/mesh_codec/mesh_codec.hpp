@@ -40,14 +40,14 @@ inline constexpr size_t kMaxDracoAttributes = 32;
 struct CodecTask {
     MeshCodec codec = MeshCodec::draco;
     MeshoptFilter filter = MeshoptFilter::none;
-    uint64_t count = 0;    ///< elements; of Draco's data vertices
-    uint64_t stride = 0;   ///< bytes of an element; of Draco's data unused
-    uint64_t indices = 0;  ///< of Draco's data, at most
+    uint64_t count = 0;    ///< elements; for Draco: vertices
+    uint64_t stride = 0;   ///< bytes of an element; for Draco: unused
+    uint64_t indices = 0;  ///< maximum number of indices, for Draco
     uint64_t first_byte = 0, bytes = 0;
     uint64_t attribute_count = 0;
     std::array<DracoAttribute, kMaxDracoAttributes> attributes{};
 
-    /// How many bytes all arrays have that come back.
+    /// The number of bytes of all arrays that come back.
     uint64_t decoded_bytes() const;
 };
 
@@ -55,8 +55,8 @@ struct CodecRequest {
     uint64_t tasks = 0, decoded_bytes = 0;
 };
 
-/// What the helper may take for a request: arrays, and the libraries' own structures, which are at
-/// most 8 times as large for Draco.
+/// The maximum memory of the helper for a request: arrays, and the libraries' own structures, which
+/// are at most 8 times as large for Draco.
 inline uint64_t codec_memory(const CodecRequest& request, uint64_t request_bytes) {
     return (uint64_t{1} << 28) + 2 * request_bytes + 10 * request.decoded_bytes;
 }
@@ -64,15 +64,15 @@ inline uint64_t codec_seconds(const CodecRequest& request) {
     return 20 + request.decoded_bytes / 4'000'000;
 }
 
-/// Something to decode. `place` opens messages, behind the file.
+/// A task of decoding. `place` follows the file in messages.
 struct CodecJob {
     CodecTask task;
     std::span<const uint8_t> input;
     std::string place;
 };
 
-/// One array for meshoptimizer's codecs, of exactly the declared size; for Draco's the indices (32
-/// bits each, at most as many as declared) and one for each attribute.
+/// The arrays of a task: for meshoptimizer one of exactly the declared size; for Draco the indices
+/// (32 bits each, at most as many as declared) and one for each attribute.
 using CodecArrays = std::vector<std::vector<uint8_t>>;
 
 /// Decodes all jobs by one run of the helper. Throws Error::input for damaged data, and

@@ -55,7 +55,7 @@ int serve(int count, char** arguments) {
         refuse(sender, error.what());
     }
     sender.flush();
-    _exit(0);  // a damaged heap needn't be taken down
+    _exit(0);  // skips destructors: the heap may be damaged
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ fs::path reader_program() {
         failure.cause() == Cause::too_long ? "too large or damaged" : "damaged"));
 }
 
-/// What `receive` makes of the helper's answer to `question`.
+/// The result of `receive` for the helper's answer to `question`.
 template <class Receive>
 auto ask(const InputFile& file, const std::vector<std::string>& question, const Receive& receive) {
     std::vector<std::string> arguments = {VXL_VERSION, file.path().string()};

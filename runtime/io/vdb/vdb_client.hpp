@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the module for OpenVDB and its helper program agree on.
+// The protocol between the module for OpenVDB and its helper program.
 //
 // The module starts `voxelume-vdb-reader VERSION PATH QUESTION...`. The
 // questions are `summary`, `density GRID`, `model SURFACE` (its number) and `volume`. The answer is
@@ -19,12 +19,12 @@ enum class ReaderAnswer : uint32_t {
     end = 0x56444203,
 };
 
-/// What a reader may take at most.
+/// The limits of a reader.
 struct ReaderLimits {
-    uint64_t reading_bytes = 0;  ///< of address space, while OpenVDB reads
+    uint64_t reading_bytes = 0;  ///< bytes of address space, while OpenVDB reads
     uint64_t model_bytes = 0;    ///< while the voxels of a model are listed
     uint64_t computing_seconds = 0;
-    double seconds = 0;  ///< by the clock, with what a slow disk and a busy machine add
+    double seconds = 0;  ///< by the clock, which includes waiting for a slow disk or a busy machine
 };
 
 /// The limits for a file of `bytes`. A tree in memory takes at most 40 times its bytes in a file,

@@ -65,7 +65,7 @@ class VdbField : public DensityField {
     double bytes() const override { return double(grid_->memUsage()); }
 
   private:
-    /// The value in a whole box, if it is known to be one.
+    /// The value in a whole box, if it is known to be constant there.
     std::optional<float> value_in(const Bounds& box) const {
         CoordBBox cells = cells_around(box);
         const float outside = grid_->background();
@@ -98,7 +98,7 @@ class VdbField : public DensityField {
         return p;
     }
 
-    /// All cells whose values matter at some point of a box, clamped to the range of coordinates.
+    /// All cells whose values influence points of a box, clamped to the range of coordinates.
     CoordBBox cells_around(const Bounds& box) const {
         openvdb::BBoxd reach;
         for (int corner = 0; corner < 8; ++corner)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An OpenVDB file of any origin -> what callers want of it, in this process, although damaged files
-// make OpenVDB corrupt its memory; vdb_client.cpp has another process call these functions. Only
-// the sources of this folder include this header, because OpenVDB's headers take long to compile.
+// An OpenVDB file of any origin -> its contents, read in this process although damaged files make
+// OpenVDB corrupt its memory; vdb_client.cpp has another process call these functions. Only the
+// sources of this folder include this header, because OpenVDB's headers take long to compile.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -17,14 +17,14 @@
 
 namespace voxelume::vdb {
 
-/// What a file contains.
+/// The contents of a file.
 struct VdbContent {
     openvdb::GridPtrVecPtr grids;
     openvdb::MetaMap::Ptr metadata;
 };
 
-/// Each function throws Error::input for a file that is damaged, truncated, too large for the
-/// memory, or that doesn't hold what is asked for.
+/// Reads the contents. Each function throws Error::input for a file that is damaged, truncated, too
+/// large for the memory, or without the content that is asked for.
 VdbContent read_vdb_content(const InputFile& file);
 
 VdbFileSummary summary_in(const InputFile& file);

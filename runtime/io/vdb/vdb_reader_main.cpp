@@ -46,7 +46,7 @@ void send_model(WireSender& sender, const VdbModel& model, Surface surface) {
     sender.values(model.voxels.cells);
     sender.values(model.voxels.values);
     sender.values(model.voxels.colors);
-    const bool has_grid = stores_distances(surface);  // whose cells around the surface count, too
+    const bool has_grid = stores_distances(surface);  // cells around its surface count, too
     sender.value(uint32_t{has_grid});
     if (has_grid) send_grid(sender, *model.grid);
 }
@@ -62,7 +62,7 @@ void send_volume(WireSender& sender, const Volume& volume) {
     sender.values(volume.kinds);
 }
 
-/// Sends the answer once it is known whole, so that no refusal comes after its beginning.
+/// Sends the answer when all of it is known, so that a refusal never follows its beginning.
 void answer(WireSender& sender, const InputFile& file, std::string_view question,
             const std::string& detail) {
     const auto begin = [&] { sender.value(ReaderAnswer::content); };
@@ -119,7 +119,7 @@ int serve(int count, char** arguments) {
                                    std::string(error.what()).substr(0, 400)));
     }
     sender.flush();
-    _exit(0);  // a damaged heap needn't be taken down
+    _exit(0);  // skips destructors: the heap may be damaged
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace voxelume::vdb {
 void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
                      const openvdb::MetaMap& metadata);
 
-/// True if the file's identifier is the one that write_vdb_grids gives its content, so nothing has
-/// changed since. Call this before OpenVDB reads the file in this process: damaged files corrupt
-/// its memory.
+/// True if the file's identifier is the one that write_vdb_grids gives its content, so that the
+/// file is unchanged since then. Call this before OpenVDB reads the file in this process: damaged
+/// files corrupt the process's memory.
 bool vdb_identifier_holds(const InputFile& file);
 
 }  // namespace voxelume::vdb

@@ -19,7 +19,8 @@ using Map = openvdb::math::MapBase::Ptr;
 constexpr int kMaskWords = 8;
 static_assert(Leaf::SIZE == 64 * kMaskWords);
 
-/// Maps of different types round differently, so a grid keeps its map's type.
+/// The types of maps. A grid keeps its map's type, because maps of different types round
+/// differently.
 enum class MapType : int32_t { uniform, scale, shift, uniform_shifted, scale_shifted, affine };
 
 struct MapNumbers {
@@ -92,7 +93,7 @@ Map receive_map(WireReceiver& receiver) {
     }
 }
 
-/// All tiles but those that a new tree has anyway.
+/// All tiles except those that every new tree has.
 std::vector<TileNumbers> tiles_of(const FloatGrid& grid) {
     const auto background = std::bit_cast<uint32_t>(grid.background());
     std::vector<TileNumbers> tiles;

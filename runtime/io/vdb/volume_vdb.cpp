@@ -148,7 +148,7 @@ VolumeGrids take_grids(const openvdb::GridPtrVec& all) {
     return grids;
 }
 
-/// A voxel before the voxels are sorted by their place.
+/// A voxel before the voxels are sorted by `place`.
 struct FoundVoxel {
     uint64_t place = 0;
     openvdb::Vec3s color;

@@ -96,7 +96,7 @@ std::vector<uint8_t> make_buffer(const Cylinder& cylinder, const Packing& packin
 CylinderSize cylinder_size(const VolumeFrame& frame, const DeviceOptions& options) {
     CylinderSize size{options.angles, options.radii, frame.size.y};
     if (size.radii == 0) size.radii = std::max(1, std::min(frame.size.x, frame.size.z) / 2);
-    // This makes the outermost ring's cells as wide as they are deep.
+    // With this number the outermost ring's cells are as wide as they are deep.
     if (size.angles == 0) size.angles = int(std::ceil(2 * kPi * size.radii));
     return size;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light -> the few levels of a display's voxel.
+// Light -> one of the few levels of a display's voxel.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -23,7 +23,7 @@ namespace {
 using volume_exr::kIdChannels;
 using volume_exr::kReadChannels;
 
-/// A sample before the voxels are sorted by their place.
+/// A sample before the voxels are sorted by `place`.
 struct Sample {
     uint64_t place = 0;
     glm::vec3 color{0};

@@ -16,16 +16,15 @@ void write_volume_vdb(const VolumePath& path, const Volume& volume);
 void write_volume_exr(const VolumePath& path, const Volume& volume);
 void write_volume_nrrd(const VolumePath& path, const Volume& volume, const VolumeOptions& options);
 void write_volume_raw(const VolumePath& path, const Volume& volume);
-/// The arrays and their header, of the name of either.
+/// The file of arrays and the file of their header, by the name of either.
 std::vector<VolumePath> raw_files_of(const VolumePath& path);
 void write_volume_slices(const VolumePath& pattern, const Volume& volume);
 /// The path of the header of slices, without their number: `a/s.####.png` -> `a/s.json`.
 VolumePath slices_header_of(const VolumePath& pattern);
 
-/// The files in the folder whose names a stack of slices may have, whoever wrote them; its header's
-/// name is among them.
+/// The files in the folder whose names match a stack of slices, whoever wrote them, and its header.
 std::vector<VolumePath> found_slices_of(const VolumePath& pattern);
-/// All slices, as many as their header tells of, and the header; empty where that isn't there.
+/// All slices, whose number is in their header, and the header; empty where there is no header.
 std::vector<VolumePath> slice_files_of(const VolumePath& pattern);
 void write_volume_ply(const VolumePath& path, const Volume& volume);
 void write_volume_kv6(const VolumePath& path, const Volume& volume, const DeviceOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the JSON headers next to raw arrays have in common.
+// Helpers for the JSON headers next to raw arrays.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a KV6 file of any program says of itself, checked against all of its bytes; see
+// Reads the summary of a KV6 file of any program and checks it against all bytes of the file; see
 // volume_kv6.cpp for the format. Some programs add "SPal" and a palette of 256 colours of 6 bits.
 #include "runtime/io/volume/volume_kv6_read.hpp"
 
@@ -88,7 +88,7 @@ void check_size(const InputFile& file, Kv6Summary& kv6) {
         file.refuse("its palette has colours of more than 6 bits");
 }
 
-/// Checks one column's voxels: inside of the model, from its top down, with a face that shows.
+/// Checks one column's voxels: they lie inside the model, from top to bottom, with a visible face.
 void check_column(const InputFile& file, const Kv6Summary& kv6, uint16_t count,
                   ValueReader<Voxel>& voxels) {
     int last = -1;

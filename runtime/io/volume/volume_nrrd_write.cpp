@@ -65,8 +65,8 @@ std::string vector_text(const glm::dvec4& v) {
     return fmt::format("({},{},{})", v.x, v.y, v.z);
 }
 
-/// The fields that say where the samples are: directions and origin where a matrix describes them,
-/// otherwise what is known of each axis.
+/// The fields of the samples' positions: directions and origin where a matrix describes them,
+/// otherwise the known fields of each axis.
 std::string axes_text(const VolumeFrame& frame) {
     const std::optional<glm::dmat4> world = world_from_voxels(frame);
     const bool rays = frame.layout == VolumeLayout::rays;
@@ -102,7 +102,7 @@ std::string header_text(AtomicFile& file, const Volume& volume, const VolumeOpti
     const VolumeFrame& frame = volume.frame;
     const bool linear = world_from_voxels(frame).has_value();
     const char* axis_kind = linear ? "space" : "domain";
-    // The fields of the axes come after the dimensions because they need them.
+    // Dimensions come before the fields of the axes, which need them.
     std::string axes = axes_text(frame);
     std::string text = "NRRD0005\n# Volumetric image: linear Rec. 709, not multiplied by opacity\n";
     text += "type: float\ndimension: 4\n";

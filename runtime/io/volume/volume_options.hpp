@@ -40,14 +40,13 @@ enum class Dither : uint8_t {
 /// The axis of the observer along which a projection plane is swept.
 enum class SweepAxis : uint8_t { x, y, z };
 
-/// What the formats for displays need to know in addition to the volume.
+/// The options of the formats for displays.
 struct DeviceOptions {
     float exposure = 0;  ///< stops: colours are multiplied by 2^exposure
     Dither dither = Dither::bayer8;
     SweepAxis sweep = SweepAxis::y;  ///< axis of planes
-    int angles = 0;                  ///< of cylinders; 0 makes the outer cells as wide as they are
-                                     ///< deep
-    int radii = 0;                   ///< of cylinders; 0 means half of the shorter side
+    int angles = 0;  ///< cells around a cylinder; 0: outer cells are as wide as deep
+    int radii = 0;   ///< number of cells along a cylinder's radius; 0: half of the shorter side
 };
 
 struct VolumeOptions {

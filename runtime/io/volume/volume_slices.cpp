@@ -36,7 +36,7 @@ Image make_slice(const Volume& volume, VolumeRows& rows) {
     return image;
 }
 
-/// The slices that were written, which go again if the stack isn't completed.
+/// The slices that were written, which are deleted if the stack isn't completed.
 class WrittenSlices {
   public:
     WrittenSlices() = default;
@@ -94,7 +94,7 @@ std::vector<VolumePath> slice_files_of(const VolumePath& pattern) {
     const VolumeJson json = read_header(header, VolumeFormat::slices);
     if (json.empty()) return {};
     const VolumeJson count = json.value("/shape/2"_json_pointer, VolumeJson());
-    constexpr int64_t kMaxSlices = 65536;  // those of the largest display
+    constexpr int64_t kMaxSlices = 65536;  // number of slices of the largest display
     const int64_t slices = count.is_number_integer() ? count.get<int64_t>() : 0;
     if (slices < 1 || slices > kMaxSlices) return {};
     std::vector<VolumePath> files;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// binvox: lines of text with the sizes, the place and the size of the whole, then pairs of bytes: a
-// value and how often it is repeated. Y runs fastest, then Z.
+// binvox: lines of text with the sizes, the position and the scale, then pairs of bytes: a value
+// and its number of repetitions. Y runs fastest, then Z.
 #include <cmath>
 #include <sstream>
 
@@ -13,7 +13,7 @@ namespace voxelume {
 namespace {
 
 constexpr double kMaxBinvoxLength = 1e9;
-constexpr uint64_t kMaxRun = 255;  // cells of a pair of bytes
+constexpr uint64_t kMaxRun = 255;  // maximum number of cells of a pair of bytes
 
 struct BinvoxHeader {
     glm::ivec3 size{0};  ///< along x, z and y, as the file has them
@@ -39,7 +39,7 @@ BinvoxHeader take_header(ByteReader& reader) {
     reader.refuse("its header has no end");
 }
 
-/// Refuses runs that don't add up to all cells, before memory is taken for those.
+/// Refuses runs whose sum isn't the number of cells, before memory is taken for the cells.
 void check_runs(ByteReader reader, uint64_t count) {
     for (uint64_t at = 0; at < count;) {
         const auto repeats = uint64_t(uint8_t(reader.take_bytes(2)[1]));
@@ -48,7 +48,7 @@ void check_runs(ByteReader reader, uint64_t count) {
     }
 }
 
-/// The next cell: Y runs fastest, then Z.
+/// Steps to the next cell: Y runs fastest, then Z.
 void step(glm::ivec3& cell, const glm::ivec3& size) {
     if (++cell.y < size.y) return;
     cell.y = 0;

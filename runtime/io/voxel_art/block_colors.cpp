@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours are averages by eye, rounded to what a cube can show; they are no copies of textures.
+// The colours are averages by eye, rounded to colours that a cube can show; they are no copies of
+// textures.
 #include "runtime/io/voxel_art/block_colors.hpp"
 
 #include <algorithm>
@@ -9,12 +10,12 @@ namespace voxelume {
 namespace {
 
 struct Row {
-    std::string_view part;  ///< of the block's name
+    std::string_view part;  ///< substring of the block's name
     uint32_t rgb;           ///< 0xRRGGBB
     int transparency = 0;   ///< 0..254
 };
 
-/// Dyes, by the beginning of a name.
+/// Dyes, by the beginnings of names.
 constexpr auto kDyes = std::to_array<Row>({{"white_", 0xE6E9E9},
                                            {"orange_", 0xE37A1F},
                                            {"magenta_", 0xB64AAD},
@@ -32,12 +33,12 @@ constexpr auto kDyes = std::to_array<Row>({{"white_", 0xE6E9E9},
                                            {"red_", 0xA02A24},
                                            {"black_", 0x17171B}});
 
-/// What a dye colours.
+/// Names of things that dyes colour.
 constexpr auto kDyed = std::to_array<std::string_view>(
     {"wool", "carpet", "concrete", "concrete_powder", "terracotta", "glazed_terracotta", "glass",
      "bed", "stained_hardened_clay", "shulker_box", "banner", "stained_glass"});
 
-/// Kinds of wood, by the beginning of a name: planks and what is made of them.
+/// Kinds of wood, by the beginnings of names: planks and things made of them.
 constexpr auto kWoods = std::to_array<Row>({{"oak_", 0xA2834F},
                                             {"spruce_", 0x735530},
                                             {"birch_", 0xC3B37B},
@@ -51,7 +52,7 @@ constexpr auto kWoods = std::to_array<Row>({{"oak_", 0xA2834F},
                                             {"crimson_", 0x663148},
                                             {"warped_", 0x2B6964}});
 
-/// Parts of names. The longest one that a name has decides.
+/// Substrings of names. The longest one in a name decides.
 constexpr auto kParts = std::to_array<Row>({
     {"stone", 0x7E7E7E},
     {"cobblestone", 0x7A7A7A},
@@ -179,7 +180,7 @@ const Row* dye_of(std::string_view name) {
     return best;
 }
 
-/// What is made of wood and has no part of its own.
+/// True for things made of wood that have no row of their own.
 bool is_woodwork(std::string_view rest) {
     constexpr auto kWoodwork = std::to_array<std::string_view>(
         {"planks", "stairs", "slab", "fence", "door", "trapdoor", "pressure_plate", "button",
@@ -203,7 +204,7 @@ const Row* part_of(std::string_view name) {
     return best;
 }
 
-/// A colour in the middle of the cube of colours, by the letters of the name (FNV-1a).
+/// A colour from the middle of the colour cube, by a hash of the name's letters (FNV-1a).
 uint32_t color_of_letters(std::string_view name) {
     uint32_t hash = 2166136261u;
     for (const char c : name) hash = (hash ^ uint8_t(c)) * 16777619u;

@@ -11,11 +11,11 @@ namespace voxelume {
 struct BlockColor {
     uint32_t color = 0;    ///< 0xTTBBGGRR, with the transparency on top
     bool is_air = false;   ///< there is no block
-    bool is_known = true;  ///< otherwise the colour is made of the name
+    bool is_known = true;  ///< otherwise the colour comes from a hash of the name
 };
 
-/// The colour of a block by its name, as in "minecraft:oak_log[axis=y]". Names that aren't known
-/// have a colour that is always the same.
+/// The colour of a block by its name, as in "minecraft:oak_log[axis=y]". Every unknown name always
+/// gets its same colour.
 BlockColor block_color(std::string_view name);
 
 /// The name of a block before Minecraft 1.13, by its number and its data; empty for unknown ones.

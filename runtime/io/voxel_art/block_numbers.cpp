@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-/// A block whose number is 100 or more.
+/// A block with a number of 100 or more.
 struct NumberedBlock {
     int number;
     std::string_view name;

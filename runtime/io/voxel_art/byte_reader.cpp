@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t kMaxFile = uint64_t{1} << 31;
 constexpr size_t kPiece = size_t{1} << 20;
-constexpr uint64_t kDeflateRatio = 1032;  // a byte of deflate becomes at most as many
+constexpr uint64_t kDeflateRatio = 1032;  // maximum number of bytes that a byte of deflate becomes
 
 }  // namespace
 
@@ -29,7 +29,7 @@ std::string read_all_inflated(const InputFile& file, size_t max) {
     const bool is_gzip = mark[0] == '\x1f' && mark[1] == '\x8b';
     ByteStream stream(file, 0, is_gzip ? DataEncoding::gzip : DataEncoding::raw);
     std::string bytes;
-    // Pages that aren't touched take no memory, and growing would copy all that there is.
+    // Reserving is cheap, since untouched pages take no memory; growing would copy everything.
     const uint64_t largest = is_gzip ? kDeflateRatio * file.size() : file.size();
     bytes.reserve(std::min<uint64_t>(largest, max) + kPiece);
     for (size_t got = kPiece; got == kPiece;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of a file, one after the other, with the file's name in every refusal.
+// Reads values of a file one after another. Every refusal begins with the file's name.
 #pragma once
 
 #include <cstring>
@@ -13,11 +13,12 @@ namespace voxelume {
 /// All bytes of a file. Throws Error::input for more than 2 GiB.
 std::string read_all(const InputFile& file);
 
-/// All bytes of a file, or of what gzip made of them. Throws Error::input for damaged data, and as
-/// soon as more than `max` bytes came out.
+/// All bytes of a file, inflated if it is gzip. Throws Error::input for damaged data, and as soon
+/// as the result exceeds `max` bytes.
 std::string read_all_inflated(const InputFile& file, size_t max);
 
-/// Takes little-endian values from bytes that outlive it. Throws Error::input where they end.
+/// Takes little-endian values from bytes that outlive the reader. Throws Error::input where they
+/// end.
 class ByteReader {
   public:
     ByteReader(std::string_view bytes, const InputFile& file) : bytes_(bytes), file_(file) {}

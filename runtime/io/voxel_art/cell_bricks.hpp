@@ -10,15 +10,15 @@
 
 namespace voxelume {
 
-/// A box of cells in which voxels are set. Memory is taken for the bricks that have some.
+/// A box of cells in which voxels are set. Memory is allocated for bricks with voxels only.
 class CellBricks {
   public:
     /// The cells from `low` to one before `high`, in the model's coordinates: a voxel is 1 long,
     /// Y is up. Throws Error::input where a model may not have as many.
     CellBricks(const glm::ivec3& low, const glm::ivec3& high, const InputFile& file);
 
-    /// Lets a function set its voxels twice: first the bricks are counted and held against the
-    /// limit, and then memory is taken for all of them at once.
+    /// Calls a function that sets its voxels twice: the first time bricks are counted and checked
+    /// against the limit, then memory is allocated for all of them at once.
     template <class SetAll>
     void fill(const SetAll& set_all) {
         is_counting_ = true;
@@ -28,8 +28,8 @@ class CellBricks {
         set_all();
     }
 
-    /// Makes the cell, which must lie in the box, a voxel of the colour 0xTTBBGGRR, with its
-    /// transparency on top: 0 is opaque, and 254 at most.
+    /// Makes the cell, which must lie in the box, a voxel with the colour 0xTTBBGGRR. The
+    /// transparency in the highest byte is 0 for opaque voxels, and at most 254.
     void set(const glm::ivec3& cell, uint32_t color) {
         const glm::ivec3 at = cell - first_, b = at / kBrickSize, in = at % kBrickSize;
         uint32_t& number =
@@ -52,7 +52,7 @@ class CellBricks {
     const InputFile& file_;
     GridFrame frame_;
     glm::ivec3 first_{0}, bricks_{0};
-    std::vector<uint32_t> numbers_;  ///< by brick, into cells_
+    std::vector<uint32_t> numbers_;  ///< by brick: index into cells_
     std::vector<uint32_t> cells_;    ///< colours; 0xFFFFFFFF is no voxel
     uint32_t count_ = 0;
     bool is_counting_ = false;

@@ -48,7 +48,7 @@ void add_full(const VoxelModel& model, size_t brick, CubeList& cubes) {
     throw Error(ErrorKind::input, "there are no voxels to write");
 }
 
-/// The smallest box of cells that has all that are added.
+/// The smallest box of cells that contains all cells added so far.
 struct CellBox {
     glm::ivec3 low{INT_MAX}, high{INT_MIN};
 
@@ -58,7 +58,7 @@ struct CellBox {
     }
 };
 
-/// The distance at a node, in units, and as far as they go where none is stored.
+/// The distance at a node, in units; the limit of distances where none is stored.
 int distance_at(const VoxelModel& model, const glm::ivec3& node) {
     const glm::ivec3 bricks = model.frame.bricks(), brick = node / kBrickSize,
                      in = node % kBrickSize;
@@ -69,7 +69,7 @@ int distance_at(const VoxelModel& model, const glm::ivec3& node) {
     return model.distance[slot * kVoxelsPerBrick + voxel_in_brick(in)];
 }
 
-/// Has the sign of the distance at a voxel's middle.
+/// A number with the sign of the distance at a voxel's middle.
 int sum_of_corners(const VoxelModel& model, const glm::ivec3& voxel) {
     int sum = 0;
     for (int corner = 0; corner < 8; ++corner)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goxel's .gox: "GOX ", a version, then chunks: four letters, a length, the content and a checksum.
 // BL16 is a block of 16 x 16 x 16 voxels as a PNG picture of 64 x 64 pixels, x fastest, then y.
-// LAYR is a layer: blocks by their numbers and places, then entries of a key and a value. Z is up.
+// LAYR is a layer: blocks by their numbers and positions, then entries of a key and a value. Z is
+// up.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -104,7 +105,7 @@ class GoxReader {
         return true;
     }
 
-    /// The voxels of a picture, which is decoded once. An empty one is left out.
+    /// The voxels of a picture, which is decoded once. Pictures without voxels are left out.
     const Pixels& pixels_of(size_t number) {
         if (decoded_[number]) return *decoded_[number];
         const std::string_view png = pictures_[number];

@@ -13,7 +13,7 @@ struct Entry {
     int channel(int c) const { return int(color >> 8 * c & 255); }
 };
 
-/// A range of entries, and the channel in which they differ most.
+/// A range of entries, and the channel with the largest differences.
 struct Box {
     size_t first, last;  ///< `last` is one past the end
     int channel = 0, side = 0;
@@ -35,7 +35,7 @@ Box box_of(const std::vector<Entry>& entries, size_t first, size_t last) {
     return box;
 }
 
-/// Where the first half of the box's voxels ends; both parts have an entry.
+/// The end of the first half of the box's voxels; both halves have at least one entry.
 size_t middle_of(const std::vector<Entry>& entries, const Box& box) {
     uint64_t all = 0, passed = 0;
     for (size_t i = box.first; i < box.last; ++i) all += entries[i].voxels;

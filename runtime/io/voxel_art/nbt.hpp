@@ -29,20 +29,20 @@ struct NbtValue {
         longs
     };
     Kind kind = Kind::none;
-    int64_t number = 0;              ///< of whole numbers
-    std::string_view content;        ///< of texts and arrays, as in the file
-    std::vector<NbtMember> members;  ///< of compounds
-    std::vector<NbtValue> items;     ///< of lists
+    int64_t number = 0;              ///< value of whole numbers
+    std::string_view content;        ///< bytes of texts and arrays, as in the file
+    std::vector<NbtMember> members;  ///< members of compounds
+    std::vector<NbtValue> items;     ///< items of lists
 
     /// A member; null where there is none.
     const NbtValue* find(std::string_view name) const;
-    /// A member of the kind. Throws Error::input where there is none.
+    /// A member of the given kind. Throws Error::input where there is none.
     const NbtValue& get(std::string_view name, Kind of, const InputFile& file) const;
     /// A member that is a whole number. Throws Error::input where there is none.
     int64_t whole(std::string_view name, const InputFile& file) const;
 
-    size_t ints() const { return content.size() / 4; }   ///< how many an array of ints has
-    size_t longs() const { return content.size() / 8; }  ///< how many an array of longs has
+    size_t ints() const { return content.size() / 4; }   ///< number of values of an array of ints
+    size_t longs() const { return content.size() / 8; }  ///< number of values of an array of longs
     uint64_t long_at(size_t i) const;
 };
 

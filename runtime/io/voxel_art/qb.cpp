@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Qubicle's .qb. A header of six words: version, order of the colours, whether Z comes towards the
-// observer, whether the matrices are compressed, whether the fourth byte of a colour says which
-// faces can be seen, and the number of matrices. Each of those has a name, sizes, a position and
-// its cells, x fastest, then y. Compressed, each slice is a list of words: 6 ends it, and 2 stands
-// before a number and the word that is repeated as often.
+// Qubicle's .qb. A header of six words: version, order of the colours, whether Z points towards the
+// observer, whether the matrices are compressed, whether the fourth byte of a colour tells which
+// faces are visible, and the number of matrices. Each matrix has a name, sizes, a position and its
+// cells, x fastest, then y. In compressed files, each slice is a list of words: 6 ends it, and 2 is
+// followed by a count and the word that is repeated.
 #include <algorithm>
 #include <glm/common.hpp>
 
@@ -24,7 +24,7 @@ struct QbHeader {
 };
 static_assert(sizeof(QbHeader) == 24);
 
-/// Reads the matrices, first to measure them and then to set their voxels.
+/// Reads the matrices twice: first to measure them and then to set their voxels.
 class QbReader {
   public:
     explicit QbReader(const std::filesystem::path& path) : file_(path), bytes_(read_all(file_)) {}
@@ -75,7 +75,7 @@ class QbReader {
                                   : read_slice(reader, z, measures);
     }
 
-    /// Z comes towards the observer, as in scenes, or goes away.
+    /// Maps a cell: Z points towards the observer, as in scenes, or away.
     glm::ivec3 cell(const glm::ivec3& v) const {
         const glm::ivec3 at = first_ + v;
         return {at.x, at.y, header_.towards_observer ? at.z : -1 - at.z};
@@ -125,9 +125,9 @@ class QbReader {
     const InputFile file_;
     std::string bytes_;
     QbHeader header_{};
-    glm::ivec3 size_{0}, first_{0};  ///< of the matrix at hand
+    glm::ivec3 size_{0}, first_{0};  ///< box of the current matrix
     glm::ivec3 low_{1 << 30}, high_{-(1 << 30)};
-    uint64_t colored_ = 0;  ///< cells of compressed matrices, which few bytes tell
+    uint64_t colored_ = 0;  ///< cells of compressed matrices, which may be many for few bytes
     CellBricks* bricks_ = nullptr;
 };
 

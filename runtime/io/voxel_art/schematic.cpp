@@ -4,8 +4,8 @@
 //
 // MCEdit's .schematic has a number of 8 bits for each block, 4 more in AddBlocks, and 4 bits of
 // data. Sponge's .schem has a palette of names and numbers of 7 bits a byte. Litematica's
-// .litematic has regions, each with a list of names, and numbers of as few bits as name all, in
-// longs.
+// .litematic has regions, each with a list of names, and numbers with just enough bits for the
+// list, packed in longs.
 #include <algorithm>
 #include <bit>
 #include <glm/common.hpp>
@@ -23,12 +23,12 @@ namespace {
 using Kind = NbtValue::Kind;
 
 constexpr size_t kMaxTags = size_t{1} << 29;             // bytes
-constexpr uint64_t kMaxRegionCells = uint64_t{1} << 30;  // in all
+constexpr uint64_t kMaxRegionCells = uint64_t{1} << 30;  // over all regions
 constexpr size_t kMaxBlockName = 256;                    // bytes
 constexpr int64_t kMaxSide = 65536, kFarthestRegion = 1'000'000;
 constexpr uint32_t kNoBlock = 0xFFFFFFFF;
 
-/// A box of blocks whose numbers a function tells.
+/// A box of blocks whose numbers come from a function.
 struct Region {
     glm::ivec3 first{0}, size{0};
     std::vector<uint32_t> colors;  ///< by the number; kNoBlock for air
@@ -60,7 +60,7 @@ class SchematicReader {
     }
 
   private:
-    /// Makes room for the regions, and lets them set their blocks.
+    /// Allocates memory for the regions, and calls the function that sets their blocks.
     template <class SetAll>
     void set_regions(const SetAll& set_all) {
         glm::ivec3 low(1 << 30), high(-(1 << 30));
@@ -87,7 +87,7 @@ class SchematicReader {
         glm::ivec3 size;
         constexpr std::array<std::string_view, 3> kNames = {"Width", "Height", "Length"};
         for (int axis = 0; axis < 3; ++axis) {
-            // Lengths are unsigned there.
+            // Lengths are unsigned in this format.
             const int64_t n = of.whole(kNames[size_t(axis)], file_) & 0xFFFF;
             if (n < 1) file_.refuse("has no blocks");
             size[axis] = int(n);
@@ -131,7 +131,7 @@ class SchematicReader {
         const std::string_view high = more ? more->content : std::string_view();
         if (blocks.size() < region.cells() || data.size() < region.cells())
             file_.refuse("has fewer blocks than its size; it is damaged");
-        // Numbers are those of the block, 12 bits, and its data, 4 bits.
+        // A number consists of the block's number, 12 bits, and its data, 4 bits.
         region.colors.assign(1 << 16, kNoBlock);
         std::vector<bool> is_seen(1 << 16);
         regions_.push_back(std::move(region));
@@ -216,7 +216,7 @@ class SchematicReader {
         set_regions([&](const Region& of, CellBricks& bricks) { set_packed(of, bricks); });
     }
 
-    /// Bits of a number into a palette.
+    /// The number of bits of an index into a palette.
     static uint64_t bits_for(size_t names) {
         return uint64_t(std::max(2, int(std::bit_width(names - 1))));
     }
@@ -260,7 +260,7 @@ class SchematicReader {
     std::vector<Region> regions_;
     glm::ivec3 origin_{0}, size_{0};
     std::set<std::string> unknown_;
-    uint64_t cells_ = 0;  ///< of all regions
+    uint64_t cells_ = 0;  ///< sum over all regions
     VoxelModel model_;
 };
 

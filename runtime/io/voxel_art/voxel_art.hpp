@@ -10,11 +10,11 @@
 
 namespace voxelume {
 
-/// What is in a file.
+/// The content of a file.
 struct VoxelArt {
     VoxelModel model;
     glm::ivec3 size{0};              ///< cells, as the file counts them
-    std::vector<std::string> notes;  ///< what was assumed, and what isn't shown
+    std::vector<std::string> notes;  ///< notes on assumptions, and on unshown content
 };
 
 /// A Qubicle file: all of its matrices, of which later ones cover earlier ones.
@@ -33,7 +33,7 @@ VoxelArt read_gox(const std::filesystem::path& path);
 /// .litematic. A block is 1 m, a whole cube in the average colour of its kind.
 VoxelArt read_schematic(const std::filesystem::path& path);
 
-// All of them throw Error::input for a file that is damaged, truncated, beyond the limits or
-// without voxels.
+// All these functions throw Error::input for a file that is damaged, truncated, beyond the limits
+// or without voxels.
 
 }  // namespace voxelume

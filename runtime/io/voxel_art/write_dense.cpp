@@ -29,7 +29,7 @@ void check_dense(const glm::ivec3& size, uint64_t bytes) {
                     size.y, size.z, double(bytes) / 1e9);
 }
 
-/// Numbers of the cells in a file, and how many values each has.
+/// The order of the cells in a file, and the number of values of each.
 struct DenseOrder {
     std::array<size_t, 3> stride;  ///< by the model's axes, cells
     uint64_t cells = 0;

@@ -11,7 +11,7 @@
 namespace voxelume {
 
 WriterNotes write_kv6(const std::filesystem::path& path, const CubeList& cubes) {
-    constexpr int kMaxKv6Side = 1024;  // of the dense bits by which faces are found
+    constexpr int kMaxKv6Side = 1024;  // side of the array of bits in which visible faces are found
     const glm::ivec3& n = cubes.size;
     if (std::max({n.x, n.y, n.z}) > kMaxKv6Side)
         throw Error(ErrorKind::limit,
@@ -21,7 +21,7 @@ WriterNotes write_kv6(const std::filesystem::path& path, const CubeList& cubes) 
     Volume volume;
     volume.frame.layout = VolumeLayout::lattice;
     volume.frame.size = n;
-    // The writer's x runs against X, and its y is our Z: it turns volumes about their Y.
+    // The writer's x is opposite to X, and its y is Z here: the volume is turned about Y.
     const auto index_of = [&](const glm::ivec3& cell) {
         const glm::ivec3 at(n.x - 1 - cell.x, cell.y, n.z - 1 - cell.z);
         return uint64_t(at.x) + uint64_t(n.x) * (uint64_t(at.y) + uint64_t(n.y) * uint64_t(at.z));

@@ -36,7 +36,7 @@ void add_chunk(std::string& bytes, const char* letters, const std::string& conte
 
 /// A part of the voxels, in the file's axes: Z up, and y away from the front.
 struct VoxPart {
-    glm::ivec3 low{1 << 30}, high{-(1 << 30)};  ///< one past the last
+    glm::ivec3 low{1 << 30}, high{-(1 << 30)};  ///< `high` is one past the last
     std::vector<std::pair<glm::ivec3, uint8_t>> voxels;
 };
 
@@ -44,7 +44,8 @@ glm::ivec3 floor_parts(const glm::ivec3& cell) {
     return {cell.x >> 8, cell.y >> 8, cell.z >> 8};
 }
 
-/// A material's number and a colour of its voxels, 0xBBGGRR. Number 0 stands for all plain ones.
+/// A material's number and a colour of its voxels, 0xBBGGRR. Number 0 stands for all plain
+/// materials.
 using Paint = std::pair<size_t, uint32_t>;
 
 Paint paint_of(const CubeList& cubes, size_t voxel) {
@@ -56,14 +57,14 @@ Paint paint_of(const CubeList& cubes, size_t voxel) {
     return {is_plain ? 0 : material + 1, of.color.value_or(own)};
 }
 
-/// The file's colours, and of each the material.
+/// The file's colours, and the material of each.
 struct VoxPalette {
     std::vector<uint32_t> colors;
     std::vector<size_t> materials;
     std::map<Paint, size_t> places;
 };
 
-/// Each material has its share of the colours.
+/// The palette; each material gets a share of the colours.
 VoxPalette palette_of(const CubeList& cubes) {
     std::map<size_t, std::map<uint32_t, uint64_t>> counts;
     for (size_t i = 0; i < cubes.cells.size(); ++i) {
@@ -86,7 +87,7 @@ VoxPalette palette_of(const CubeList& cubes) {
     return palette;
 }
 
-/// A chunk MATL for each colour whose material is more than a colour.
+/// Adds a chunk MATL for each colour whose material is more than a colour.
 void add_materials(std::string& bytes, const CubeList& cubes, const VoxPalette& palette) {
     for (size_t i = 0; i < palette.colors.size(); ++i) {
         if (palette.materials[i] == 0) continue;
@@ -138,7 +139,7 @@ void add_model(std::string& bytes, const VoxPart& part) {
     add_chunk(bytes, "XYZI", voxels);
 }
 
-/// A node of a transform, with a place where it has one.
+/// A transform node, with a translation where `place` isn't empty.
 std::string transform(int node, int child, const std::string& place) {
     std::string content;
     for (const int value : {node, 0, child, -1, 0, 1}) add_int(content, value);
@@ -158,7 +159,7 @@ void add_graph(std::string& bytes, const Parts& parts) {
     add_chunk(bytes, "nGRP", group);
     int model = 0;
     for (const auto& [place, part] : parts) {
-        // The corner of voxel floor(size / 2) stands there.
+        // The translation is that of the corner of voxel floor(size / 2).
         const glm::ivec3 t = part.low + (part.high - part.low) / 2;
         add_chunk(bytes, "nTRN",
                   transform(2 + 2 * model, 3 + 2 * model, fmt::format("{} {} {}", t.x, t.y, t.z)));

@@ -21,11 +21,11 @@ namespace {
 constexpr uint32_t kNoBrick = 0xFFFFFFFF;
 constexpr size_t kBlock = 1 << 16;           // voxels read at once, which stay in the cache
 constexpr uint32_t kCoordinates = 0xFFFFFF;  // the bits of a listed voxel that aren't its colour
-// Fewer take less time than it takes to start a thread.
+// Below these numbers, starting a thread takes longer than the work.
 constexpr size_t kManyVoxels = 1 << 19, kManyBricks = 1 << 8;
 
-/// Voxel v of a model fills [first + R v, first + R v + 1] in Y-up coordinates, R being a signed
-/// permutation: this has R and `first`.
+/// The map from a model's voxels: voxel v fills [first + R v, first + R v + 1] in Y-up coordinates.
+/// R is a signed permutation.
 struct CellMap {
     VoxRotation rotation;
     glm::ivec3 first{0};
@@ -35,7 +35,7 @@ CellMap cell_map(const VoxStanding& standing) {
     const VoxRotation r = kVoxYUp * standing.rotation;
     const glm::ivec3 pivot = standing.model->size / 2;
     CellMap map{r, kVoxYUp * standing.translation - r * pivot};
-    // A mirrored axis ends where it would begin.
+    // A mirrored axis starts at the other end.
     for (int row = 0; row < 3; ++row)
         if (r.sign[size_t(row)] < 0) --map.first[row];
     return map;
@@ -44,13 +44,13 @@ CellMap cell_map(const VoxStanding& standing) {
 /// Appends the value of each cell of a brick.
 void append_values(const std::array<uint32_t, 256>& values, const uint8_t* cells,
                    std::vector<uint32_t>& to) {
-    // Goes through a brick that stays in the cache, so that memory is touched once.
+    // A brick is completed while it stays in the cache, so memory is written once.
     std::array<uint32_t, kVoxelsPerBrick> words;
     for (size_t i = 0; i < kVoxelsPerBrick; ++i) words[i] = values[cells[i]];
     to.insert(to.end(), words.begin(), words.end());
 }
 
-/// Calls `use(first, end)` for ranges of bricks, at the same time where there are many.
+/// Calls `use(first, end)` for ranges of bricks, in parallel where there are many.
 template <class Use>
 void for_brick_ranges(size_t count, const Use& use) {
     if (count >= kManyBricks)
@@ -59,14 +59,14 @@ void for_brick_ranges(size_t count, const Use& use) {
         use(0, int(count));
 }
 
-/// The way from a voxel of the file to the next one.
+/// The step from a voxel of the file to the next one.
 struct Row {
-    bool is_one = false;  ///< they are neighbours along an axis
+    bool is_one = false;  ///< the voxels are neighbours along an axis
     size_t axis = 0;
     bool is_up = true;
 };
 
-/// The way that a difference of coordinates, a byte each, stands for.
+/// The step for a difference of coordinates with one byte each.
 Row row_along(uint32_t difference) {
     for (size_t axis = 0; axis < 3; ++axis) {
         const uint32_t one = uint32_t{1} << 8 * axis;
@@ -115,7 +115,7 @@ void VoxCells::allocate() {
     });
 }
 
-/// Each row of the place depends on one coordinate alone.
+/// Each row of the map depends on one coordinate alone.
 VoxCells::Steps VoxCells::steps_of(const VoxStanding& standing) const {
     const CellMap map = cell_map(standing);
     const glm::ivec3 bricks = frame_.bricks();
@@ -139,8 +139,8 @@ size_t VoxCells::Steps::room(size_t axis, uint32_t coordinate, bool is_up) const
     return is_up == (stride[axis] > 0) ? kBrickSize - in_brick : in_brick + 1;
 }
 
-/// Files list most voxels in rows, up or down some axis: within a brick the place of one leads to
-/// the next. 16.8 M voxels take 20 instead of 65 ms.
+/// Adds a block of voxels. Files list most voxels in rows, up or down some axis: within a brick the
+/// index of one leads to the next. 16.8 M voxels take 20 ms instead of 65.
 size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, const Steps& steps,
                            const glm::ivec3& size) {
     size_t empty = 0;
@@ -168,7 +168,7 @@ size_t VoxCells::add_block(const std::vector<uint32_t>& block, size_t count, con
         uint32_t expected = v & kCoordinates;
         for (; i < end && (block[i] & kCoordinates) == expected; ++i) {
             const uint32_t index = block[i] >> 24;
-            // Another thread may write it, too, of which add_together() takes notice later.
+            // Another thread may write the same cell; add_together() detects that later.
             if (index != 0)
                 std::atomic_ref(*cell).store(uint8_t(index), std::memory_order_relaxed);
             else
@@ -215,8 +215,8 @@ bool VoxCells::add_together(const VoxModel& model, const Steps& steps) {
     return false;
 }
 
-/// True if most of the voxels in the middle of a model's list lie in rows. Threads that write all
-/// over the cells take longer together than one takes alone.
+/// True if most of the voxels in the middle of a model's list lie in rows. Otherwise threads would
+/// write all over the cells, and together take longer than one thread alone.
 bool VoxCells::lies_in_rows(const VoxModel& model) const {
     std::vector<uint32_t> some(std::min(kBlock / 16, size_t(model.voxels)));
     file_.read(model.voxels_at + 4 * ((model.voxels - some.size()) / 2), some.data(),
@@ -227,7 +227,8 @@ bool VoxCells::lies_in_rows(const VoxModel& model) const {
     return in_rows > some.size() / 2;
 }
 
-/// The last of the voxels that share a cell counts. Threads can't tell which one that is.
+/// Adds the voxels in order, since the last of those that share a cell counts, and threads can't
+/// tell which one that is.
 void VoxCells::add_voxels(const VoxStanding& standing) {
     const VoxModel& model = *standing.model;
     const Steps steps = steps_of(standing);

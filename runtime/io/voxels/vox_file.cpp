@@ -12,7 +12,7 @@ namespace voxelume {
 namespace {
 
 constexpr size_t kHeader = 12;                        // letters and two sizes of a chunk
-constexpr uint32_t kMaxContent = uint32_t{16} << 20;  // of chunks that don't hold voxels
+constexpr uint32_t kMaxContent = uint32_t{16} << 20;  // limit for chunks that don't hold voxels
 constexpr size_t kMaxModels = 50'000;
 constexpr int kMaxSide = 256;  // coordinates are bytes
 
@@ -33,7 +33,7 @@ class VoxReader {
             const Chunk chunk = read_header(position);
             read_chunk(chunk);
             position = chunk.content_at + chunk.content;
-            // Chunks inside others than the main one are of no known kind.
+            // Only the main chunk has chunks inside that are known.
             if (chunk.letters != "MAIN") position += chunk.children;
         }
         if (sizes_ > vox_.models.size())
@@ -139,7 +139,7 @@ class VoxReader {
 
     void read_palette(VoxContent& content) {
         if (content.bytes().size() < 4 * 256) content.refuse("has fewer than 256 colours");
-        // The first colour is that of index 1; index 0 is no voxel.
+        // The first colour has index 1; index 0 is an empty cell.
         std::memcpy(vox_.palette.data() + 1, content.bytes().data(), 4 * 255);
         vox_.has_palette = true;
     }
@@ -160,7 +160,7 @@ class VoxReader {
     const InputFile& file_;
     VoxFile& vox_;
     VoxGraph graph_;
-    size_t sizes_ = 0;  ///< chunks SIZE so far
+    size_t sizes_ = 0;  ///< number of chunks SIZE so far
     glm::ivec3 size_{0};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MagicaVoxel .vox -> what the file holds, without the voxels themselves.
+// MagicaVoxel .vox -> the file's content without the voxels themselves.
 //
 // A file is a list of chunks: four letters, the bytes of its content and of chunks inside it, then
 // both. Numbers are little-endian. Coordinates here are the file's: right-handed with Z up, a voxel
@@ -44,21 +44,21 @@ enum class VoxMaterialKind : uint8_t { diffuse, metal, glass, emit, blend, media
 /// A palette entry's material. Values are those of MagicaVoxel.
 struct VoxMaterial {
     VoxMaterialKind kind = VoxMaterialKind::diffuse;
-    float weight = 1;    ///< 0..1: how much of the kind it is
+    float weight = 1;    ///< 0..1: weight of the kind
     float metal = 0;     ///< 0..1, of a blend
     float rough = 0.1f;  ///< 0..1
     float specular = 1;
     float ior = 1.3f;
-    float density = 0;  ///< of what attenuates light inside
-    float flux = 0;     ///< power of emission, in powers: light is (1 + flux)² times as strong
-    bool is_flux_cut = false;  ///< the file has more than kMaxFlux
-    bool absorbs = true;       ///< of media; false: they scatter light, or glow
+    float density = 0;         ///< density of the medium inside
+    float flux = 0;            ///< exponent of emission: light is (1 + flux)² times as strong
+    bool is_flux_cut = false;  ///< the file's value exceeds kMaxFlux
+    bool absorbs = true;       ///< for media; false: they scatter or emit light
 };
 
-/// More than MagicaVoxel gives.
+/// A limit above the values of MagicaVoxel.
 inline constexpr float kMaxFlux = 8;
 
-/// Where an object stands from a frame on.
+/// The placement of an object from a frame on.
 struct VoxPose {
     int frame = 0;
     VoxRotation rotation;
@@ -75,12 +75,12 @@ struct VoxShown {
     friend bool operator==(const VoxShown&, const VoxShown&) = default;
 };
 
-/// A model in its place: the leaf of the scene graph, after all transforms above it.
+/// A model with its placement: a leaf of the scene graph, after all transforms above it.
 struct VoxObject {
-    std::string name;             ///< its own or the nearest one above it; may be empty
-    bool hidden = false;          ///< it, a group above it or a layer of them isn't shown
+    std::string name;             ///< the object's own or the nearest one above; may be empty
+    bool hidden = false;          ///< the object, a group above it or a layer of them is hidden
     std::vector<VoxPose> poses;   ///< by frame; at least one, the first for frame 0
-    std::vector<VoxShown> shown;  ///< likewise
+    std::vector<VoxShown> shown;  ///< by frame; at least one, the first for frame 0
 };
 
 struct VoxFile {
@@ -88,15 +88,15 @@ struct VoxFile {
     uint32_t version = 0;
     std::vector<VoxModel> models;
     std::vector<VoxObject> objects;
-    /// 0xAABBGGRR in sRGB, by a voxel's palette index; 0 is no voxel.
+    /// 0xAABBGGRR in sRGB, by palette index; index 0 is an empty cell.
     std::array<uint32_t, 256> palette{};
-    bool has_palette = false;  ///< otherwise it is MagicaVoxel's own
+    bool has_palette = false;  ///< false: MagicaVoxel's default palette
     std::array<VoxMaterial, 256> materials;
-    int frames = 1;  ///< of the animation
+    int frames = 1;  ///< frames of the animation
     int layers = 0, hidden_layers = 0;
     std::vector<VoxCamera> cameras;
     VoxRender render;
-    std::map<std::string, int> not_read;  ///< numbers of chunks that nothing is read of, by letters
+    std::map<std::string, int> not_read;  ///< numbers of unread chunks, by their letters
 };
 
 /// Reads all but the voxels. Throws Error::input for a file that is damaged, truncated, of another

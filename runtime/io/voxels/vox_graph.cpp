@@ -31,7 +31,7 @@ void sort_by_frame(std::vector<Value>& values) {
                      [](const Value& a, const Value& b) { return a.frame < b.frame; });
 }
 
-/// The last value whose frame isn't later; the first one before that.
+/// The last value whose frame isn't later than `frame`; else the first value.
 template <class Value>
 const Value& at_frame(const std::vector<Value>& values, int frame) {
     const Value* found = &values.front();
@@ -40,7 +40,7 @@ const Value& at_frame(const std::vector<Value>& values, int frame) {
     return *found;
 }
 
-/// What the nodes above a node decide.
+/// The state that a node inherits from the nodes above it.
 struct Above {
     std::vector<VoxPose> poses = {VoxPose()};
     std::string name;
@@ -48,7 +48,7 @@ struct Above {
     int depth = 0;
 };
 
-/// Poses in a parent that has poses of its own: one for each frame in which either changes.
+/// Poses in a parent that has several poses: one for each frame in which either changes.
 std::vector<VoxPose> composed(const std::vector<VoxPose>& outer,
                               const std::vector<VoxPose>& inner) {
     std::set<int> frames = {0};

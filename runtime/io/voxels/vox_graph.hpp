@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes of a .vox file's scene graph -> objects in their places.
+// Nodes of a .vox file's scene graph -> objects with their placements.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct VoxNode {
     bool hidden = false;
     int layer = -1;
     std::vector<int> children;    ///< numbers of nodes
-    std::vector<VoxPose> poses;   ///< of a transform
-    std::vector<VoxShown> shown;  ///< of a shape
+    std::vector<VoxPose> poses;   ///< poses of a transform node
+    std::vector<VoxShown> shown;  ///< models of a shape node
 };
 
 struct VoxGraph {
@@ -31,12 +31,12 @@ struct VoxGraph {
 /// Takes a node of the kind with its number from a chunk.
 void take_node(VoxNodeKind kind, VoxContent& content, VoxGraph& graph);
 
-/// The objects of the graph, in its order; without nodes, one object for each model, which stands
-/// on the ground. Throws Error::input for nodes and models that there aren't, and for circles.
+/// The objects of the graph, in its order; without nodes, one object for each model, on the ground.
+/// Throws Error::input for references to missing nodes and models, and for cycles.
 std::vector<VoxObject> objects_of(const VoxGraph& graph, const VoxFile& vox, const InputFile& file);
 
-/// The rotation that a byte of the file stands for: bits 0-1 and 2-3 are the axes of the first two
-/// rows, bits 4, 5 and 6 the signs of all three. Throws Error::input for a byte that is none.
+/// The rotation that a byte of the file encodes: bits 0-1 and 2-3 are the axes of the first two
+/// rows, bits 4, 5 and 6 the signs of all three. Throws Error::input for an invalid byte.
 VoxRotation vox_rotation(int byte, const VoxContent& content);
 
 }  // namespace voxelume

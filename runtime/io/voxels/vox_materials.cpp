@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<const char*, 6> kNames = {"diffuse", "metal", "glass",
                                                "emit",    "blend", "media"};
 
-/// The entry that a material belongs to: some files number the last one 0, others 256.
+/// The entry of a material: some files number the last one 0, others 256.
 VoxMaterial& entry_of(int number, const VoxContent& content,
                       std::array<VoxMaterial, 256>& materials) {
     if (number < 0 || number > 256)
@@ -24,7 +24,7 @@ VoxMaterialKind kind_named(const std::string& type) {
     return type == "_cloud" ? VoxMaterialKind::media : VoxMaterialKind::diffuse;
 }
 
-/// The first of some numbers that a dictionary has.
+/// The value of the first of these names that a dictionary has.
 float first_in(const VoxDictionary& values, std::initializer_list<const char*> names,
                float otherwise) {
     for (const char* name : names)
@@ -120,7 +120,7 @@ void take_old_material(VoxContent& content, std::array<VoxMaterial, 256>& materi
     if (kind >= 0 && kind <= int(VoxMaterialKind::emit)) m.kind = VoxMaterialKind(kind);
     m.weight = std::clamp(content.take_float(), 0.0f, 1.0f);
     const int properties = content.take_int();
-    // Bits of the values that follow, in their order; the last one has none.
+    // Bits for the values that follow, in their order; the last value has no bit.
     enum {
         plastic = 1,
         rough = 2,

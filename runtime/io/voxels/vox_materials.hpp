@@ -9,14 +9,14 @@
 
 namespace voxelume {
 
-/// Takes a material of today's kind, a dictionary, from a chunk MATL.
+/// Takes a material of the current kind, a dictionary, from a chunk MATL.
 void take_material(VoxContent& content, std::array<VoxMaterial, 256>& materials);
 
 /// Takes a material of the kind before 2017, a row of numbers, from a chunk MATT.
 void take_old_material(VoxContent& content, std::array<VoxMaterial, 256>& materials);
 
-/// The values of a material in a chunk MATL, from which take_material makes it again; none for a
-/// diffuse one.
+/// The values of a material in a chunk MATL, as take_material reads them; none for a diffuse
+/// material.
 VoxDictionary values_of(const VoxMaterial& material);
 
 }  // namespace voxelume

@@ -18,7 +18,7 @@ double value_in(const VoxDictionary& values, const char* name, double otherwise,
     return std::clamp(double(number_in(values, name, float(otherwise))), low, high);
 }
 
-/// The numbers of a text such as "50 50"; those that are missing or none stay as they are.
+/// Reads the numbers of a text such as "50 50"; missing or invalid ones keep their values.
 void read_numbers(const VoxDictionary& values, const char* name, double low, double high,
                   glm::dvec3& numbers) {
     const std::string text = text_in(values, name);
@@ -102,7 +102,7 @@ void read_background(const VoxDictionary& values, VoxRender& render) {
     render.has_background = is_on(values, "_enable", render.has_background);
 }
 
-/// What is drawn, in files of today; older ones have `_enable` in its place.
+/// Reads which parts are drawn, as current files have them; older files have `_enable` instead.
 void read_switches(const VoxDictionary& values, VoxRender& render) {
     render.has_ground = is_on(values, "_ground", render.has_ground);
     render.has_background = is_on(values, "_bg_c", render.has_background);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chunks rCAM and rOBJ of a .vox file -> its cameras, and the light that its pictures are made in.
+// Chunks rCAM and rOBJ of a .vox file -> its cameras, and the light and settings of its pictures.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,7 +14,7 @@ namespace voxelume {
 enum class VoxCameraKind : uint8_t { perspective, free, orthographic, isometric, panoramic, other };
 
 /// A camera that looks at a point. With all angles 0 it looks along +Y of the file. Roll turns it
-/// about its sight line, counterclockwise as it sees it, then pitch lifts the sight line, then yaw
+/// about its sight line, counterclockwise as it sees it, then pitch raises the sight line, then yaw
 /// turns it to the left.
 struct VoxCamera {
     VoxCameraKind kind = VoxCameraKind::perspective;
@@ -41,9 +41,9 @@ struct VoxRender {
     double exposure = 1;  ///< a factor
     bool has_ground = true;
     glm::dvec3 ground{80};
-    bool has_background = false;  ///< it is seen in place of the sky
+    bool has_background = false;  ///< the background replaces the sky in the picture
     glm::dvec3 background{0};
-    std::set<std::string> not_shown;  ///< what is switched on and has no part in our pictures
+    std::set<std::string> not_shown;  ///< enabled settings that pictures don't show
 };
 
 /// Takes a camera from a chunk rCAM.

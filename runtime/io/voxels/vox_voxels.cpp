@@ -12,9 +12,9 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kNoColor = 0xFFFFFF;  // of cells without a voxel
+constexpr uint32_t kNoColor = 0xFFFFFF;  // colour of cells without a voxel
 
-/// What the part consists of.
+/// The models of a part, with their placements.
 std::vector<VoxStanding> standing_in(const VoxFile& vox, int part, const InputFile& file) {
     std::vector<VoxStanding> all;
     if (part < 0 || size_t(part) > vox.models.size())
@@ -48,7 +48,7 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
     for (const VoxStanding& standing : all) cells.add_box(box_of(standing));
     cells.allocate();
     VoxelModel model;
-    // Where objects overlap, the earlier one is seen, as in scenes.
+    // Where objects overlap, the earlier one is visible, as in scenes.
     for (auto standing = all.rbegin(); standing != all.rend(); ++standing)
         cells.add_voxels(*standing);
 
@@ -75,7 +75,7 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
 }
 
 glm::dmat4 placement_of(const VoxPose& pose) {
-    // C R C^-1 for the turn C that brings Y up, whose inverse has -y of the file's as z.
+    // C R C^-1 for the turn C to Y up, whose inverse has the file's -y as z.
     const VoxRotation back{{0, 2, 1}, {1, -1, 1}};
     const VoxRotation r = kVoxYUp * pose.rotation * back;
     glm::dmat4 matrix(0);

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kMaxMarked = 1 << 28;   ///< bricks of a lattice that are told apart
 constexpr double kMaxCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
-constexpr size_t kSampledBricks = 256;   ///< whose leaves of 4³ voxels are counted
-constexpr size_t kSampledLeaves = 512;   ///< of these, whose voxels are counted
+constexpr size_t kSampledBricks = 256;   ///< bricks whose leaves of 4³ voxels are counted
+constexpr size_t kSampledLeaves = 512;   ///< leaves of these whose voxels are counted
 
-/// How far outside of a voxel a surface may be that still counts as in it, in edges: 0.18 along the
-/// axes, and 0 at corners, where solids are voxelized.
+/// The maximum distance of a surface from a voxel that still counts as in it, in edges: 0.18 along
+/// the axes, and 0 at corners, where solids are voxelized.
 constexpr double kCover = 0.1;
 
 constexpr double kLeafEdge = 5.5;  ///< voxels: boxes that aren't divided further
@@ -64,7 +64,7 @@ class BrickCounter {
     }
 
   private:
-    /// What lies beyond the lattice's ends is cut off where the rule says so.
+    /// The distance at a voxel. Parts beyond the lattice's ends are cut off if the rule says so.
     double distance(const glm::dvec3& voxel) const {
         const double d = field_.distance(frame_.origin + frame_.voxel_edge * voxel);
         if (!rule_.closes_ends) return d;
@@ -97,7 +97,7 @@ class BrickCounter {
             visit(brick + span / 2 * glm::ivec3(part & 1, part >> 1 & 1, part >> 2), span / 2);
     }
 
-    /// `d` is the distance in its middle.
+    /// True if the surface may be near the cell. `d` is the distance at its middle.
     bool is_near(const Cell& cell, double d) const {
         if (std::abs(d) <= reach_) return true;
         const glm::dvec3 half = cell.half();
@@ -133,7 +133,7 @@ class BrickCounter {
         return std::min(size_t((turns - std::floor(turns)) * double(count)), count - 1);
     }
 
-    /// The number of voxels. Some bricks, and some of their leaves, evenly spread, stand for all.
+    /// The number of voxels, extrapolated from some bricks and some of their leaves, evenly spread.
     double voxels() const {
         if (stored_.empty()) return inside_voxels_;
         const size_t bricks = std::min(stored_.size(), kSampledBricks);
@@ -153,7 +153,8 @@ class BrickCounter {
 
     bool is_filled() const { return rule_.keeps_inside || rule_.fills; }
 
-    /// Appends the leaves that the surface may pass through, and returns the voxels in others.
+    /// Appends the leaves that the surface may pass through. Returns the number of voxels in other
+    /// leaves.
     double find_leaves(const Cell& cell, std::vector<Cell>& near) const {
         const double d = distance(cell.middle()), size = cell.high.x - cell.low.x;
         if (std::abs(d) > radius(cell)) return is_filled() && d < 0 ? size * size * size : 0;
@@ -167,8 +168,8 @@ class BrickCounter {
         return sum;
     }
 
-    /// The voxels whose corners lie on both sides of the surface, or on it; of sets that are filled
-    /// those with a corner inside, too.
+    /// The number of voxels whose corners lie on both sides of the surface, or on it; in filled
+    /// sets, also of those with a corner inside.
     double voxels_of_leaf(const Cell& leaf) const {
         constexpr int kNodes = kLeafSize + 1;
         const double zero = rule_.cover * frame_.voxel_edge.x;
@@ -196,8 +197,8 @@ class BrickCounter {
         return count;
     }
 
-    /// The parts whose surfaces are in the voxel around a point, as far as their distance from its
-    /// middle tells.
+    /// The number of parts whose surfaces are in the voxel around a point, estimated by their
+    /// distance from its middle.
     double fields_in(const glm::dvec3& middle) const {
         constexpr double kReach = 0.7;  // edges
         const glm::dvec3 p = frame_.origin + frame_.voxel_edge * middle;
@@ -238,7 +239,7 @@ bool TakenBricks::take(const glm::ivec3& brick) {
 }
 
 BrickRule model_rule(Surface surface, bool is_solid_set) {
-    // Distances are stored about blocks of 4³ nodes, voxels about such of 4³ voxels.
+    // Distances are stored around blocks of 4³ nodes, voxels around blocks of 4³ voxels.
     if (stores_distances(surface)) return {.first = 0, .last = 15, .reach = 2.8 + 2.6};
     return {.first = 0,
             .last = 16,
@@ -249,7 +250,7 @@ BrickRule model_rule(Surface surface, bool is_solid_set) {
 }
 
 BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread) {
-    // A voxel more on each side, and leaves of the object that reach into that.
+    // A voxel more on each side, and leaves of the object that overlap it.
     const double half = 9 * spread + 1.5;
     BrickRule rule{8 - half, 8 + half, 3.6, keeps_inside, is_solid_set, true};
     if (stores_distances(surface)) rule.reach = 2.9 + 2.4;
@@ -275,7 +276,7 @@ BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const V
 BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
                        const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
                        TakenBricks& taken) {
-    // What lies outside of a part is closed where the box around the solid ends.
+    // The outside of a part is closed where the box around the solid ends.
     constexpr double kComplementMargin = 1.25;
     const std::vector<SolidPart> divided = parts_of(solid);
     std::vector<SolidField> parts;

@@ -12,15 +12,15 @@
 
 namespace voxelume {
 
-/// Which bricks a stage stores for a surface.
+/// The rule by which a stage stores bricks for a surface.
 struct BrickRule {
-    double first = 0, last = 0;  ///< the box that decides, in voxels from the brick's corner
-    double reach = 0;           ///< how far from it the surface may be, in shortest edges of voxels
+    double first = 0, last = 0;  ///< the decisive box, in voxels from the brick's corner
+    double reach = 0;  ///< maximum distance of the surface from it, in shortest edges of voxels
     bool keeps_inside = false;  ///< bricks inside of the solid are stored, too
-    bool fills = false;         ///< all voxels inside of the solid are stored, in bricks that are
-    bool closes_ends = false;   ///< where the lattice ends, the solid has a surface
-    /// How far outside of a voxel a surface may be that still counts as in it, in edges: at least
-    /// what rounding leaves of faces between two layers of voxels, which both meet.
+    bool fills = false;         ///< all voxels inside of the solid are stored, in stored bricks
+    bool closes_ends = false;   ///< the solid has a surface where the lattice ends
+    /// The maximum distance of a surface outside of a voxel that still counts as in it, in edges:
+    /// at least the rounding error of faces between two layers of voxels, which both meet.
     double cover = 1e-6;
 
     friend bool operator==(const BrickRule&, const BrickRule&) = default;
@@ -31,34 +31,36 @@ struct BrickRule {
 BrickRule model_rule(Surface surface, bool is_solid_set);
 BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread = 1);
 
-/// The bricks of a lattice that are stored for any object.
+/// The bricks of a lattice that are already stored for some object.
 class TakenBricks {
   public:
     explicit TakenBricks(const GridFrame& frame) : table_(frame.bricks()) {}
 
-    /// Takes a brick; true if it was not taken before. In a very large lattice each counts as new.
+    /// Takes a brick. Returns true if it was not taken before. In a very large lattice each counts
+    /// as new.
     bool take(const glm::ivec3& brick);
 
   private:
     glm::ivec3 table_;
-    std::vector<bool> taken_;  ///< empty before the first
+    std::vector<bool> taken_;  ///< empty before the first brick
 };
 
-/// The voxels of a solid's surface and its bricks, and those of them that weren't taken before.
+/// The numbers of voxels of a solid's surface, of its bricks, and of bricks that weren't taken
+/// before.
 struct BrickCount {
     SurfaceExtent extent;
     double new_bricks = 0;
 };
 
-/// Counts what a solid's surface takes in the `box` of `frame`'s voxels by such a rule. Large
-/// surfaces are counted in coarser lattices. A voxel counts once for each of the solid's `parts`
-/// whose surface is in it.
+/// Counts a solid's surface in the `box` of `frame`'s voxels by this rule. Large surfaces are
+/// counted in coarser lattices. A voxel counts once for each of the solid's `parts` whose surface
+/// is in it.
 BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
                         const BrickRule& rule, TakenBricks& taken,
                         std::span<const SolidField> parts = {});
 
-/// Does so for a smooth solid: each of its parts has bricks of its own, and voxels in which parts
-/// meet have a field of each.
+/// Counts a smooth solid likewise: each of its parts has bricks of its own, and voxels in which
+/// parts meet have a field of each.
 BrickCount count_parts(const Solid& solid, const glm::dmat4& frame_from_solid,
                        const GridFrame& frame, const VoxelBox& box, const BrickRule& rule,
                        TakenBricks& taken);

@@ -24,7 +24,7 @@
 namespace voxelume {
 namespace {
 
-/// What light takes with batches of rays that begin at a display.
+/// The buffers for lighting batches of rays that begin at a display.
 struct DisplayLight {
     RayArrays rays;
     DensityGrid density;
@@ -40,15 +40,14 @@ DisplayLight count_light(const Device& device, const Scene& scene, const Feature
     return light;
 }
 
-/// The number of voxels with surface that a lattice whose voxels have this `edge` has of the
-/// world's surface.
+/// The number of voxels of the world's surface in a lattice whose voxels have this `edge`.
 double surface_voxels(const Pyramid& world, double edge) {
     const glm::dvec3& e = world.frame.voxel_edge;
     const double own = std::cbrt(e.x * e.y * e.z) / edge;
     return double(world.voxel_count) * own * own;
 }
 
-/// The count as it is numbered on devices, which refuse larger ones.
+/// The count as a 32-bit number; devices refuse larger ones.
 uint32_t numbered(double count) {
     return uint32_t(std::min(count, double(UINT32_MAX - 16)));
 }
@@ -57,8 +56,8 @@ double mean_edge(const glm::dvec3& edge) {
     return std::cbrt(edge.x * edge.y * edge.z);
 }
 
-/// The number of points where probe lines cross surfaces. The lines are no further apart than the
-/// world's voxels.
+/// The number of points where probe lines cross surfaces. The distance between lines is at most the
+/// edge of the world's voxels.
 double probe_points(const VolumeFrame& frame, const Pyramid& world) {
     const glm::dvec3& e = world.frame.voxel_edge;
     const double widest = std::min({e.x, e.y, e.z});
@@ -110,13 +109,13 @@ class DisplayCounter {
         return shown;
     }
 
-    /// Counts the sums of paths' light.
+    /// Counts the sums of the light of several paths.
     Buffer<float> count_mean(uint32_t rays) const {
         if (!features_.global || all_samples(scene_.render) == 1) return {};
         return allocate_light_sums(device_, rays);
     }
 
-    /// The mean number of a ray's steps in the world, if nothing hides it.
+    /// The mean number of a ray's steps in the world if nothing hides it.
     double steps_in_world() const {
         constexpr int kSamples = 24;  // along each axis
         const Bounds world = lattice_bounds(scene_.world);
@@ -155,14 +154,14 @@ class DisplayCounter {
         return shown;
     }
 
-    /// Counts the paths that only learn what surfaces cover.
+    /// Counts the paths that determine only coverage.
     std::optional<PathDepth> count_unlit(uint32_t rays) const {
         if (!features_.transmission) return {};
         const Features features = coverage_features(unlit_scene(scene_), world_);
         return allocate_depth(device_, features, true, rays);
     }
 
-    /// Counts the voxels of the medium that are looked for together.
+    /// Counts the voxels of the medium that are measured together.
     void measure_medium() const {
         const Buffer<float> means = allocate_medium_means(device_, features_, frame_.size);
         const ProbePoints middles =

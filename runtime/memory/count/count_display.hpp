@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene + world on a counting device -> what rendering its volumetric image takes there.
+// scene + world on a counting device -> the memory for its volumetric image.
 #pragma once
 
 #include "runtime/memory/count/count_image.hpp"
@@ -7,11 +7,12 @@
 
 namespace voxelume {
 
-/// Makes the device count all that render_volume's image of a world takes, without the world.
+/// Makes the device count the buffers that render_volume makes for a world's image, without the
+/// world.
 ///
 /// The number of voxels that a display shows follows from the areas of surfaces: a lattice shows as
-/// many as a world of such voxels has, a ray shows one, and with a medium its steps in the world.
-/// Returns that number.
+/// many as a world with voxels of this size has, a ray shows one, and with a medium its steps in
+/// the world. Returns that number.
 double count_volume(const Device& device, const Scene& scene, const Pyramid& world,
                     const DensityPlan& medium, Estimate estimate);
 

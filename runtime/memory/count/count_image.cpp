@@ -56,8 +56,8 @@ DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& wo
     return dilated_occupancy;
 }
 
-/// The maximum number of voxels that shine in a world: all of emissive instances' models, and the
-/// world's own, without the models that are joined to them.
+/// The maximum number of emissive voxels in a world: those of all models of emissive instances, and
+/// the world's own, without the models that are joined to them.
 size_t count_shining(const Scene& scene, const Pyramid& world) {
     const InstanceSet& instances = world.instances;
     size_t of_models = 0, shining = 0;
@@ -73,7 +73,7 @@ size_t count_shining(const Scene& scene, const Pyramid& world) {
     return shining;
 }
 
-/// The maximum that the emitters of a world may take, as if all those voxels shone.
+/// The maximum memory of a world's emitters, as if all those voxels were emissive.
 void count_emitters(const Device& device, const Scene& scene, const Pyramid& world,
                     ImageMemory& memory) {
     const size_t shining = count_shining(scene, world);
@@ -84,7 +84,7 @@ void count_emitters(const Device& device, const Scene& scene, const Pyramid& wor
     memory.emitter_host_bytes = emitter_host_bytes(shining, world.records());
 }
 
-/// The picture of a sky.
+/// Counts the picture of a sky.
 void count_sky(const Device& device, const Sky& sky, ImageMemory& memory) {
     const SkyMapBytes bytes = sky_map_bytes(sky);
     memory.sky_texels = {device, "sky", size_t(bytes.texels)};
@@ -107,7 +107,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
                         const DensityPlan& medium, size_t depth) {
     if (!scene.render.channels.color &&
         (scene.render.channels.has_passes() || adds_color(scene.render))) {
-        Scene lit = scene;  // as it is rendered, or as its passes are
+        Scene lit = scene;  // with the light of the image or of its passes
         lit.render.channels.color = true;
         return count_image(device, lit, world, medium, depth);
     }

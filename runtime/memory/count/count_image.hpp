@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene + world on a counting device -> what rendering its flat image takes there.
+// scene + world on a counting device -> the memory for its flat image.
 #pragma once
 
 #include "runtime/scene/scene.hpp"
@@ -18,24 +18,24 @@ struct ImageMemory {
     Buffer<uint32_t> beams;
     std::vector<Buffer<float>> light_beams;
     DensityGrid density;
-    Buffer<uint8_t> tables;  ///< of materials, objects and samples
+    Buffer<uint8_t> tables;  ///< tables of materials, objects and samples
     Buffer<uint8_t> emitters;
-    double emitter_host_bytes = 0;  ///< of main memory while they are listed
+    double emitter_host_bytes = 0;  ///< main memory while emitters are listed
     Buffer<uint8_t> sky_texels, sky_table;
-    double sky_host_bytes = 0;  ///< of main memory for the sky's picture
+    double sky_host_bytes = 0;  ///< main memory for the sky's picture
     ImageArrays image;
     std::vector<MatteArrays> mattes;
-    ImageArrays first_image;  ///< of the first samples of an adaptive image
+    ImageArrays first_image;  ///< arrays of the first samples of an adaptive image
     std::vector<MatteArrays> first_mattes;
-    Buffer<uint32_t> chosen_pixels;  ///< of its other samples
+    Buffer<uint32_t> chosen_pixels;  ///< pixels with further samples
 };
 
-/// All that Renderer's image of a world takes, without the world. `depth` is that of the arrays for
+/// All buffers of Renderer's image of a world, without the world. `depth` is that of the arrays for
 /// reflections and refractions.
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth);
 
-/// The small tables that light is computed with.
+/// The small tables for light.
 Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
 
 /// The buffers of the dilated occupancy of a world.

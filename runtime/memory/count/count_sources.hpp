@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays look up for each object, on a counting device: the meshes of smooth objects with
-// textures, and the steps of cubes with normals.
+// The data of each object that rays look up, on a counting device: the meshes of smooth objects
+// with textures, and the steps of cubes with normals.
 #pragma once
 
 #include <span>

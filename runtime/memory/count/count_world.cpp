@@ -14,10 +14,10 @@
 namespace voxelume {
 namespace {
 
-/// The voxels of a surface in a leaf, and in a sector, that holds any.
+/// The mean numbers of a surface's voxels in each leaf, and in each sector, that it passes.
 constexpr double kVoxelsPerLeaf = 11, kVoxelsPerSector = 4096;
 
-/// Follows the painters of objects, which share what depends on the grid alone.
+/// Follows the painters of objects, which share the buffers that depend on the grid alone.
 std::vector<Buffer<uint64_t>> count_painters(const Device& device,
                                              std::span<const PlacedObject> objects) {
     std::vector<Buffer<uint64_t>> painters;
@@ -47,7 +47,7 @@ void count_painting(const Device& device, size_t bricks) {
     const Buffer<uint32_t> painted(device, "painted bricks", bricks);
 }
 
-/// The bricks that arrays have room for once they have grown.
+/// The capacity of arrays in bricks, once they have grown.
 size_t with_more_room(size_t bricks) {
     return bricks + bricks / 4;
 }
@@ -151,10 +151,10 @@ BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> o
     { const Buffer<uint8_t> states(device, "brick states", brick_places(world.grid.frame)); }
     count_painting(device, size_t(std::max(bricks.of_fields, bricks.of_others)));
     std::vector<PlacedObject> others(objects.begin(), objects.end());
-    CountedWorld changed;  // smooth objects' new grids are there while they take the others' places
+    CountedWorld changed;  // new grids of smooth objects coexist with the old ones here
     if (world.fields.brick_count > 0)
         others = count_fields(device, objects, size_t(bricks.of_fields), changed);
-    // New lists replace old ones, but pyramids keep the old lists' sources.
+    // New lists replace old ones, but pyramids keep the sources of old lists.
     BrickGrid sources;
     if (count_sources(device, others, sources))
         const Buffer<uint32_t> counts =
@@ -183,7 +183,7 @@ Pyramid count_packing(const Device& device, const BrickGrid& grid, const WorldCo
     return pyramid;
 }
 
-/// Follows FieldIndexer::index, without the marks that stay.
+/// Follows FieldIndexer::index, without the marks that are kept.
 Pyramid count_uniting(const Device& device, const CountedWorld& world, const WorldCounts& counts) {
     const size_t bricks = world.fields.brick_count;
     { const MarkArrays marks = allocate_marks(device, bricks); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// object grids on a counting device -> the world's voxels and pyramid there, made as forming a
-// world makes them.
+// object grids on a counting device -> the world's voxels and pyramid there, made as WorldBuilder
+// makes them.
 #pragma once
 
 #include <span>
@@ -12,34 +12,35 @@
 
 namespace voxelume {
 
-/// What placing objects, or indexing a grid, is expected to find.
+/// The expected counts of placing objects, or of indexing a grid.
 struct WorldCounts {
-    size_t bricks = 0;        ///< stored
-    size_t voxels = 0;        ///< that rays must see
-    size_t primitives = 0;    ///< listed by them
-    size_t field_bricks = 0;  ///< of smooth objects' grids, if these are kept apart
-    size_t other_bricks = 0;  ///< of the grid of all other objects
+    size_t bricks = 0;        ///< stored bricks
+    size_t voxels = 0;        ///< voxels that rays must see
+    size_t primitives = 0;    ///< primitives that these voxels list
+    size_t field_bricks = 0;  ///< bricks of smooth objects' grids, if these are stored separately
+    size_t other_bricks = 0;  ///< bricks of the grid of all other objects
 };
 
-/// Bricks of smooth objects' grids that are kept apart, and of the grid that all others share.
+/// The numbers of bricks of smooth objects' grids that are stored separately, and of the grid that
+/// all other objects share.
 struct PartBricks {
     double of_fields = 0, of_others = 0;
 };
 
-/// The voxels of a world, and what its objects are painted with.
+/// The voxels of a world, and the buffers with which its objects are painted.
 struct CountedWorld {
-    BrickGrid grid;  ///< of all objects but those of `fields`
+    BrickGrid grid;  ///< voxels of all objects but those of `fields`
     std::vector<Buffer<uint64_t>> painters;
-    BrickGrid fields;    ///< the grids of smooth objects that are kept apart, as one
-    PyramidParts parts;  ///< of the pyramid, if there are `fields`
+    BrickGrid fields;    ///< the separate grids of smooth objects, as one
+    PyramidParts parts;  ///< parts of the pyramid, if there are `fields`
 };
 
 /// Follows the first call of Placer::place.
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts);
 
-/// Follows WorldBricks where a world comes to have more bricks than it has room for: each array is
-/// copied to a larger one, with room for a quarter more.
+/// Follows WorldBricks where a world gets more bricks than it has room for: each array is copied to
+/// a larger one, with room for a quarter more.
 void count_growth(const Device& device, BrickGrid& world);
 
 /// Follows WorldPlacer::place where `bricks` of a world change. Returns the triangles and

@@ -17,15 +17,15 @@ namespace voxelume {
 namespace {
 
 constexpr double kSurfaceBand = 2.8;  ///< voxels around a smooth surface that have distances
-constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole leaves of them
+constexpr double kPlacedBand = 5;  ///< voxels around cubes: placing looks at whole leaves of them
 
-/// The maximum by which a surface's bricks and voxels exceed what areas and distances tell.
+/// The maximum ratio of a surface's bricks and voxels to the numbers that areas and distances give.
 constexpr double kMargin = 1.12;
-constexpr double kSolidMargin = 1.04;  ///< that of a solid's voxels, which are counted one by one
+constexpr double kSolidMargin = 1.04;  ///< ratio for a solid's voxels, which are counted one by one
 
 const glm::dmat4 kOwnSpace(1);
 
-/// Voxels around a surface whose bricks voxelizing stores.
+/// The width around a surface, in voxels, of the bricks that voxelizing stores.
 double stored_band(const Model& model) {
     return stores_distances(model.surface) ? kSurfaceBand : 0;
 }
@@ -34,13 +34,13 @@ bool is_solid_set(const Model& model) {
     return shows_voxels(model.surface) && model.set == VoxelSet::solid;
 }
 
-/// A solid set's voxels without those of the surface: half of those in its bricks, and no more than
-/// the object has.
+/// The number of a solid set's voxels apart from the surface: half of the voxels in its bricks, but
+/// at most the number inside the object.
 double filled_voxels(const SurfaceExtent& extent, double inside) {
     return std::min(inside, 0.5 * extent.bricks * double(kVoxelsPerBrick));
 }
 
-/// The smaller of two counts: areas tell too much of small surfaces, and too little of others.
+/// The smaller of two counts: areas give too much for small surfaces, and too little for others.
 SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
     return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
 }
@@ -61,12 +61,13 @@ BrickCount count_model(const Model& model, const glm::dmat4& frame_from_model,
     return count_bricks(SolidField(*model.solid, frame_from_model), frame, box, rule, taken);
 }
 
-/// Primitives that an exact surface's voxels list: the solid, or each triangle that meets one.
+/// The number of primitives that an exact surface's voxels list: the solid, or each triangle that
+/// meets a voxel.
 double listed(const Model& model, const SurfaceExtent& extent) {
     return !lists_primitives(model.surface) ? 0 : model.solid ? extent.voxels : extent.listed;
 }
 
-/// `mesh` is null for a model that has none.
+/// The counts of a model's grid. `mesh` is null for a model without a mesh.
 GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFrame& frame,
                      const SurfaceExtent& extent) {
     GridCounts counts{.frame = frame, .surface = model.surface, .set = model.set};
@@ -113,7 +114,7 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFram
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
-/// What a solid's surface takes of a lattice in its own space.
+/// The extent of a solid's surface in a lattice in the solid's own space.
 SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& frame) {
     return of_solids_.of(model, frame.voxel_edge.x, [&] {
         TakenBricks taken(frame);
@@ -123,7 +124,7 @@ SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& fr
     });
 }
 
-/// What a solid takes of its part of the world's lattice, where it has a grid of its own.
+/// The extent of a solid in its part of the world's lattice, where it has a grid of its own.
 SurfaceExtent ObjectCounts::object_extent(const Object& object, const GridFrame& frame) {
     const auto [entry, added] = of_objects_.try_emplace(&object);
     if (!added) return entry->second;
@@ -216,7 +217,7 @@ WorldExtent ObjectCounts::min_in_world(size_t number) {
         has_voxels ? min_of_voxels(object, meshes_.voxels(model))
                    : extents_.minimum(object,
                                       stores_distances(model.surface) ? kSurfaceBand : kPlacedBand);
-    // Areas say too much where objects are small.
+    // Areas give too much for small objects.
     constexpr double kAreaMargin = 1.2;
     const SurfaceExtent& counted = in_world_[number];
     extent = smaller(extent, {kAreaMargin * counted.voxels, kAreaMargin * counted.bricks});
@@ -268,7 +269,7 @@ WorldCounts ObjectCounts::expected_world() {
             of_others += kMargin * new_bricks;
         primitives += listed(model, extent);
         const SurfaceExtent thin = with_margin(extents_.thin_part(object, kPlacedBand));
-        sum.voxels += thin.voxels;  // its voxels that are smooth as well list two records
+        sum.voxels += thin.voxels;  // voxels that are smooth as well list two records
         of_others += thin.bricks;
         primitives += thin.listed;
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene -> how many bricks and voxels its grids and its world are expected to hold, or hold at
-// least.
+// scene -> the expected or minimum numbers of bricks and voxels in its grids and its world.
 #pragma once
 
 #include <map>
@@ -18,11 +17,11 @@
 namespace voxelume {
 
 enum class Estimate : uint8_t {
-    expected,  ///< with a margin for what surfaces' areas and distances don't tell
-    minimum    ///< what can't be less
+    expected,  ///< with a margin for what areas and distances of surfaces don't tell
+    minimum    ///< lower bounds
 };
 
-/// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
+/// Counts for one scene; counts that objects share are made once. Reads what ObjectExtents does.
 class ObjectCounts {
   public:
     ObjectCounts(const Scene& scene, AssetStore& meshes, SolidExtents& solids)
@@ -32,16 +31,16 @@ class ObjectCounts {
           lattices_(scene, meshes),
           of_solids_(solids) {}
 
-    /// The grid of a model in its own space, and the grid of an object in the world's, or a part of
+    /// The grid of a model in its own space, and of an object in the world's lattice or a part of
     /// it.
     GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
     GridCounts object_grid(const Object& object, const Model& model, const GridFrame& frame,
                            Estimate estimate);
 
-    /// What the objects' voxels take of the world.
+    /// The voxels of the world's objects.
     WorldCounts world(Estimate estimate);
 
-    /// The bricks that the objects are expected in for which `objects` is true.
+    /// The bricks that are expected for the objects for which `objects` is true.
     PartBricks changed_bricks(const std::vector<bool>& objects);
 
     /// The boxes that object_boxes() gives.
@@ -67,12 +66,12 @@ class ObjectCounts {
     ObjectExtents extents_;
     ObjectLattices lattices_;
     SolidExtents& of_solids_;
-    std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
-    std::optional<WorldCounts> expected_;                ///< in the world
-    std::vector<SurfaceExtent> in_world_;                ///< of each object, of these
+    std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' extents in the world
+    std::optional<WorldCounts> expected_;                ///< counts of the world
+    std::vector<SurfaceExtent> in_world_;  ///< extents in the world, one for each object
 };
 
-/// The grid of a mesh whose surface has such an area.
+/// The grid of a mesh whose surface has this area.
 GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
                      const SurfaceArea& area);
 

@@ -6,7 +6,7 @@
 namespace voxelume {
 namespace {
 
-/// A part of buffers' names, and the words for such buffers in messages.
+/// A part of buffers' names, and the words that messages use for such buffers.
 struct BufferWords {
     const char* part;
     const char* what;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// object -> what its surface takes of the world, expected and at least.
+// object -> the extent of its surface in the world, expected and minimum.
 #pragma once
 
 #include <map>
@@ -11,8 +11,8 @@
 
 namespace voxelume {
 
-/// The extents of a scene's objects in its world; what they share is found once. Reads the meshes
-/// of those that it is asked for, as AssetStore does.
+/// The extents of a scene's objects in its world; extents that objects share are found once. Reads
+/// the meshes of the objects that it is asked for, as AssetStore does.
 class ObjectExtents {
   public:
     ObjectExtents(const Scene& scene, AssetStore& meshes);
@@ -22,10 +22,10 @@ class ObjectExtents {
 
     SurfaceExtent planned(const Object& object, double band) { return extent(object, band, false); }
 
-    /// The minimum that it takes; nothing for a mesh that is cut.
+    /// The minimum extent of an object; 0 for a mesh that is cut.
     SurfaceExtent minimum(const Object& object, double band);
 
-    /// What the exact parts of a smooth mesh take; nothing where it has none.
+    /// The extent of the exact parts of a smooth mesh; 0 where it has none.
     SurfaceExtent thin_part(const Object& object, double band);
 
     /// The world's voxels in an object whose inside rays see: at most those of its box.
@@ -34,7 +34,7 @@ class ObjectExtents {
     /// True if the map takes all of a box into the world.
     bool lies_in_world(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& map) const;
 
-    /// Boxes as those of object_boxes.
+    /// The objects' boxes as object_boxes() gives them.
     const std::vector<VoxelBox>& boxes();
 
   private:
@@ -46,12 +46,12 @@ class ObjectExtents {
     GridFrame frame_;
     SolidBounds box_;  ///< the world's
     std::map<int, SurfaceArea> areas_;
-    std::map<const Object*, double> parts_;  ///< of meshes, in the world
-    std::vector<VoxelBox> boxes_;            ///< none before they are asked for
+    std::map<const Object*, double> parts_;  ///< parts of meshes in the world
+    std::vector<VoxelBox> boxes_;            ///< empty until it is first asked for
 };
 
-/// The area that the surface of a mesh has at least in its own space, without its thin parts, where
-/// the field is left out.
+/// The minimum area of a mesh's surface in its own space, without its thin parts where the field is
+/// left out.
 SurfaceArea min_area_of(const Model& model, AssetStore& meshes);
 
 /// The ratio of the box around a cube in the object's space to the cube, on average over its axes.

@@ -10,7 +10,7 @@ SurfaceExtent SolidExtents::of(const Model& model, double edge,
     const auto known = std::ranges::find_if(
         known_, [&](const Known& k) { return k.edge == edge && k.model == model; });
     if (known != known_.end()) return known->extent;
-    // Models that move make ever more of them.
+    // Without a limit, moving models would add ever more entries.
     constexpr size_t kMaxKnown = 1024;
     if (known_.size() == kMaxKnown) known_.clear();
     known_.push_back({model, edge, count()});

@@ -28,7 +28,7 @@ double cone_distance(const glm::dvec3& p, const Solid& cone) {
     return std::max(side, std::abs(p.y) - cone.height / 2);
 }
 
-/// Near the surface; elsewhere no more than the way along the shortest axis allows.
+/// Exact near the surface; elsewhere limited by the distance along the shortest axis.
 double ellipsoid_distance(const glm::dvec3& p, const glm::dvec3& radii) {
     const double shortest = std::min({radii.x, radii.y, radii.z});
     const double level = glm::length(p / radii), slope = glm::length(p / (radii * radii));

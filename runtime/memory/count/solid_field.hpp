@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// solid -> how far points are from its surface, in doubles: what planning counts bricks by.
+// solid -> the distance of points from its surface, in doubles, by which planning counts bricks.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -25,7 +25,7 @@ class SolidField {
     struct Node {
         Solid shape;  ///< without parts
         glm::dmat4 shape_from_frame{1};
-        double scale = 1;  ///< the least by which the map stretches the shape's lengths
+        double scale = 1;  ///< the minimum factor by which the map stretches the shape's lengths
         uint32_t end = 0;  ///< one past the last node of its parts
     };
 

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// The bricks that placing stores for leaves of a file, each once.
+/// Counts the bricks that placing stores for leaves of a file, each once.
 class LeafCounter {
   public:
     LeafCounter(const GridFrame& file, const glm::dmat4& world_from_object, double spread,
@@ -20,7 +20,7 @@ class LeafCounter {
         : last_(world.bricks() - 1) {
         const glm::dvec3 origin(world_from_object * glm::dvec4(file.origin, 1));
         origin_ = (origin - world.origin) / world.voxel_edge;
-        // A brick is stored with a voxel around it, and the box around both decides.
+        // A brick is stored with a voxel around it; both together decide.
         constexpr double kHalf = kBrickSize / 2.0 + 1;
         reach_ = glm::dvec3(kHalf * spread - kBrickSize / 2.0);
         for (int axis = 0; axis < 3; ++axis) {
@@ -60,7 +60,7 @@ class LeafCounter {
 
     glm::ivec3 last_;
     glm::dvec3 origin_, reach_;  ///< in the world's voxels
-    glm::dmat3 axes_{1};         ///< of the file's voxels
+    glm::dmat3 axes_{1};         ///< axes of the file's voxels
     std::vector<std::array<int, 3>> bricks_;
     size_t max_waiting_ = 1 << 16;
 };
@@ -89,7 +89,7 @@ BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_o
     const double more = std::max(1.0, size_in(world, voxels.frame, world_from_object));
     const double bricks = 1.4 * double(voxels.coordinates.size()) * more;
     BrickCount found{{0, bricks}, bricks};
-    // Leaves that are many bricks large would make a list longer than the world's.
+    // If leaves are as large as many bricks, the list would be longer than the world's.
     constexpr double kMaxVoxels = 64;
     if (!voxels.occupancy.empty() && more <= kMaxVoxels) {
         LeafCounter counter(voxels.frame, world_from_object, spread, world);

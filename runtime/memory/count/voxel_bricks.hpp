@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxels of a file and where they are placed -> the world's bricks that they are stored in.
+// voxels of a file and their placement -> the world's bricks in which they are stored.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -9,8 +9,8 @@
 
 namespace voxelume {
 
-/// What a file's voxels are expected to take of `world`: its voxels in their volume, and the bricks
-/// that the file's leaves of 4³ voxels reach into.
+/// The expected counts of a file's voxels in `world`: voxels by their volume, and bricks that the
+/// file's leaves of 4³ voxels overlap.
 ///
 /// `spread` is the ratio of the box around a turned brick, in the object's space, to the brick. The
 /// bricks of cubes are exact for maps that turn by right angles, and too many for others. For
@@ -18,8 +18,8 @@ namespace voxelume {
 BrickCount count_voxels(const VoxelModel& voxels, const glm::dmat4& world_from_object,
                         double spread, const GridFrame& world, TakenBricks& taken);
 
-/// What they take at least, where the world shows all of them: no fewer bricks than the file's, and
-/// one voxel for all of the file's that a larger one of the world holds.
+/// The minimum counts, for a world that shows all of the file's voxels: at least the bricks of the
+/// file, and one voxel of the world for each group that fits in it.
 SurfaceExtent min_count(const VoxelModel& voxels, const glm::dmat4& world_from_object,
                         const GridFrame& world);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a helper process is told to compile.
+// Jobs for helper processes that compile.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// The program that compiles kernels beside the one that renders.
+/// The program that compiles kernels in parallel to the process that renders.
 inline constexpr const char* kKernelCompilerName = "voxelume-kernel-compiler";
 
 /// A kernel, and the number of work-items in each of its groups, for which PoCL compiles it.
@@ -25,11 +25,11 @@ struct CompileJob {
     std::vector<CompiledKernel> kernels;
 };
 
-/// The bytes of a job on its way to a helper: their count, then texts with theirs.
+/// The bytes of a job for a helper: their count, then texts with their counts.
 std::string bytes_of(const CompileJob& job);
 
-/// The next job from a descriptor; nothing at its end. Throws std::runtime_error where the bytes
-/// are none of a job.
+/// The next job from a descriptor; empty at its end. Throws std::runtime_error for bytes that
+/// aren't a job.
 std::optional<CompileJob> next_job(int descriptor);
 
 }  // namespace voxelume

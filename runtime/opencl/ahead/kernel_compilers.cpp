@@ -18,9 +18,9 @@
 namespace voxelume {
 namespace {
 
-/// A helper that had nothing to do for so long ends, and gives its memory back.
+/// A helper that is idle for longer ends, and frees its memory.
 constexpr std::chrono::seconds kLongestRest(10);
-/// For HelperProcess::read, which nothing calls: `await` has a limit of its own.
+/// The limit for HelperProcess::read, which nothing calls: `await` has a limit of its own.
 constexpr double kHelperSeconds = 600;
 
 /// Waits until `descriptor` is ready for `event`. Returns false once `wake` is readable.
@@ -50,7 +50,7 @@ class JobSocket {
     void close_helpers_end() {
         if (ends_[1] >= 0) close(std::exchange(ends_[1], -1));
     }
-    /// Returns false where nobody will read it, or once `wake` is readable.
+    /// Returns false if nobody will read the bytes, or once `wake` is readable.
     bool send_all(const std::string& bytes, int wake) const {
         for (size_t sent = 0; sent < bytes.size();) {
             if (!wait_until_ready(ends_[0], POLLOUT, wake)) return false;
@@ -67,15 +67,16 @@ class JobSocket {
     std::array<int, 2> ends_{-1, -1};
 };
 
-/// True if the system grants so few processes and threads that those of helpers could be missing
-/// where PoCL, which ends the program without its linker, wants some.
+/// True if the system's limit of processes and threads is so low that helpers could take those that
+/// PoCL needs: without a process for its linker, PoCL ends the program.
 bool is_short_of_processes() {
     constexpr rlim_t kFew = 128;
     rlimit limit{};
     return getrlimit(RLIMIT_NPROC, &limit) == 0 && limit.rlim_cur < kFew;
 }
 
-/// Ends the helpers when the process ends, before what was made before they were started.
+/// Ends the helpers when the process ends, before objects that were made before the helpers are
+/// destroyed.
 struct EndAtExit {
     EndAtExit() = default;
     ~EndAtExit() { KernelCompilers::instance().end(); }
@@ -131,7 +132,7 @@ bool KernelCompilers::start(const Target& target, const std::filesystem::path& f
             ++living_;
         }
     } catch (const std::exception&) {
-        // The system grants no more threads: those that there are will do.
+        // The system allows no more threads; the existing ones suffice.
     }
     return living_ > 0;
 }
@@ -146,8 +147,7 @@ void KernelCompilers::add(Wanted wanted) {
     changed_.notify_all();
 }
 
-/// The job that is needed last of those that wait. Null if there is none for too long, and in the
-/// end.
+/// The waiting job that is needed last. Null after a long wait without a job, and at the end.
 KernelCompilers::Job* KernelCompilers::claim() {
     std::unique_lock lock(mutex_);
     Job* last = nullptr;
@@ -171,7 +171,7 @@ void KernelCompilers::finish(Job& job, State state) {
     changed_.notify_all();
 }
 
-/// The life of a helper. It is this thread's child, and would end with it.
+/// Runs a helper. The helper is a child of this thread, and would end with it.
 void KernelCompilers::serve(const std::filesystem::path& program,
                             const std::vector<std::string>& arguments) {
     Job* job = nullptr;
@@ -188,7 +188,7 @@ void KernelCompilers::serve(const std::filesystem::path& program,
             finish(*job, is_done == 1 ? State::done : State::left);
         }
     } catch (const std::exception&) {
-        // Without a helper, this process compiles all itself.
+        // Without a helper, this process compiles everything itself.
     }
     if (job) finish(*job, State::left);
     const std::lock_guard lock(mutex_);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Processes that compile the kernels that this one will need later.
 //
-// PoCL compiles one kernel at a time in a process, and those of a first picture take it seconds.
-// What is needed last is left to others: each compiles whole programs in a PoCL of its own, with a
-// folder in this process's, and keeps them in the cache, where this process finds them as those of
-// an earlier run. So entries are the same with and without helpers, and whatever becomes of a
-// helper costs time only.
+// PoCL compiles one kernel at a time in a process, which takes seconds for a first picture. Helper
+// processes compile the kernels that are needed last: each compiles whole programs in a PoCL of its
+// own, with a folder inside this process's folder, and keeps them in the cache, where this process
+// finds them like those of an earlier run. So entries are the same with and without helpers, and a
+// failing helper costs time only.
 #pragma once
 
 #include <sys/types.h>
@@ -24,17 +24,17 @@
 
 namespace voxelume {
 
-/// The helpers of this process. Any thread may call.
+/// The helpers of this process. Any thread may call the functions.
 class KernelCompilers {
   public:
     static KernelCompilers& instance();
 
-    /// Lets as many helpers run at once; none is started before this is called. `program` is
-    /// started for each; empty: the one that is installed.
+    /// Allows up to this many helpers at once; none is started before this call. `program` is
+    /// started for each; if it is empty, the installed one is.
     void allow(int processes, std::filesystem::path program = {});
     bool is_allowed() const;
 
-    /// Has `await` wait for at most so long.
+    /// Limits the time that `await` waits.
     void set_longest_wait(std::chrono::milliseconds time);
 
     /// A job, and the key of its program in the cache.
@@ -50,24 +50,24 @@ class KernelCompilers {
         bool operator==(const Target&) const = default;
     };
 
-    /// Starts the helpers, unless they were started before: a process has them once, for its first
-    /// device. `folder` is this process's own for PoCL's files. Returns true if one lives that
-    /// compiles for `target`.
+    /// Starts the helpers, unless they were started before: a process starts them once, for its
+    /// first device. `folder` is this process's own for PoCL's files. Returns true if a helper is
+    /// alive that compiles for `target`.
     bool start(const Target& target, const std::filesystem::path& folder);
 
-    /// Adds a program that the cache lacks, unless it was added before. Helpers take the last one
-    /// that was added first.
+    /// Adds a program that the cache lacks, unless it was added before. Helpers take the last added
+    /// program first.
     void add(Wanted wanted);
 
-    /// Says that this process needs a program now. Waits for the helper that compiles it, if one
-    /// does; if not, none will. Returns true if a helper has compiled it.
+    /// Tells that this process needs a program now. Waits for the helper that compiles it, if there
+    /// is one; otherwise no helper will compile it. Returns true if a helper has compiled it.
     bool await(const std::string& key);
 
     /// The number of helpers that were started, and of the programs that they compiled.
     int started() const;
     int compiled() const;
 
-    /// Ends all helpers, for good.
+    /// Ends all helpers for good.
     void end();
 
     KernelCompilers(const KernelCompilers&) = delete;
@@ -87,7 +87,7 @@ class KernelCompilers {
     void finish(Job& job, State state);
 
     mutable std::mutex mutex_;
-    std::condition_variable changed_;  ///< a job's state, or their number
+    std::condition_variable changed_;  ///< a job's state, or the number of jobs
     std::vector<std::unique_ptr<Job>> jobs_;
     std::vector<std::thread> threads_;  ///< one for each helper, which ends with it
     Target target_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // PoCL up to 3.1 runs all of LLVM's standard passes over a kernel after its own passes, which have
-// done most of it by then: they take a third of the time of compiling. Seven of them yield kernels
-// that run as fast. No setting leaves the others out, but PoCL calls a function of LLVM's library
-// for them, and the dynamic linker takes a program's function of the same name in its place. So
-// programs of ours export it (the link options of voxelume_runtime); the shared library doesn't,
-// since programs of others may want that function for themselves. Other callers, such as Oclgrind,
-// get all passes of their own LLVM, and so does PoCL where its LLVM lacks one of the seven.
+// done most of the work by then; the standard passes take a third of the time of compiling. Seven
+// of them yield kernels that run as fast. No setting leaves the others out, but PoCL calls a
+// function of LLVM's library for them, and the dynamic linker prefers a function of the same name
+// in the program. So our programs export such a function (the link options of voxelume_runtime);
+// the shared library doesn't, since other programs may want that function for themselves. Other
+// callers, such as Oclgrind, get all passes of their own LLVM, and so does PoCL if its LLVM lacks
+// one of the seven.
 #include "runtime/opencl/quirks/llvm_passes.hpp"
 
 #include <dlfcn.h>
@@ -74,7 +75,7 @@ std::atomic<uint64_t>& times_taken() {
 }
 
 void add_passes(void* builder, void* manager, const void* caller, StandardPasses ours) {
-    const Llvm llvm(caller, ours);  // PoCL asks once for a device
+    const Llvm llvm(caller, ours);  // PoCL asks once for each device
     if (llvm.is_pocls && llvm.has_all()) {
         for (const AddPass add : llvm.passes) add(manager);
         ++times_taken();

@@ -6,7 +6,7 @@
 
 namespace voxelume {
 
-/// How often this process took the few passes of llvm_passes.cpp in place of the standard ones.
+/// The number of times that this process replaced the standard passes by those of llvm_passes.cpp.
 uint64_t few_passes_taken();
 
 }  // namespace voxelume

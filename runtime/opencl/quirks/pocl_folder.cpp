@@ -25,12 +25,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The process's folder once it is made, for those who may not make it.
+/// The process's folder once it is made, for code that must not make it.
 std::atomic<const PoclFolder*> existing_folder = nullptr;
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// The folder of the process that this one helps; empty for others.
+/// The folder of the process that this helper works for; empty in other processes.
 fs::path& helped_folder() {
     static fs::path folder;
     return folder;
@@ -50,7 +50,7 @@ std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& 
     return {files.begin(), files.end()};
 }
 
-/// The files of a compiled kernel, by path from the program's folder.
+/// The files of a compiled kernel, by their paths from the program's folder.
 std::vector<fs::path> kernels_of(const fs::path& program, const ProgramPart& part) {
     return files_worth_keeping(program, part.kernel);
 }
@@ -83,7 +83,7 @@ std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
     return paths;
 }
 
-/// The one folder that is in `after` alone; empty if there is none, or another.
+/// The only folder that is in `after` but not in `before`; empty if there is none or more than one.
 fs::path only_new(const std::set<fs::path>& before, const std::set<fs::path>& after) {
     std::vector<fs::path> found;
     std::ranges::set_difference(after, before, std::back_inserter(found));
@@ -108,7 +108,8 @@ PoclFolder& PoclFolder::instance() {
 void PoclFolder::remove() {
     const PoclFolder* const folder = existing_folder;
     if (folder == nullptr || folder->folder_.empty()) return;
-    // PoCL may be compiling in another thread, and makes its folders again, unless it finds a file.
+    // PoCL may be compiling in another thread, and makes its folders again unless a file is in the
+    // way.
     const fs::path moved = folder->folder_.string() + "-ended";
     constexpr int kAttempts = 20;
     std::error_code error;
@@ -118,7 +119,7 @@ void PoclFolder::remove() {
         place = open(folder->folder_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
         fs::remove_all(moved, error);
     }
-    if (place < 0) return;  // the next run removes what is left
+    if (place < 0) return;  // the next run removes the rest
     close(place);
     unlink(folder->folder_.c_str());
 }
@@ -190,7 +191,7 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
         build();
         return !folder_.empty();
     }
-    // What the kernels consist of takes tens of milliseconds, as reading the program's files does.
+    // Finding the parts takes tens of milliseconds, and so does reading the program's files.
     auto found_parts = std::async(std::launch::async | std::launch::deferred, parts);
     std::vector<fs::path> unpacked;
     try {
@@ -200,7 +201,7 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     }
     const std::set<fs::path> before = built_folders();
     build();
-    // An entry for a folder other than PoCL's is useless, and is replaced.
+    // An entry for a folder other than PoCL's is useless and gets replaced.
     const fs::path folder = only_new(before, built_folders());
     if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
         unpacked.clear();
@@ -220,12 +221,12 @@ void PoclFolder::publish_kernels(const DiskCache& cache, ProgramFiles& program) 
     const fs::path own = folder_ / program.folder;
     for (ProgramPart& part : program.parts) {
         if (kernels_of(own, part).size() <= part.published) continue;
-        const auto bytes = cache.read(part.key);  // other processes may have added to it since
+        const auto bytes = cache.read(part.key);  // other processes may have extended it since then
         size_t known = 0;
         try {
             if (bytes) known = unpack(own, *bytes).size();
         } catch (const PackedFileError&) {
-            known = 0;  // it is replaced
+            known = 0;  // the entry gets replaced
         }
         const std::vector<fs::path> files = kernels_of(own, part);
         if (files.size() > known) cache.write(part.key, packed(own, files));

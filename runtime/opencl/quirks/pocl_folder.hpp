@@ -29,22 +29,22 @@ struct ProgramPart {
 /// So every process has a folder of its own. Before a program is built, its files of earlier runs
 /// are restored from a checksummed entry of our cache. When a device is closed, new files (PoCL
 /// compiles a kernel at its first launch) become the entry; a process that has the turn to compile
-/// shares them after its first batch of tiles already. A user who sets POCL_CACHE_DIR gets PoCL's
-/// own behaviour.
+/// shares them as soon as its first batch of tiles is done. A user who sets POCL_CACHE_DIR gets
+/// PoCL's own behaviour.
 class PoclFolder {
   public:
     /// The process's folder.
     static PoclFolder& instance();
 
-    /// Sets whether the process has such a folder, of which PoCL learns by a variable of the
-    /// environment. It has one unless this forbids it before `instance` is first called.
+    /// Sets whether the process makes such a folder, of which it informs PoCL by a variable of the
+    /// environment. It makes one unless this function forbids it before `instance` is first called.
     static void allow(bool is_allowed);
 
-    /// Has the folder made in another process's, which will delete it, and no turn taken or waited
-    /// for. To be called before `instance`.
+    /// Makes the folder inside another process's folder, whose owner deletes it, and takes and
+    /// awaits no turn. Call this before `instance`.
     static void place_in(const std::filesystem::path& parent);
 
-    /// Its path; empty if the user chose PoCL's folder.
+    /// The folder's path; empty if the user chose PoCL's folder.
     const std::filesystem::path& path() const { return folder_; }
 
     /// Deletes the process's folder if it has one, for a program that ends without destructors.
@@ -53,21 +53,21 @@ class PoclFolder {
     /// Runs `first_call`, which makes PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
     void announce(const std::function<void()>& first_call) const;
 
-    /// Runs `build`, which makes PoCL build one program, after the program's files were restored.
-    /// Also restores those of its kernels, `parts()`, that other programs compiled; a program that
-    /// this process built before has them. `parts` runs while `build` does, on a thread of its own.
-    /// Returns true if there were files of this program, from an earlier run or an earlier build.
+    /// Runs `build`, which makes PoCL build one program, after restoring the program's files. Also
+    /// restores those of its kernels, `parts()`, that other programs compiled, unless this process
+    /// built the program before. `parts` runs while `build` does, on a thread of its own. Returns
+    /// true if there were files of this program, from an earlier run or an earlier build.
     bool build_with_files(const DiskCache& cache, const std::string& key,
                           const std::function<std::vector<ProgramPart>()>& parts,
                           const std::function<void()>& build);
 
-    /// Writes to `cache` what PoCL compiled since the last call.
+    /// Writes to `cache` the files that PoCL made since the last call.
     void publish(const DiskCache& cache);
 
     /// True if other processes may wait for what this one compiles.
     bool has_turn();
 
-    /// Writes it for them, and ends their waiting.
+    /// Writes the files for waiting processes, and ends their waiting.
     void share(const DiskCache& cache);
 
     PoclFolder(const PoclFolder&) = delete;
@@ -92,7 +92,7 @@ class PoclFolder {
     int lock_ = -1;  ///< held while the process lives: a folder without a held lock is stale
     int process_;    ///< a forked child does not touch the folder
     std::map<std::string, ProgramFiles> programs_;  ///< by key
-    CompileTurn turn_;  ///< from the first program that the cache lacks until it has it
+    CompileTurn turn_;  ///< held from the first program that the cache lacks until the cache has it
 };
 
 }  // namespace voxelume

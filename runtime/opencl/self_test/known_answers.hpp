@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The questions of a driver's self-test with their answers. These were computed in exact
-// arithmetic, not by a driver; tests/opencl/self_test_test.cpp computes them once more, in another
-// way.
+// The questions of a driver's self-test with their answers. The answers were computed in exact
+// arithmetic, not by a driver; tests/opencl/self_test_test.cpp computes them again in another way.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@ namespace voxelume {
 
 /// One row of questions or answers.
 struct KnownRow {
-    const char* what;  ///< what the row is of, in words for people
+    const char* what;  ///< subject of the row, in words for people
     std::array<uint32_t, VXL_KNOWN_COLUMNS> words;
 };
 

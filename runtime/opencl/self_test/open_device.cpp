@@ -14,13 +14,13 @@
 namespace voxelume {
 namespace {
 
-/// Why a device isn't used whose self-test found this.
+/// The reason why a device with this fault isn't used.
 std::string refusal_of(const std::string& fault) {
     return fault + " (VOXELUME_SELF_TEST=again has it tested again)";
 }
 
-/// The candidates with the results of earlier self-tests: those that are kept, or, where devices
-/// are tested again, those of this process.
+/// The candidates with the results of earlier self-tests: kept results or, if devices are tested in
+/// every process, those of this process.
 std::vector<Candidate> find_tested_candidates(int lanes = 0) {
     std::vector<Candidate> candidates = find_candidates();
     const SelfTestMode mode = self_test_mode();
@@ -38,8 +38,8 @@ std::vector<Candidate> find_tested_candidates(int lanes = 0) {
     return candidates;
 }
 
-/// What the self-test finds on a device of a new driver. That a test couldn't run is a fault, too,
-/// but isn't kept: its cause may be temporary.
+/// The fault that the self-test finds on a device of a new driver. A test that couldn't run is a
+/// fault, too, but isn't kept: its cause may be temporary.
 std::string new_fault(const Device& device) {
     try {
         std::string fault = find_fault(device);
@@ -77,7 +77,7 @@ std::optional<Device> Device::open_tested(const Candidate& chosen, int lanes, co
     if (mode == SelfTestMode::off) return open(chosen.device, std::move(info), sibling);
     std::optional<std::string> found;
     if (mode == SelfTestMode::once) found = kept_fault(info);
-    // The test has a device of its own, so that it isn't seen in the counters.
+    // The test has a device of its own, so that it doesn't change the counters.
     std::optional<Device> tested;
     if (!found) {
         prepare_to_compile(info);

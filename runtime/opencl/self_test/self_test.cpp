@@ -50,7 +50,8 @@ std::vector<uint32_t> questions() {
     return words;
 }
 
-/// What the atomic operations begin with: the least of the numbers with the largest there is.
+/// The answers before the test. Atomic operations begin with 0, the minimum with the largest
+/// number.
 std::vector<uint32_t> unanswered() {
     std::vector<uint32_t> words(VXL_KNOWN_ANSWERS * VXL_KNOWN_COLUMNS, kUnanswered);
     const auto atomics = words.begin() + VXL_KNOWN_ATOMICS * VXL_KNOWN_COLUMNS;

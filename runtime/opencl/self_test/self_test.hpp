@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver's self-test: what images depend on, asked of a device, against answers that are known.
+// A driver's self-test: operations on which images depend, run on a device and compared with known
+// answers.
 #pragma once
 
 #include <optional>
@@ -9,26 +10,25 @@
 
 namespace voxelume {
 
-/// The fault of the device in words for people, the first that its answers show; empty if all are
-/// right.
+/// The first fault in the device's answers, in words for people; empty if all are right.
 ///
-/// Asks for arithmetic with floats and long integers, atomic operations, private arrays, and the
-/// walks of sixteen rays through a small world, in code and numbers of lanes that images use. Takes
-/// two launches.
+/// Tests arithmetic with floats and long integers, atomic operations, private arrays, and the walks
+/// of sixteen rays through a small world, with the code and the numbers of lanes that images use.
+/// Takes two launches.
 std::string find_fault(const Device& device);
 
-/// What VOXELUME_SELF_TEST asks for.
+/// The value of VOXELUME_SELF_TEST.
 enum class SelfTestMode {
     once,   ///< not set: the first time that a device is opened with a driver
     again,  ///< "again": every time
     off,    ///< "off": never; faults that were found before don't matter
 };
 
-/// Throws Error::usage for another value of the variable.
+/// The mode. Throws Error::usage for another value of the variable.
 SelfTestMode self_test_mode();
 
-/// The result that is kept of a device's self-test: a fault, or an empty text; nothing if it wasn't
-/// tested with this driver, for this number of lanes and these compiler's options.
+/// The kept result of a device's self-test: a fault, or an empty text. Without a value if the
+/// device wasn't tested with this driver, number of lanes and compiler's options.
 std::optional<std::string> kept_fault(const DeviceInfo& info);
 
 /// The result of a self-test that this process made or read.

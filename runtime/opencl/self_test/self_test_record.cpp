@@ -24,7 +24,7 @@ DiskCache fault_store() {
                      cache_bases("drivers"));
 }
 
-/// The results of this process, for where nothing can be kept.
+/// The results of this process, in case nothing can be kept.
 struct Results {
     std::mutex mutex;
     std::map<std::string, std::string> faults;  ///< by key
@@ -35,7 +35,7 @@ Results& results() {
     return all;
 }
 
-/// All that the self-test asks, and its answers.
+/// All questions of the self-test, and their answers.
 std::string known_words() {
     std::string bytes;
     for (const std::span<const KnownRow> rows : {known_questions(), known_answers()})

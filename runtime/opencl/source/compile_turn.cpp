@@ -15,7 +15,8 @@ namespace {
 
 constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
 
-/// True if a folder's file of the name is the open one: who had the turn removes its file.
+/// True if the folder's file of this name is the open one: the process that had the turn removes
+/// its file.
 bool is_named(int file, const PrivateFolder& folder, const std::string& name) {
     struct stat open_one = {}, named = {};
     return fstat(file, &open_one) == 0 &&
@@ -33,8 +34,8 @@ std::optional<std::string> CompileTurn::read(const DiskCache& cache, const std::
     return bytes;
 }
 
-/// Returns whether the entry may have been written meanwhile: the turn is taken, or was waited for
-/// in vain.
+/// Returns whether the entry may have been written meanwhile: true if the turn was taken, or was
+/// awaited in vain.
 bool CompileTurn::take(const DiskCache& cache, const std::string& key) {
     if (cache.folder().empty()) return false;
     folder_.reset();

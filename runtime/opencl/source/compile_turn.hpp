@@ -25,8 +25,8 @@ class CompileTurn {
     CompileTurn(const CompileTurn&) = delete;
     CompileTurn& operator=(const CompileTurn&) = delete;
 
-    /// The entry of the key, which may be another process's of just now. If there is none, this
-    /// process is to compile it, and has a turn if it can have one.
+    /// The entry of the key, which another process may just have written. If there is none, this
+    /// process is to compile it, and gets the turn if possible.
     std::optional<std::string> read(const DiskCache& cache, const std::string& key);
 
     void release();

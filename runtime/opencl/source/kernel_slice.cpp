@@ -26,7 +26,7 @@ std::map<std::string, std::string, std::less<>> constants_of(std::string_view op
     return constants;
 }
 
-/// Which parts of a source mention which, and which constants.
+/// The references between the parts of a source, and from parts to constants.
 class PartGraph {
   public:
     PartGraph(const std::vector<SourcePart>& parts, std::string_view options)
@@ -46,7 +46,7 @@ class PartGraph {
         link_conditions();
     }
 
-    /// The text that a part consists of, with the parts whose names can't be told.
+    /// The text of a part and of the parts that it needs, with all parts whose names are unknown.
     std::string slice(size_t root) const {
         std::vector<bool> is_needed(parts_.size());
         std::vector<size_t> left;
@@ -77,7 +77,7 @@ class PartGraph {
         std::set<const std::string*> constants;
     };
 
-    /// Makes what stands inside of a condition need all directives of the condition.
+    /// Makes each part inside a condition need all directives of the condition.
     void link_conditions() {
         std::vector<std::vector<size_t>> inside;  // the parts in each open condition
         std::vector<std::vector<size_t>> directives;

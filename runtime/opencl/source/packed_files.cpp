@@ -39,7 +39,7 @@ bool is_safe_path(std::string_view path) {
     return false;
 }
 
-/// Takes the digits in front of `end` from the text, and `end`.
+/// Removes the digits before `end`, and `end` itself, from the start of the text.
 size_t take_size(std::string_view& text, char end) {
     size_t size = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), size);

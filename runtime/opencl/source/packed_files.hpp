@@ -12,19 +12,19 @@
 
 namespace voxelume {
 
-/// An entry that isn't one that `packed` made.
+/// An entry that wasn't made by `packed`.
 class PackedFileError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The files, named by their paths from `root`.
+/// Packs the files, named by their paths from `root`.
 std::string packed(const std::filesystem::path& root, std::span<const std::filesystem::path> files);
 
-/// The name and the content of each file of an entry, whose bytes they are part of.
+/// The name and the content of each file of an entry, as views of its bytes.
 ///
-/// All names are checked: they lead nowhere but below the folder that they are meant for, and are
-/// those of files that are kept. Throws PackedFileError otherwise.
+/// All names are checked: they lead only to files below the intended folder, and are names of files
+/// that are kept. Throws PackedFileError otherwise.
 std::vector<std::pair<std::string, std::string_view>> packed_files(std::string_view bytes);
 
 }  // namespace voxelume

@@ -32,7 +32,8 @@ SourcePart directive(std::string line) {
     return part;
 }
 
-/// `text` with blanks for what is in parentheses or braces, and for the words of attributes.
+/// `text` with blanks instead of the content of parentheses and braces, and of the words of
+/// attributes.
 std::string outline(std::string_view text) {
     std::string outer;
     int depth = 0;
@@ -52,7 +53,8 @@ std::string outline(std::string_view text) {
 }
 
 /// True if the outline of a declaration is that of a function, whose name then is the last word
-/// before its parameters. A call of a macro at the top has no type before its name, and is none.
+/// before its parameters. A macro call at the top has no type before its name, so it isn't a
+/// function.
 bool is_function(std::string_view outer) {
     const size_t mark = outer.find_first_of("({=;");
     if (mark == std::string_view::npos || outer[mark] != '(') return false;
@@ -60,7 +62,7 @@ bool is_function(std::string_view outer) {
     return words.size() > 1 && words[0] != "typedef";
 }
 
-/// The name of a type or a constant; empty for what has several or none.
+/// The name of a type or a constant; empty for declarations of several names or none.
 std::string name_of_declaration(std::string_view outer) {
     const std::vector<std::string_view> words =
         identifiers(outer.substr(0, outer.find_first_of("[=")));
@@ -108,7 +110,7 @@ std::string without_comments(std::string_view source) {
     return text;
 }
 
-/// `source` without what stands under `#ifdef __cplusplus`.
+/// `source` without code under `#ifdef __cplusplus`.
 std::string without_cplusplus(std::string_view source) {
     std::string text;
     int skipped_depth = 0;  // conditions around a line that is for C++
@@ -150,7 +152,7 @@ std::vector<SourcePart> source_parts(std::string_view whole) {
             if (text.empty())
                 parts.push_back(directive(std::string(line)));
             else
-                text += line;  // it stands inside a declaration
+                text += line;  // the line is inside a declaration
             continue;
         }
         source.remove_prefix(1);

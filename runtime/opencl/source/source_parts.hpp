@@ -13,12 +13,12 @@ struct SourcePart {
     enum class Kind { definition, condition, branch, condition_end };  ///< #if, #else, #endif
     Kind kind = Kind::definition;
     std::string text;
-    std::string name;  ///< what it defines; empty if that can't be told
+    std::string name;  ///< the defined name; empty if it is unknown
     bool is_kernel = false;
 };
 
-/// The parts of an OpenCL source. Comments and `#line` are left out, as is what stands under
-/// `#ifdef __cplusplus`; lines that end in a backslash are joined to the next.
+/// The parts of an OpenCL source. Comments and `#line` are left out, as is code under `#ifdef
+/// __cplusplus`; lines that end in a backslash are joined to the next.
 std::vector<SourcePart> source_parts(std::string_view source);
 
 /// The identifiers in a text, in order and with repeats.

@@ -16,7 +16,7 @@ struct Bounds {
     friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
-/// The box of nothing: min > max, and each point that it is widened to becomes its first corner.
+/// The empty box: min > max, so that the first point by which it is widened becomes both corners.
 inline const Bounds kEmptyBounds{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
 
 /// The length of the box's longest side.

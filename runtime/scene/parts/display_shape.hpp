@@ -24,19 +24,19 @@ enum class VolumeLayout : uint8_t {
     lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E, Z_E, clipped by the display's shape
 };
 
-/// Which surfaces of the world a lattice shows.
+/// The surfaces of the world that a lattice shows.
 enum class Visibility : uint8_t {
-    observer,  ///< those that E sees
-    outside,   ///< those that can be seen from somewhere outside of the world
+    observer,  ///< surfaces that E sees
+    outside,   ///< surfaces visible from somewhere outside of the world
     all        ///< all
 };
 
-/// The sight lines along which the voxels of a lattice together cover what lies behind them as much
-/// as the surfaces do that they show.
+/// The sight lines for which opacities are computed: along these, a lattice's voxels together cover
+/// as much as the surfaces that they show.
 enum class SeenAlong : uint8_t {
-    observer,  ///< those of E
-    facing,    ///< those along the axis that the surface faces most, voxel by voxel
-    x,         ///< those along X_E
+    observer,  ///< sight lines of E
+    facing,    ///< lines along the axis that the surface faces most, voxel by voxel
+    x,         ///< lines along X_E
     y,
     z
 };
@@ -51,9 +51,9 @@ struct Display {
     double near = 0;  ///< metres, >= 0; pyramid and box: along Z_E; sector and ball: along the ray
     double far = 0;   ///< metres, > near; ball: its radius
     glm::ivec3 voxels{0};        ///< u, v, k
-    bool square_pixels = false;  ///< of a pyramid given by one angle, or a box by one side, for
-                                 ///< flat images: the other one follows the image's proportions
-    bool keeps_height = false;   ///< box with square pixels: its width is the one that follows
+    bool square_pixels = false;  ///< for flat images: of a pyramid's angles, or a box's sides, only
+                                 ///< one is given and the other follows the image's proportions
+    bool keeps_height = false;   ///< box with square pixels: its width follows from its height
     VolumeLayout layout = VolumeLayout::rays;
     Visibility visibility = Visibility::observer;  ///< always `observer` for rays
     SeenAlong seen_along = SeenAlong::observer;    ///< lattice
@@ -62,12 +62,12 @@ struct Display {
     friend bool operator==(const Display&, const Display&) = default;
 };
 
-/// What a scene says of a display's shape, of all shapes.
+/// The parameters of a display's shape in a scene, for all shapes.
 struct DisplayParameters {
     std::optional<glm::dvec2> angles;  ///< degrees, from edge to edge
-    std::optional<double> angle;       ///< degrees: both of these, or the horizontal one
+    std::optional<double> angle;       ///< degrees: both angles, or the horizontal one
     double near = 0;                   ///< metres
-    std::optional<double> far;         ///< metres; without one up to the end of the world
+    std::optional<double> far;         ///< metres; default: the end of the world
     double radius = 0;                 ///< metres
     glm::dvec3 size{0};                ///< metres
 
@@ -76,17 +76,17 @@ struct DisplayParameters {
 
 std::span<const ValueRow<DisplayParameters>> display_rows();
 
-/// What a display's measures depend on besides its own.
+/// The surroundings on which a display's measures depend.
 struct DisplaySetting {
     double world_end;        ///< metres from the observer to the world's farthest corner
-    glm::dvec2 proportions;  ///< of the sides of its image
+    glm::dvec2 proportions;  ///< proportions of the image's sides
 };
 
-/// How the sight rays of a display lead to its image.
+/// The relation between pixels and sight rays.
 enum class SightProjection : uint8_t {
-    perspective,  ///< from the observer, across a plane on which pixels lie evenly
+    perspective,  ///< from the observer, evenly across a plane
     parallel,     ///< along Z_E
-    angular       ///< from the observer, evenly by angles
+    angular       ///< from the observer, evenly by angle
 };
 
 /// Four flat sides and a near face around all sight rays of a display.
@@ -95,8 +95,8 @@ struct FlatSides {
     double near;      ///< metres along Z_E
 };
 
-/// All that depends on a display's shape on the host. Points and boxes are in the observer's
-/// coordinates, in metres.
+/// All properties that depend on a display's shape on the host. Points and boxes are in the
+/// observer's coordinates, in metres.
 struct DisplayShapeRow {
     DisplayShape shape;
     std::string_view name;  ///< in scene files and in the headers of volumetric images
@@ -104,11 +104,11 @@ struct DisplayShapeRow {
     SightProjection projection;
     bool depth_is_along_z;          ///< otherwise depths count along the sight ray
     bool image_is_round;            ///< only the ellipse in the image has sight rays
-    std::span<const KindKey> keys;  ///< besides those that all displays have
-    /// Sets the shape's measures, and refuses those that don't go together.
+    std::span<const KindKey> keys;  ///< in addition to those of all displays
+    /// Sets the shape's measures, and refuses contradictory ones.
     void (*measure)(const DisplayParameters& parameters, const DisplaySetting& setting,
                     const Refuse& refuse, Display& display);
-    /// What half of the image spans, u and v: tangents for a pyramid, metres for a box, else
+    /// The half extent of the image along u and v: tangents for a pyramid, metres for a box, else
     /// radians.
     glm::dvec2 (*half_extent)(const Display& display);
     /// The box around the shape.
@@ -118,21 +118,23 @@ struct DisplayShapeRow {
     glm::dvec3 (*point_on_ray)(const Display& display, glm::dvec2 uv, double depth);
     /// The (u, v) of the sight ray through a point; nothing where there is none.
     std::optional<glm::dvec2> (*ray_through)(const Display& display, const glm::dvec3& point);
-    /// True if every sight ray leads ahead, so that Z in image files can be the depth along Z_E.
+    /// True if every sight ray leads forwards, so that Z in image files can be the depth along Z_E.
     bool (*looks_ahead)(const Display& display);
     /// The distance from the observer within which sight rays begin.
     double (*start_radius)(const Display& display);
     /// The slopes of DisplayLattice, by which kernels clip a lattice to the shape.
     glm::dvec2 (*clip_slopes)(const Display& display);
-    /// Without a value only the ball with the radius `far` holds all sight rays.
+    /// Four flat sides around all sight rays. Empty if only the ball with the radius `far` holds
+    /// them.
     std::optional<FlatSides> (*flat_sides)(const Display& display);
-    /// Widens the image about its middle by a factor for u and one for v; null where it can't.
+    /// Widens the image about its middle by a factor for u and one for v; null if that is
+    /// impossible.
     void (*widen)(Display& display, glm::dvec2 scale) = nullptr;
-    /// Gives the image these proportions by the measure that follows its size; null without one.
+    /// Sets the measure that follows from the image's proportions; null without one.
     void (*make_square)(glm::dvec2 proportions, Display& display) = nullptr;
 };
 
-/// In the order of DisplayShape.
+/// The rows in the order of DisplayShape.
 std::span<const DisplayShapeRow> display_shapes();
 
 const DisplayShapeRow& shape_row(const Display& display);

@@ -10,9 +10,9 @@
 namespace voxelume {
 namespace {
 
-/// How far ahead the observer may stand at most to show all of a box along one axis of the image. A
-/// point at `u` across and `z` ahead is shown where |u - place| <= slope * (z - depth), for some
-/// place.
+/// The maximum forward position of an observer who sees all of a box along one axis of the image. A
+/// point at `u` across and `z` ahead is visible where |u - position| <= slope * (z - depth), for
+/// some position.
 double largest_depth(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
                      double slope) {
     double left = -INFINITY, right = -INFINITY;
@@ -25,8 +25,8 @@ double largest_depth(const Bounds& box, const glm::dvec3& across, const glm::dve
     return -(left + right) / (2 * slope);
 }
 
-/// The place across from which a box, all of which lies beyond `depth`, reaches as far to one side
-/// of the image as to the other.
+/// The position across at which a box, all of which lies beyond `depth`, extends equally far to
+/// both sides of the image.
 double middle_place(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
                     double depth) {
     const auto u = [&](int i) { return glm::dot(across, corner(box, i)); };
@@ -54,7 +54,7 @@ glm::dmat3 view_axes(const ViewFrom& from) {
     const double longitude = glm::radians(from.longitude), latitude = glm::radians(from.latitude);
     const glm::dvec3 z(-std::sin(longitude) * std::cos(latitude), -std::sin(latitude),
                        -std::cos(longitude) * std::cos(latitude));
-    // This holds for views along Y, too, where a cross product with Y would vanish.
+    // Views along Y work, too; a cross product with Y would vanish for these.
     const glm::dvec3 x(-std::cos(longitude), 0, std::sin(longitude));
     return {x, glm::cross(z, x), z};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an observer stands who shows the whole of a box.
+// The position of an observer who sees the whole of a box.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// A direction to look from, seen from what is looked at.
+/// A direction from the object to the observer.
 struct ViewFrom {
     double longitude = 35;  ///< degrees to the right of the front, which faces +Z
     double latitude = 25;   ///< degrees above the horizon, -90..90
@@ -17,10 +17,10 @@ struct ViewFrom {
     friend bool operator==(const ViewFrom&, const ViewFrom&) = default;
 };
 
-/// The largest share of the image's width or height that what is framed takes.
+/// The part of the image's width or height that the framed box fills at most.
 inline constexpr double kFilled = 0.92;
 
-/// The axes X_E, Y_E and Z_E of an observer who looks from there.
+/// The axes X_E, Y_E and Z_E of an observer in this direction.
 glm::dmat3 view_axes(const ViewFrom& from);
 
 /// The position of an observer with these axes and a pyramid who sees all of a box as large as

@@ -54,7 +54,7 @@ void place_directional(const LightParameters& p, const Refuse& refuse, Light& li
     light.direction = unit_vector(p.direction.value_or(glm::dvec3(0)), "direction", refuse);
 }
 
-/// A position, and a direction from it that is given or leads to a point.
+/// Sets a position, and a direction that is given or leads to a point.
 void aim(const LightParameters& p, const Refuse& refuse, Light& light) {
     light.position = p.position;
     refuse_both(p.direction.has_value(), "direction", p.look_at.has_value(), "look_at", refuse);
@@ -72,7 +72,7 @@ void place_spot(const LightParameters& p, const Refuse& refuse, Light& light) {
         refuse("inner_angle", "must not be larger than the spot's angle");
 }
 
-/// The unit vector across a light's direction that is to the left when `up` is up.
+/// The unit vector perpendicular to a light's direction that points left when `up` is up.
 glm::dvec3 axis_across(const Light& light, const std::optional<glm::dvec3>& up,
                        const Refuse& refuse) {
     constexpr double kMinSine = 1e-6;

@@ -21,7 +21,7 @@ namespace voxelume {
 
 enum class LightKind : uint8_t { point, spot, directional, disk, rectangle };
 
-/// The most light samples that one source of light is made of.
+/// The maximum number of light samples of one light or emissive object.
 inline constexpr int kMaxLightSamples = 16384;
 
 struct Light {
@@ -29,24 +29,24 @@ struct Light {
     LightKind kind = LightKind::point;
     glm::dvec3 position{0};   ///< metres; all but directional; the centre of a disk or rectangle
     glm::dvec3 direction{0};  ///< unit vector along which the light travels; all but point
-    glm::vec3 intensity{1};   ///< colour times intensity: at 1 m, or everywhere for directional;
-                              ///< of a disk or rectangle, along `direction` from far away
+    glm::vec3 intensity{1};   ///< colour times intensity: at 1 m, or everywhere for directional; of
+                              ///< a disk or rectangle, along `direction` from far away
     double inner_half_angle = 0;  ///< radians; spot: full light up to here, ...
     double outer_half_angle = 0;  ///< ... none from here, between them smoothstep of the cosine
     double radius = 0;            ///< metres; disk
     glm::dvec2 size{0};           ///< metres; rectangle: along axis_x, and across it
     glm::dvec3 axis_x{0};         ///< unit vector across `direction`; disk and rectangle
-    int light_samples = 64;       ///< disk and rectangle: points that they shine from
+    int light_samples = 64;       ///< disk and rectangle: number of points that shine
     SourcePlace where;
-    std::string group;  ///< of lights whose part of an image is a channel; empty: none
+    std::string group;  ///< the light's group, which may have a channel; empty: none
 
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// What a scene says of a light, of all types.
+/// The parameters of a light in a scene, for all types.
 struct LightParameters {
     glm::dvec3 position{0};               ///< metres
-    std::optional<glm::dvec3> direction;  ///< of any length but 0
+    std::optional<glm::dvec3> direction;  ///< direction of any length but 0
     std::optional<glm::dvec3> look_at;    ///< metres; a point instead of a direction
     std::optional<glm::dvec3> up;
     glm::vec3 color{1};
@@ -62,12 +62,12 @@ struct LightParameters {
 
 std::span<const ValueRow<LightParameters>> light_rows();
 
-/// The part of a light that shines by an area.
+/// The properties of a type of light with an area.
 struct LightArea {
     double (*area)(const Light&);           ///< square metres
     double (*radius)(const Light&);         ///< metres: no point lies farther from `position`
     glm::dvec2 (*half_axes)(const Light&);  ///< metres: half its extent along axis_x and across it
-    bool is_round;                          ///< an ellipse of these half axes, not a rectangle
+    bool is_round;  ///< the area is an ellipse with these half axes, not a rectangle
     /// Points that share the area evenly, `light_samples` of them: metres along axis_x and across
     /// it.
     std::vector<glm::dvec2> (*points)(const Light&);
@@ -76,22 +76,22 @@ struct LightArea {
 struct LightType {
     LightKind kind;
     std::string_view name;          ///< in scene files
-    std::span<const KindKey> keys;  ///< besides those that all lights have
-    bool has_position;              ///< otherwise it shines along one direction everywhere
-    bool has_direction;             ///< otherwise it shines alike to all sides
+    std::span<const KindKey> keys;  ///< in addition to those of all lights
+    bool has_position;              ///< otherwise the light has one direction everywhere
+    bool has_direction;             ///< otherwise the light shines equally to all sides
     int shading;                    ///< VXL_LIGHT_* of kernels/shared/scene.h
-    /// Sets what the type's own parameters decide, and refuses those that don't go together.
+    /// Sets the type's own parameters, and refuses contradictory ones.
     void (*place)(const LightParameters& parameters, const Refuse& refuse, Light& light);
-    /// The part of its intensity at an angle from `direction` with this cosine; null for all of it.
+    /// The part of the intensity at an angle from `direction` with this cosine; null: all of it.
     double (*part_at)(const Light& light, double cosine) = nullptr;
     const LightArea* area = nullptr;  ///< null for a light that shines from one point or direction
 };
 
-/// In the order of LightKind.
+/// The rows in the order of LightKind.
 std::span<const LightType> light_types();
 const LightType& type_of(const Light& light);
 
-/// Sets all of a light of a type but its name and place in the scene's text.
+/// Sets all values of a light of a type except its name and its position in the scene's text.
 void set_light(const LightType& type, const LightParameters& parameters, const Refuse& refuse,
                Light& light);
 

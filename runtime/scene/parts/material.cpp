@@ -88,11 +88,11 @@ float shininess_of(double rough) {
     return float(std::clamp(2 / (width * width) - 2, 2.0, 1000.0));
 }
 
-/// Parts of the light that a surface of metal, or of clear facets over matt ones, reflects in local
-/// light.
+/// The parts of the light that a surface of metal, or of clear facets over matt ones, reflects in
+/// local light.
 struct LocalGloss {
-    double metal, rough, mirror;       ///< `mirror`: of what metal reflects
-    double of_metal, of_facets, coat;  ///< highlights
+    double metal, rough, mirror;       ///< `mirror`: part of the metal's reflection
+    double of_metal, of_facets, coat;  ///< strengths of highlights
 
     explicit LocalGloss(const Material& material)
         : metal(material.metallic.value_or(0)),
@@ -106,8 +106,9 @@ struct LocalGloss {
     }
 
     bool shows_coat() const { return coat > of_metal + of_facets; }
-    /// What metal neither mirrors nor returns in its highlight, whose light is about 8 / (n + 7.6)
-    /// for an exponent n. It stands for what rough metal reflects of all that is around.
+    /// The part that metal neither mirrors nor returns in its highlight, whose light is about 8 /
+    /// (n + 7.6) for an exponent n. It approximates the reflection of all surroundings in rough
+    /// metal.
     double spread() const {
         const double highlight = (1 - 0.4 * rough) * 8 / (double(shininess_of(rough)) + 7.6);
         return std::max(1 - mirror - highlight, 0.0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface looks like: the values of Whitted's model or of a physically based one, and a
-// checker.
+// The look of a surface: the values of Whitted's model or of a physically based one, and a checker.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace voxelume {
 
-/// A second colour in every other block of a lattice that stands still in the world.
+/// A second colour in every other block of a lattice that is fixed in the world.
 struct Checker {
     glm::vec3 color{0};    ///< linear Rec. 709, 0..1
     glm::dvec3 size{0};    ///< edges of a block, metres; 0: no change along that axis
@@ -29,8 +28,8 @@ struct Material {
     std::string name;
     glm::vec3 color{0.8f};  ///< linear Rec. 709, 0..1
     float diffuse = 1;      ///< 0..1
-    /// 0..1: the part of Blinn and Phong's highlight, 0 by default. For a physically based
-    /// material, the factor of the reflectance of what isn't metal, 1 by default.
+    /// 0..1: the weight of Blinn and Phong's highlight, 0 by default. For a physically based
+    /// material, the factor of the reflectance of its non-metallic part, 1 by default.
     std::optional<double> specular;
     float shininess = 50;     ///< Blinn-Phong exponent, 1..1e6
     float reflection = 0;     ///< R_i, 0..1
@@ -41,31 +40,31 @@ struct Material {
     glm::vec3 absorption{0};  ///< inside, per metre, >= 0
     glm::vec3 emission{0};    ///< radiance, >= 0
     std::optional<Checker> checker;
-    // One of these makes a material physically based:
+    // A material with any of these values is physically based:
     std::optional<glm::dvec3> base_color;  ///< 0..1; otherwise `color`
     std::optional<double> metallic;        ///< 0..1; otherwise 0
     std::optional<double> roughness;       ///< 0..1; otherwise 0.5
-    std::optional<double> transmission;    ///< of what isn't metal, the share of glass, 0..1
+    std::optional<double> transmission;    ///< share of glass in the non-metallic part, 0..1
     std::optional<double> coat;            ///< the share under a clear coat, 0..1; otherwise 0
     std::optional<double> coat_roughness;  ///< 0..1; otherwise 0
 
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// What a material's values switch on in rays and kernels, as bits.
+/// Bits for the effects of a material's values on rays and kernels.
 enum MaterialEffect : uint32_t {
     kReflects = 1,        ///< sends rays back
     kRefracts = 2,        ///< sends rays on into the object
     kIsSeenThrough = 4,   ///< covers only a part of what lies behind
-    kHasReflectance = 8,  ///< of Fresnel: by the angle
+    kHasReflectance = 8,  ///< Fresnel reflectance, by the angle
     kAbsorbs = 16,        ///< dims light on its way inside
     kEmits = 32,
     kIsPhysical = 64,  ///< physically based
-    kHasCoat = 128,    ///< ... under a coat
+    kHasCoat = 128,    ///< physically based, with a coat
 };
 
-/// The values of a material but its checker. A value is added with a member above, a row here, and
-/// the kernels that show it.
+/// The rows of all values of a material except its checker. A new value needs a member above, a row
+/// here, and the kernels that show it.
 std::span<const ValueRow<Material>> material_rows();
 std::span<const ValueRow<Checker>> checker_rows();
 
@@ -77,25 +76,26 @@ bool is_physical(const Material& material);
 /// True if paths that the surface scatters show lights: mirrors, glass, physically based ones.
 bool shows_lights(const Material& material);
 
-/// True if a physically based surface reflects less than its index of refraction says.
+/// True if a physically based surface reflects less than its index of refraction implies.
 bool is_weak(const Material& material);
 
 /// The share of a physically based surface that is glass.
 double glass_share(const Material& material);
 
-/// True if the maps of textures change the material's roughness and metalness: those of physically
-/// based ones without glass and coat, whose tables are made for one roughness.
+/// True if the maps of textures change the material's roughness and metalness. This holds for
+/// physically based materials without glass and coat: the tables of these are made for one
+/// roughness.
 bool takes_gloss_map(const Material& material);
 
-/// True if such maps may make parts of the material's surface mirrors in local light.
+/// True if such maps may turn parts of the material's surface into mirrors in local light.
 bool maps_make_mirrors(const Material& material);
 
 /// The surface's own colour, whichever of the two keys names it.
 glm::vec3 color_of(const Material& material);
 
-/// A physically based material's place in Whitted's model, by which local light shows it; others as
-/// they are. Mirrors are sharp there, so a rough metal mirrors less, and shows its own colour in
-/// the place of what it would reflect from all around.
+/// A physically based material in Whitted's model, by which local light shows it; other materials
+/// are unchanged. Mirrors are sharp in that model, so a rough metal mirrors less, and shows its own
+/// colour in place of the blurred reflection of its surroundings.
 Material whitted_material(const Material& material);
 
 /// The shares of a material's highlight and mirror image, in local light, that have its colour.
@@ -104,8 +104,8 @@ struct MetalTint {
 };
 MetalTint metal_tint(const Material& material);
 
-/// The keys that make a material physically based, and those of Whitted's model that they are in
-/// the place of.
+/// The keys that make a material physically based, and the keys of Whitted's model that they
+/// replace.
 std::span<const std::string_view> physical_keys();
 std::span<const std::string_view> whitted_keys();
 

@@ -10,7 +10,8 @@ namespace voxelume {
 
 namespace {
 
-/// A lens that is wider, in proportion to its focus, would send rays along its own plane.
+/// The maximum ratio of a lens's diameter to its focus: a wider lens would send rays along its own
+/// plane.
 constexpr double kMaxLensRatio = 1000;
 
 }  // namespace

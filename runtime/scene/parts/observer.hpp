@@ -13,7 +13,7 @@
 
 namespace voxelume {
 
-/// How flat images show what an observer sees.
+/// The projection of an observer's flat images.
 enum class Projection : uint8_t {
     display,       ///< through the display that the scene gives
     orthographic,  ///< by parallel rays: the display is the box to the end of the world
@@ -25,9 +25,10 @@ struct Observer {
     glm::dvec3 position{0};             ///< metres
     glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
     double aperture = 0;  ///< metres: diameter of the lens; 0: flat images are sharp everywhere
-    double focus = 0;     ///< metres along Z_E to what the lens shows sharp
+    double focus = 0;     ///< metres along Z_E to the plane in focus
     int blades = 0;       ///< corners of the lens, from 3 on; 0: it is round
-    double shutter = 0;   ///< frames for which it is open, from a frame on; 0: that moment alone
+    double shutter = 0;   ///< number of frames for which the shutter is open, from a frame on; 0:
+                          ///< only that moment
     Projection projection = Projection::display;
     Display display;
     SourcePlace where;
@@ -35,10 +36,10 @@ struct Observer {
     friend bool operator==(const Observer&, const Observer&) = default;
 };
 
-/// The least sine of the angle between where an observer looks and what is up.
+/// The minimum sine of the angle between an observer's view direction and up.
 inline constexpr double kMinUpSine = 1e-6;
 
-/// What a scene says of where the observer stands and looks, and of the display.
+/// The parameters of the observer's placement and display in a scene.
 struct ObserverParameters {
     glm::dvec3 position{0};  ///< metres
     std::optional<glm::dvec3> look_at, up;
@@ -55,10 +56,11 @@ struct ObserverParameters {
 
 std::span<const ValueRow<ObserverParameters>> observer_rows();
 
-/// Sets where an observer stands and looks.
+/// Sets an observer's position and direction.
 void place_observer(const ObserverParameters& parameters, const Refuse& refuse, Observer& observer);
 
-/// Lets the measure of a display with square pixels that follows the image's proportions do so.
+/// Adapts a display with square pixels to the image's proportions, by the measure that follows
+/// them.
 void make_pixels_square(glm::dvec2 proportions, Display& display);
 
 /// Sets shape and measures of the display of an observer whose projection decides them.

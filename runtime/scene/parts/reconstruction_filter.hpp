@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far around the middle of a pixel, and with what weights, samples make its value.
+// The distribution of samples around the middle of a pixel whose mean is the pixel's value.
 //
-// The weights are those of where samples lie: many where the filter is high, few where it is low.
-// So all samples of a pixel count alike, and none is lost. After Ernst, Stamminger & Greiner 2006,
+// The density of samples replaces their weights: samples are dense where the filter is high. So all
+// samples of a pixel count equally, and none is wasted. After Ernst, Stamminger & Greiner 2006,
 // "Filter Importance Sampling".
 #pragma once
 
@@ -23,33 +23,33 @@ struct ReconstructionFilter {
     FilterShape shape = FilterShape::box;
     double width = 1;  ///< pixels from one end to the other, in kFilterWidth
 
-    /// True if a pixel is the mean of what lies in it.
+    /// True if a pixel is the mean over its own area.
     bool is_pixel() const { return shape == FilterShape::box && width == 1; }
     friend bool operator==(const ReconstructionFilter&, const ReconstructionFilter&) = default;
 };
 
 inline constexpr Range kFilterWidth{0, 16, true};
 
-/// What is known of a shape, for filters that are 1 wide.
+/// The properties of a shape, for filters with a width of 1.
 struct FilterRow {
     std::string_view name;  ///< in scene files
     double default_width;   ///< pixels
-    /// The share of the filter's weight between its middle and `x` in [0, 1/2].
+    /// The part of the filter's weight between its middle and `x` in [0, 1/2].
     double (*weight_to)(double x);
-    double equal_box;  ///< the width of the box that lessens noise as much: (∫f)² / ∫f²
+    double equal_box;  ///< width of the box filter with the same reduction of noise: (∫f)² / ∫f²
 };
 
-/// In the order of FilterShape.
+/// The rows in the order of FilterShape.
 std::span<const FilterRow> filter_rows();
 
 const FilterRow& filter_row(const ReconstructionFilter& filter);
 
-/// Where the filter has the share `share`, in [0, 1), of its weight on the lower side: pixels from
-/// its middle. It is exactly 0 for one half.
+/// The position, in pixels from the filter's middle, below which `share`, in [0, 1), of the
+/// filter's weight lies. It is exactly 0 for one half.
 double filter_offset(const ReconstructionFilter& filter, double share);
 
-/// The display whose sight rays are those of all samples: some of the pixels at an image's border
-/// lie outside of the image, which has `frame` pixels.
+/// The display that holds the sight rays of all samples: with filters, some samples of border
+/// pixels lie outside of the image, which has `frame` pixels.
 Display with_filter_margin(Display display, const ReconstructionFilter& filter, glm::ivec2 frame);
 
 }  // namespace voxelume

@@ -32,7 +32,7 @@ inline glm::dmat4 affine_from_factors(const Factors& factors) {
     return affine_from_factors(factors.position, factors.turn, factors.scale);
 }
 
-/// The map of what stands in the last of some places, each of which stands in the one before.
+/// The product of a chain of placements, each relative to the one before.
 glm::dmat4 product_of(std::span<const glm::dmat4> links);
 
 /// Smallest and largest length of the images of unit vectors: the singular values of a map.
@@ -45,15 +45,15 @@ Stretch stretch_of(const glm::dmat3& linear);
 inline constexpr double kMinStretch = 1e-9;
 inline constexpr double kMaxCondition = 1e5;  ///< largest over smallest stretch
 
-/// What objects and parts of solids may be stretched by.
+/// True for stretches that are allowed for objects and parts of solids.
 inline bool is_safely_invertible(const Stretch& stretch) {
     return stretch.min >= kMinStretch && stretch.max <= stretch.min * kMaxCondition;
 }
 
-/// `position`, `turn` and `scale`.
+/// The rows of `position`, `turn` and `scale`.
 std::span<const ValueRow<Factors>> factor_rows();
 
-/// Refuses a map that isn't safely invertible, because of the value with the key.
+/// Refuses a map that isn't safely invertible, at the value with the key.
 void check_map(const glm::dmat4& map, std::string_view key, const Refuse& refuse);
 
 }  // namespace voxelume

@@ -20,7 +20,7 @@ struct Shading {
     friend bool operator==(const Shading&, const Shading&) = default;
 };
 
-/// True if a mesh with or without normals of its own is shown with some.
+/// True if a mesh, with or without normals of its own, is shown with smooth normals.
 constexpr bool has_shading_normals(const Shading& shading, bool mesh_has_normals) {
     return shading.kind == ShadingKind::smooth ||
            (shading.kind == ShadingKind::automatic && mesh_has_normals);

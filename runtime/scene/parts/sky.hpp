@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sky around the world, which rays see that leave it, and which lights surfaces.
+// The sky around the world. Rays that leave the world see it, and it lights surfaces.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,18 @@ struct Sky {
     glm::vec3 horizon{0.8f, 0.9f, 1.0f};    ///< ... and from the side; between them by the sine
     glm::vec3 ground{0.25f, 0.23f, 0.21f};  ///< gradient, sun: radiance from below the horizon
     double strength = 1;                    ///< multiplies the radiance, but for the sun's disc
-    int samples = 16;                       ///< directions that a point in local light looks to
-    bool visible = true;                    ///< to observers; otherwise they see the background
+    int samples = 16;     ///< directions in which a point in local light samples the sky
+    bool visible = true;  ///< to observers; otherwise they see the background
     // the sun, in a clear sky:
     glm::dvec3 direction{0, -1, 0};  ///< unit vector along which its light travels; downwards
     double angle = 0.53;             ///< degrees that the disc fills
-    double intensity = 1;            ///< what arrives from the disc
+    double intensity = 1;            ///< irradiance of the disc
     double turbidity = 3;            ///< haze: 2 clear .. 10 thick
     // a map, the picture of a sky:
     std::filesystem::path file{};  ///< .exr, .hdr or .png
     double rotation = 0;           ///< degrees, counterclockwise as seen from above
-    SkyMapPlace map{};             ///< where its picture is kept
-    SourcePlace where{};           ///< of the file's name
+    SkyMapPlace map{};             ///< the loaded picture
+    SourcePlace where{};           ///< position of the file's name
 
     friend bool operator==(const Sky&, const Sky&) = default;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of everything around the world, as it was read.
+// The loaded picture of a sky.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace voxelume {
 
-/// The radiance of a sky, and what directions are chosen by; kernels/shared/sky.h tells of both.
+/// The radiance of a sky, and the table for sampling directions; see kernels/shared/sky.h.
 struct SkyMapData {
     int width = 0, height = 0;    ///< texels
     std::vector<float> texels;    ///< red, green and blue, in rows from the zenith down
     int columns = 0, rows = 0;    ///< cells
-    std::vector<uint32_t> table;  ///< of the cells
+    std::vector<uint32_t> table;  ///< table of the cells
 };
 
-/// Room for the picture of a sky, which is read when it is needed first. Copies of a scene share
+/// Storage for the picture of a sky, which is read when it is first needed. Copies of a scene share
 /// it.
 struct SkyMapRoom {
     std::mutex mutex;
     std::shared_ptr<const SkyMapData> data;
 };
 
-/// Where a sky's picture is kept: of a map never null. It says nothing of the sky that its other
-/// values don't.
+/// The storage of a sky's picture; never null for a map. Comparing skies ignores it, because the
+/// other values determine it.
 struct SkyMapPlace {
     std::shared_ptr<SkyMapRoom> room;
 

@@ -22,8 +22,8 @@ enum class SolidKind : uint8_t {
     torus,
     capsule,
     slab,
-    union_of,         ///< of all parts
-    intersection_of,  ///< of all parts
+    union_of,         ///< union of all parts
+    intersection_of,  ///< intersection of all parts
     difference_of,    ///< the first part without all others
 };
 
@@ -47,7 +47,7 @@ struct Solid {
     glm::dvec3 size{0};    ///< box: whole edges. > 0
 
     glm::dmat4 parent_from_solid{1};  ///< affine; identity at the root
-    std::vector<Solid> parts;         ///< of a combination; empty for a shape
+    std::vector<Solid> parts;         ///< parts of a combination; empty for a shape
 
     bool operator==(const Solid&) const = default;
 };
@@ -59,8 +59,8 @@ constexpr bool is_combination(SolidKind kind) {
     return kind >= SolidKind::union_of;
 }
 
-/// True when the tree reaches to infinity as far as its kinds tell: a slab, a union with an
-/// infinite part, an intersection of infinite parts only, a difference from an infinite part.
+/// True if the tree is infinite as far as its kinds tell: a slab, a union with an infinite part, an
+/// intersection of infinite parts only, a difference from an infinite part.
 bool is_infinite(const Solid& solid);
 
 /// A shape, or a way to combine parts.
@@ -70,11 +70,11 @@ struct SolidType {
     std::span<const KindKey> keys;
 };
 
-/// In the order of SolidKind.
+/// The rows in the order of SolidKind.
 std::span<const SolidType> solid_types();
 std::span<const ValueRow<Solid>> solid_rows();
 
-/// Refuses lengths of one shape that don't go together.
+/// Refuses contradictory lengths of one shape.
 void check_solid(const Solid& solid, const Refuse& refuse);
 
 }  // namespace voxelume

@@ -8,24 +8,24 @@
 
 namespace voxelume {
 
-/// What stands for the surface inside a voxel; the numbers are those of shared/voxel.h.
+/// The representation of the surface inside a voxel; the numbers are those of shared/voxel.h.
 enum class Surface : uint8_t {
     cubes = 0,   ///< the voxel itself
     smooth = 1,  ///< the zero of a distance field
     exact = 2,   ///< the source's own triangles or solid
 };
 
-/// What the stages ask of a kind of surface. A new kind is a row of kSurfaceKinds, a way to fill
-/// its voxels (stages/voxelize, stages/place) and one to meet rays (kernels/lib/surface).
+/// The properties of a kind of surface. A new kind needs a row of kSurfaceKinds, code that fills
+/// its voxels (stages/voxelize, stages/place) and code that intersects rays (kernels/lib/surface).
 struct SurfaceKind {
     Surface surface;
     std::string_view name;  ///< in scene files, options and .vxm files
-    bool stores_distances;  ///< its grids hold distances at nodes; those of others occupied voxels
+    bool stores_distances;  ///< grids hold distances at nodes; other kinds hold occupied voxels
     bool lists_primitives;  ///< each voxel lists the triangles or shapes that pass through it
-    bool shows_voxels;  ///< rays end on the voxel's own faces, so a VoxelSet says which there are
+    bool shows_voxels;  ///< rays end on the voxel's own faces, and a VoxelSet selects the voxels
 };
 
-/// In the order of the enumeration.
+/// The rows in the order of the enumeration.
 inline constexpr std::array<SurfaceKind, 3> kSurfaceKinds = {{
     // surface        name      distances primitives voxels
     {Surface::cubes, "cubes", false, false, true},
@@ -46,8 +46,8 @@ constexpr bool shows_voxels(Surface surface) {
     return kind_of(surface).shows_voxels;
 }
 
-/// Which voxels stand for an object made of cubes; the definitions are those of
-/// Cohen-Or & Kaufman 1995 and Laine 2013.
+/// The set of voxels of an object made of cubes; the definitions are those of Cohen-Or & Kaufman
+/// 1995 and Laine 2013.
 enum class VoxelSet : uint8_t {
     supercover,  ///< every voxel that the surface touches: no ray passes, even through corners
     thin,        ///< 6-separating: a path of voxels that share faces can't pass
@@ -56,8 +56,8 @@ enum class VoxelSet : uint8_t {
 
 /// The normals by which light falls on cubes.
 enum class CubeNormals : uint8_t {
-    faces,    ///< those of the cubes' own faces
-    surface,  ///< those of the surface that the cubes stand for
+    faces,    ///< normals of the cubes' own faces
+    surface,  ///< normals of the surface that the cubes represent
 };
 
 }  // namespace voxelume

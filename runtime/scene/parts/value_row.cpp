@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// Writes numbers to where a slot points.
+/// Writes numbers to the value of a slot.
 struct Writer {
     std::span<const double> numbers;
     int item;
@@ -54,7 +54,7 @@ void put(const Slot& slot, std::span<const double> numbers, int item) {
 }
 
 glm::dvec3 unit_vector(const glm::dvec3& v, std::string_view key, const Refuse& refuse) {
-    // Scaled to 1 first, so that no square is lost in underflow.
+    // The vector is scaled to 1 first, so that no square underflows.
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (largest == 0) refuse(key, "must not be zero, since it gives a direction");
     const glm::dvec3 scaled = v / largest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which values of a file's array are voxels.
+// The choice of the values of a file's array that are voxels.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,12 @@
 
 namespace voxelume {
 
-/// What a scene says of a file of values. Without any, voxels are the whole numbers that aren't 0,
-/// and the other numbers from 0.5 on.
+/// A scene's choice for a file of values. Without any, voxels are the whole numbers that aren't 0,
+/// and other numbers from 0.5 on.
 struct VoxelValues {
-    std::optional<double> iso{};  ///< voxels have this value or more; where a smooth surface runs
+    std::optional<double> iso{};  ///< voxels have at least this value; a smooth surface has it
     std::optional<int> label{};   ///< voxels have this value
-    bool each_label = false;      ///< all values but 0, each in a colour of its own
+    bool each_label = false;      ///< all values but 0 are voxels, each in a colour of its own
 
     bool is_there() const { return iso || label || each_label; }
     friend bool operator<(const VoxelValues& a, const VoxelValues& b) {

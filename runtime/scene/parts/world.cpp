@@ -11,8 +11,8 @@ namespace voxelume {
 
 namespace {
 
-/// The mean cosine beyond which a phase function is so narrow that floats don't tell directions in
-/// it apart.
+/// The maximum mean cosine of a phase function: in narrower ones floats can't tell directions
+/// apart.
 constexpr double kMaxAnisotropy = 0.99;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world S: its lattice, and what fills the space between the objects.
+// The world S: its lattice, and the medium between the objects.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@
 
 namespace voxelume {
 
-/// Density 1 up to the height `base`, from there falling by a factor of e every `scale_height`.
+/// Density 1 up to the height `base`; above it the density falls by a factor of e per
+/// `scale_height`.
 struct HeightDensity {
     double base = 0;          ///< metres along Y
     double scale_height = 1;  ///< metres, > 0
@@ -36,7 +37,7 @@ struct BallDensity {
     friend bool operator==(const BallDensity&, const BallDensity&) = default;
 };
 
-/// What light meets where a scan has a value.
+/// The optical properties of a scan's medium at one value.
 struct TransferPoint {
     double value = 0;
     double absorption = 0;  ///< per metre, >= 0
@@ -51,14 +52,14 @@ struct GridDensity {
     std::filesystem::path file{};
     std::string grid{};             ///< name in the file
     glm::dmat4 world_from_grid{1};  ///< from the grid's metres; affine and safely invertible
-    /// By which values become densities and colours; their values increase. Empty: values are
-    /// densities.
+    /// The transfer function from values to densities and colours, by ascending values. Empty:
+    /// values are densities.
     std::vector<TransferPoint> transfer{};
-    /// With a transfer: where light travels that brings out its surfaces, a unit vector; 0: none.
+    /// With a transfer function: unit vector of the light that shows its surfaces; 0: none.
     glm::dvec3 lit{0};
-    bool is_lit_by_scene = false;  ///< with a transfer: by the scene's lights instead
-    /// With a transfer: further scans, with transfers and places of their own and none of these.
-    /// What they absorb adds up.
+    bool is_lit_by_scene = false;  ///< with a transfer function: lit by the scene's lights instead
+    /// With a transfer function: further scans, with transfer functions and placements of their own
+    /// and no `others`. Their absorptions add up.
     std::vector<GridDensity> others{};
     SourcePlace where{};
 
@@ -68,7 +69,7 @@ struct GridDensity {
 /// The medium's density at the world's voxels; without any it is 1 everywhere.
 using Density = std::variant<std::monostate, HeightDensity, BallDensity, GridDensity>;
 
-/// What fills the space between the objects.
+/// The medium between the objects.
 struct Medium {
     glm::vec3 absorption{0};  ///< per metre at density 1, >= 0
     glm::vec3 color{0};       ///< radiance that an infinitely deep medium shows, >= 0
@@ -93,8 +94,8 @@ struct World {
     glm::vec3 background{0};   ///< radiance where a ray leaves the world
     glm::vec3 ambient{0};      ///< light that reaches every surface
     Medium medium;
-    std::optional<Sky> sky;  ///< in place of the background
-    SourcePlace where;       ///< "file:line:column: world", to open a message with
+    std::optional<Sky> sky;  ///< replaces the background
+    SourcePlace where;       ///< "file:line:column: world", which opens messages
 
     friend bool operator==(const World&, const World&) = default;
 };
@@ -122,14 +123,14 @@ struct DensityKind {
 };
 std::span<const DensityKind> density_kinds();
 
-/// The world's values that are numbers and may change.
+/// The world's numeric values that may change.
 std::span<const ValueRow<World>> world_rows();
 std::span<const ValueRow<Medium>> medium_rows();
 std::span<const ValueRow<HeightDensity>> height_density_rows();
 std::span<const ValueRow<BallDensity>> ball_density_rows();
 std::span<const ValueRow<GridDensity>> grid_density_rows();
 
-/// Refuses a ball whose density falls over more than its radius.
+/// Refuses a ball with a falloff larger than its radius.
 void check_ball(const BallDensity& ball, const Refuse& refuse);
 
 /// Metres from a position to the farthest corner of the world's voxels.

@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// Keys that say nothing about what a frame shows, and those that callers may replace later.
+/// True for keys that don't change what a frame shows, and for keys that callers may replace later.
 bool is_silent(std::string_view parent, std::string_view key) {
     return (parent.empty() && key == "$schema") || (parent == "animation" && key == "frames") ||
            (parent == "render" && (key == "size" || key == "samples" || key == "light"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hash of what a scene's document says.
+// A hash of the content of a scene's document.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace voxelume {
 
-/// 32 hexadecimal digits that differ where documents differ in what a frame shows. The order of
-/// keys, the places of values, `$schema` and the number of frames don't matter. The image's size,
-/// samples and light don't matter either, since they are settings of the scene.
+/// 32 hexadecimal digits that differ between documents whose frames show different things. The
+/// order of keys, the positions of values, `$schema` and the number of frames don't matter. The
+/// image's size, samples and light don't matter either, since they are settings of the scene.
 std::string document_hash(const JsonValue& document);
 
 }  // namespace voxelume

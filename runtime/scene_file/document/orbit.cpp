@@ -25,7 +25,7 @@ void refuse_motion(const Scene& scene) {
                         scene.observer.where);
 }
 
-/// A part in the place of a key, made if it is missing.
+/// The member with a key, added if it is missing.
 JsonValue& member(JsonValue& object, const std::string& key) {
     const auto found = std::ranges::find(object.members, key, &JsonMember::key);
     if (found != object.members.end()) return found->value;
@@ -64,7 +64,7 @@ void put_number(JsonValue& object, const std::string& key, double number) {
     value.number = number;
 }
 
-/// What a fitted observer looks through, as `voxelume check` tells it.
+/// Adds the display of a fitted observer, as `voxelume check` prints it.
 void add_fitted_display(JsonValue& observer, double near) {
     JsonValue& display = member(observer, "display");
     JsonValue& shape = member(display, "shape");

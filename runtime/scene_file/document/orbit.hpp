@@ -7,9 +7,9 @@
 
 namespace voxelume {
 
-/// The document of `scene` with its observer gone `degrees` to his right around the vertical axis
-/// through what he looks at, or through the middle of the world if he looks at nothing. An observer
-/// that the document leaves out is added. Throws Error::usage for an observer that moves.
+/// The document of `scene` with its observer moved `degrees` to the right around the vertical axis
+/// through the point that it looks at, or through the middle of the world without such a point. If
+/// the document has no observer, one is added. Throws Error::usage for an observer that moves.
 JsonValue orbited(const JsonValue& document, const Scene& scene, double degrees);
 
 }  // namespace voxelume

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// Marks where all parts of a value come from.
+/// Sets the text position of a value and of everything in it.
 void set_place(JsonValue& value, TextPosition at) {
     value.at = at;
     for (JsonValue& item : value.items) set_place(item, at);
@@ -23,7 +23,7 @@ void set_place(JsonValue& value, TextPosition at) {
     }
 }
 
-/// A number as people write it, also ".5" and "+2"; nothing for other texts.
+/// A number as people write it, also ".5" and "+2"; empty for other texts.
 std::optional<JsonValue> number_of(std::string_view text) {
     while (text.starts_with(' ')) text.remove_prefix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
@@ -35,7 +35,7 @@ std::optional<JsonValue> number_of(std::string_view text) {
     return value;
 }
 
-/// Numbers with commas between; nothing for other texts.
+/// Numbers separated by commas; empty for other texts.
 std::optional<JsonValue> numbers_of(std::string_view text) {
     JsonValue list = json_value(JsonType::array);
     for (size_t start = 0; start <= text.size();) {
@@ -54,7 +54,7 @@ std::string_view name_of(JsonType type) {
     return kTypeNames[size_t(type)];
 }
 
-/// Follows a change's path through a document and puts its value there.
+/// Follows a change's path through a document and stores its value there.
 class Changer {
   public:
     Changer(JsonValue& document, const SceneChange& change, TextPosition at)
@@ -78,12 +78,12 @@ class Changer {
         throw Error(ErrorKind::usage, "{}: {}", change_.origin, sentence);
     }
 
-    /// True if the scene's own names are the keys of a section.
+    /// True if the keys of a section are names from the scene.
     static bool is_named(std::string_view section) {
         return section == "materials" || section == "models";
     }
 
-    /// `must_exist`: a name whose part isn't made by a value in it.
+    /// With `must_exist`, the part must already exist; otherwise the value creates it.
     JsonValue& inside(JsonValue& of, const PathStep& step, bool must_exist) {
         if (of.type == JsonType::array) return item(of, step);
         const std::string word = step.key.empty() ? fmt::format("[{}]", step.item) : step.key;
@@ -124,7 +124,7 @@ class Changer {
         return list.items[place];
     }
 
-    /// An item without a name has an empty one.
+    /// The name of an item; empty for items without one.
     static std::string_view name_in(const JsonValue& item) {
         const auto name = std::ranges::find(item.members, "name", &JsonMember::key);
         return name == item.members.end() ? std::string_view() : name->value.text;
@@ -145,11 +145,11 @@ class Changer {
     JsonValue& document_;
     const SceneChange& change_;
     TextPosition at_;
-    std::string here_;  ///< the path so far, as messages have it
+    std::string here_;  ///< the path so far, for messages
 };
 
-/// The document with all changes. With `marks` the values of change i stand at line 0, column
-/// i + 1.
+/// The document with all changes. With `marks` the values of change i have the position line 0,
+/// column i + 1.
 JsonValue changed(JsonValue document, std::span<const SceneChange> changes, bool marks) {
     for (size_t i = 0; i < changes.size(); ++i)
         Changer(document, changes[i], {0, marks ? int(i) + 1 : 0}).change();
@@ -187,8 +187,7 @@ Scene read_changed(const JsonValue& document, std::span<const SceneChange> chang
     } catch (const Error& error) {
         if (error.place().line != 0) throw;
     }
-    // The values of changes are marked to find the one that the reader refuses: a scene that is
-    // right never has the marks.
+    // Marks tell which change's value the reader refuses: a scene that is right never has them.
     try {
         return read(changed(document, changes, true));
     } catch (const Error& error) {

@@ -13,24 +13,24 @@
 
 namespace voxelume {
 
-/// A value for a place of the scene's document.
+/// A value for a path of the scene's document.
 struct SceneChange {
     std::string path;    ///< "objects.ball.position", "lights[0].intensity"
-    std::string value;   ///< as `parse_value` reads it
-    std::string origin;  ///< what messages call the change: "--set objects.ball.position=0,1"
+    std::string value;   ///< text for `parse_value`
+    std::string origin;  ///< the change in messages: "--set objects.ball.position=0,1"
 };
 
-/// A value as people write it: JSON, or numbers with commas between, or a text without quotes.
-/// Throws Error::usage for a list, an object or a quoted text that is not JSON; `origin` opens the
+/// A value as people write it: JSON, numbers separated by commas, or a text without quotes. Throws
+/// Error::usage for a list, an object or a quoted text that is not JSON; `origin` opens the
 /// message.
 JsonValue parse_value(std::string_view text, const std::string& origin);
 
-/// Reads a document with changes in it, each made after those before. Keys that are missing on the
-/// way are added; what doesn't belong there is found by the readers of all scenes.
+/// Reads a document with changes, applied one after another. Keys that are missing on the way are
+/// added; keys that don't belong there are refused by the readers of all scenes.
 ///
-/// Items of a list go by their names or places. Throws Error::usage, opened by the change's origin,
-/// for a path that can't be read or names no part, and for a value that `read` refuses; otherwise
-/// what `read` throws.
+/// Items of a list are named by their names or indices. Throws Error::usage, opened by the change's
+/// origin, for a path that can't be read or names no part, and for a value that `read` refuses;
+/// otherwise throws as `read` does.
 Scene read_changed(const JsonValue& document, std::span<const SceneChange> changes,
                    const std::function<Scene(const JsonValue&)>& read);
 

@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// Walks over the tokens of a JSON text that another parser finds well-formed, to tell where each
-/// starts.
+/// Walks over the tokens of a JSON text that another parser has found well-formed, to find the
+/// position of each.
 class TokenCursor {
   public:
     explicit TokenCursor(std::string_view text) : text_(text) {
@@ -137,7 +137,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   private:
     struct Open {
-        JsonValue* value;  // stays where it is while it is open: nothing is added to its parent
+        JsonValue* value;  // doesn't move while it is open: nothing is added to its parent
         std::unordered_set<std::string> keys;
     };
 

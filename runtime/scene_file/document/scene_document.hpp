@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON text -> a tree of values that know their line and column.
+// JSON text -> a tree of values with their lines and columns.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ enum class JsonType : uint8_t { null, boolean, number, string, array, object };
 
 struct JsonMember;
 
-/// A JSON value; only what belongs to its `type` is filled.
+/// A JSON value; only the members for its `type` are filled.
 struct JsonValue {
     JsonType type = JsonType::null;
     bool boolean = false;
-    bool names_items = false;  ///< messages call a list's items by their names, not their places
+    bool names_items = false;  ///< messages name a list's items by their names, not their indices
     TextPosition at;
     double number = 0;
     std::string text;
@@ -29,11 +29,11 @@ struct JsonValue {
 
 struct JsonMember {
     std::string key;
-    TextPosition at;  ///< of the key
+    TextPosition at;  ///< position of the key
     JsonValue value;
 };
 
-/// A value of a type that stands in no text.
+/// A value that isn't from a text.
 inline JsonValue json_value(JsonType type) {
     JsonValue value;
     value.type = type;
@@ -50,14 +50,14 @@ inline constexpr int kMaxJsonValues = 2'000'000;
 /// twice in one object, and more levels or values than the limits above.
 JsonValue parse_json(std::string_view text, const std::string& file);
 
-/// Makes a value and all in it stand on no line of a text.
+/// Removes the line of a value and of everything in it.
 void forget_places(JsonValue& value);
 
-/// Makes a document stand for a file that isn't a scene's text: messages have no lines, and call
-/// objects and lights by their names, as in "objects.ball".
+/// Prepares a document that isn't from a scene's text: messages have no lines, and name objects and
+/// lights by their names, as in "objects.ball".
 void name_parts(JsonValue& document);
 
-/// How the path of a list's item goes on behind the list's: "[2]", or ".ball" by its name.
+/// The continuation of a list's path for one of its items: "[2]", or ".ball" by its name.
 std::string item_step(const JsonValue& list, size_t place);
 
 }  // namespace voxelume

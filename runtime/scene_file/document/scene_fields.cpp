@@ -90,7 +90,7 @@ std::vector<SceneValue> SceneValue::items() const {
 
 glm::dvec3 SceneValue::vector(Range range) const {
     expect(JsonType::array, "a list of 3 numbers");
-    // Frames of an animation read thousands of vectors; only messages need the items' paths.
+    // Frames of an animation read thousands of vectors; only messages need the paths of items.
     const std::vector<JsonValue>& list = value_->items;
     if (list.size() == 3 && std::ranges::all_of(list, [&](const JsonValue& item) {
             return item.type == JsonType::number && lies_in(item.number, range);
@@ -119,7 +119,7 @@ glm::dvec3 SceneValue::number_or_vector(Range range) const {
 
 namespace {
 
-/// Reads a value as what it is.
+/// Reads a value according to the type of its slot.
 struct SlotReader {
     const SceneValue& value;
     Range range;

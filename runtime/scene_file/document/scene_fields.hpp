@@ -19,8 +19,7 @@
 
 namespace voxelume {
 
-/// A value of a scene file together with its path in it. Refers to the document, which must outlive
-/// it.
+/// A value of a scene file together with its path. Refers to the document, which must outlive it.
 class SceneValue {
   public:
     SceneValue(const JsonValue& value, std::string path, const std::string& file)
@@ -29,7 +28,7 @@ class SceneValue {
     const JsonValue& json() const { return *value_; }
     bool is(JsonType type) const { return value_->type == type; }
 
-    /// Its place, to open a message with: "file:line:column: path".
+    /// The value's place, which opens messages: "file:line:column: path".
     SourcePlace where() const { return where(value_->at); }
     [[noreturn]] void fail(const std::string& sentence) const;
 
@@ -40,7 +39,7 @@ class SceneValue {
     glm::dvec3 vector(Range range) const;
     glm::dvec2 pair(Range range) const;
     glm::dvec3 number_or_vector(Range range) const;  ///< one number stands for three
-    /// Reads what a row says of its value into where it lies; not for files.
+    /// Reads the value into a row's slot; not for files.
     void read_into(const Slot& slot, Range range, bool is_uniform) const;
     size_t choice(std::span<const std::string_view> names) const;  ///< index of the text among them
 
@@ -69,7 +68,7 @@ class SceneFields {
     std::optional<SceneValue> find(std::string_view key) const;
     SceneValue get(std::string_view key) const;  ///< throws Error::scene when it is missing
     bool has(std::string_view key) const { return member(key) != nullptr; }
-    /// Throws Error::scene when both are there.
+    /// Throws Error::scene if both keys are present.
     void refuse_both(std::string_view key, std::string_view other) const;
 
     double number(std::string_view key, Range range, double fallback) const;
@@ -83,8 +82,8 @@ class SceneFields {
     void read_rows(std::span<const ValueRow<Part>> rows, Part& part) const {
         for (const ValueRow<Part>& row : rows) read_row(row, row.range, part);
     }
-    /// Reads those values of a part that its kind has. Throws Error::scene when a required one is
-    /// missing; keys that have no row are left to the caller.
+    /// Reads those values of a part that its kind has. Throws Error::scene if a required one is
+    /// missing; keys without a row are left to the caller.
     template <class Part>
     void read_kind(std::span<const KindKey> keys, std::span<const ValueRow<Part>> rows,
                    Part& part) const {

@@ -25,7 +25,7 @@ const KeyTable& scene_keys(std::string_view name);
 /// `suggest` for a key. Knows the words of other programs, such as "rotation" for "turn".
 std::string suggest_key(std::string_view key, std::span<const std::string_view> keys);
 
-/// What follows the colon in the tables "prefix:...": the values that select a kind.
+/// The names after the colon in the tables "prefix:...": the values that select a kind.
 std::vector<std::string_view> scene_kinds(std::string_view prefix);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way to a value of a scene, in words: "objects.ball.position", "models.block.parts[1].turn".
+// Paths to values of a scene: "objects.ball.position", "models.block.parts[1].turn".
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// A step from a value to one inside of it: a key, or a place in a list where the key is empty.
+/// A step from a value to one inside of it: a key, or an index in a list if the key is empty.
 struct PathStep {
     std::string key;
     size_t item = 0;
@@ -23,11 +23,11 @@ inline constexpr const char* kPathAdvice =
     "can't be read; write keys with dots between and places in lists in brackets, as in "
     "\"objects.ball.position\" or \"models.block.parts[1].height\"";
 
-/// Reads a path, which begins with a key. Keys end at a dot or bracket, and may be put in quotes if
-/// they hold one. Returns nothing for a text that is no path.
+/// Reads a path, which begins with a key. Keys end at a dot or bracket, and may be quoted if they
+/// contain one. Returns nothing for a text that is no path.
 std::optional<std::vector<PathStep>> parse_path(std::string_view text);
 
-/// Puts a value into a part in the place that `steps` lead to; a missing last key is added.
+/// Stores a value in a part at the end of these steps; a missing last key is added.
 void put_value(JsonValue& part, const std::vector<PathStep>& steps, JsonValue value);
 
 }  // namespace voxelume

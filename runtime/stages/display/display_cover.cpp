@@ -31,13 +31,14 @@ double crossings_along(const VolumeFrame& frame, const glm::dvec3& line, const M
     return (added + std::abs(signed_area)) / whole;
 }
 
-/// The part of a column's lines that has come through its voxels so far.
+/// The part of a column's lines that its voxels so far haven't covered.
 class ColumnClearance {
   public:
     explicit ColumnClearance(const VolumeFrame& frame) : frame_(frame) {}
 
-    /// Takes what surfaces in a voxel take of its column's lines. Voxels come in ascending order.
-    /// Returns the part of what has come to the voxel, or -1 where too little has to tell.
+    /// Subtracts the part of its column's lines that a voxel's surfaces cover. Voxels come in
+    /// ascending order. Returns the covered part of what reaches the voxel, or -1 if too little
+    /// does to tell.
     double take(glm::ivec3 cell, int axis, double taken) {
         cell[axis] = 0;
         const glm::u64vec3 at(cell), size(frame_.size);
@@ -55,7 +56,7 @@ class ColumnClearance {
     std::array<std::unordered_map<uint64_t, double>, 3> clear_;
 };
 
-/// What lines sum up in a voxel, see cover_lines.
+/// The sums of lines in a voxel, see cover_lines.
 struct VoxelCover {
     MeanCrossings mean;
     glm::dvec3 taken{0};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The opacities of a lattice's voxels whose surfaces let light through.
 //
-// A surface of opacity a that N voxels on a sight line show must not cover by 1 - (1 - a)^N. Along
-// an axis of the lattice a voxel covers what its surfaces take of the light that the voxels before
-// it let through, on average over the lines of its column: so the column's voxels together let
-// through what its lines do. Along other lines a voxel gets 1 - (1 - a)^m, where m is how often
-// sight lines through it cross surfaces in it on average: along the line these m add up to the
-// number of surfaces.
+// A surface of opacity a may be shown by N voxels along a sight line, which together must not cover
+// 1 - (1 - a)^N. For lines along an axis of the lattice, a voxel's opacity is the part that its
+// surfaces cover of the light that the voxels before it let through, on average over the lines of
+// its column: so the column's voxels together let through as much as its lines do. For other lines
+// a voxel's opacity is 1 - (1 - a)^m, where m is the mean number of crossings of its surfaces with
+// sight lines through it: along a sight line these m add up to the number of surfaces.
 #pragma once
 
 #include "runtime/image/volume.hpp"
@@ -17,21 +17,21 @@ namespace voxelume {
 /// Memory for the sums of lines along each axis, for each of `voxels` voxels; see cover_lines.
 Buffer<uint32_t> allocate_covers(const Device& device, uint32_t voxels);
 
-/// Mean numbers of crossings of lines along the three axes in a voxel, each of them times
+/// Mean numbers of crossings in a voxel with lines along the three axes, each crossing weighted by
 /// -log(1 - a) of its surface's opacity a.
 struct MeanCrossings {
     glm::dvec3 out{0}, in{0}, cubes{0};
 };
 
-/// The mean number of crossings of the sight lines for which the voxel's opacity is meant.
+/// The mean number of crossings of the sight lines for which the voxel's opacity holds.
 ///
 /// A surface with the area vector S is crossed |S . d| times by lines along d, one for each unit of
-/// area, and what lines along the axes cross are the components of S. A voxel whose lines go in as
-/// well as out along one axis has two surfaces, whose crossings add up.
+/// area, and the crossings with lines along the axes are the components of S. A voxel whose lines
+/// enter and leave surfaces along one axis has two surfaces, whose crossings add up.
 double mean_crossings(const VolumeFrame& frame, const glm::ivec3& cell,
                       const MeanCrossings& along_axes);
 
-/// The axis along which a voxel's opacity is meant; -1 for lines that lead along none.
+/// The axis of the lines for which a voxel's opacity holds; -1 for lines along no axis.
 int axis_seen_along(const VolumeFrame& frame, const MeanCrossings& along_axes);
 
 /// VXL_LINE_PARAMETERS of display_cover.cl.
@@ -40,11 +40,11 @@ void bind(KernelArguments& to, const LinePoints& lines);
 /// The kernel of display_cover.cl.
 class DisplayCoverStage {
   public:
-    /// The voxels' objects and opacities are known.
+    /// The voxels' objects and opacities must be known.
     DisplayCoverStage(const Device& device, const Features& features, const VolumeFrame& frame,
                       const GridFrame& world, const ShownVoxels& shown);
 
-    /// Adds a part of the lines along `axis`.
+    /// Adds the crossings of a part of the lines along `axis`.
     void add(int axis, const LinePoints& lines, const LineSurfaces& surfaces,
              const Buffer<uint32_t>& mask);
 

@@ -12,9 +12,8 @@
 namespace voxelume {
 namespace {
 
-/// The absorption by which voxels of space cover what lies behind: that of the least absorbed
-/// channel. If a medium emits light but doesn't absorb all channels, it is the smallest positive
-/// absorption.
+/// The absorption that decides the opacity of voxels of space: the smallest of the three channels.
+/// If a medium emits light but doesn't absorb all channels, it is the smallest positive one.
 double covering_absorption(const Medium& medium) {
     const glm::vec3& a = medium.absorption;
     const double minimum = double(std::min({a.x, a.y, a.z}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// display -> the lattice V of its voxels: their places, for the host and for kernels.
+// display -> the lattice V of its voxels: their positions, for the host and for kernels.
 #pragma once
 
 #include "kernels/shared/display.h"
@@ -18,13 +18,13 @@ DisplaySteps display_steps(const VolumeFrame& frame, const Medium& medium);
 /// The lattice of a frame of layout `lattice` in a world.
 DisplayLattice display_lattice(const VolumeFrame& frame, const GridFrame& world);
 
-/// The lattice's axes along which its opacities are measured.
+/// The axes of the lattice along which its opacities are measured.
 enum class CoverAxes : uint8_t {
     x,
     y,
     z,
-    all,     ///< each voxel's opacity is that along one of them
-    oblique  ///< all, of which the opacity along other lines is made
+    all,     ///< all axes; a voxel's opacity is that along one of them
+    oblique  ///< all axes; opacities along other lines are computed from these
 };
 CoverAxes cover_axes(const Display& display);
 

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// The maximum share that surfaces in front may cover of a point that still counts as visible.
+/// The maximum part of a point that surfaces in front may cover if it still counts as visible.
 constexpr float kMaxCovered = 1 - 1.0f / 1024;
 
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
@@ -120,7 +120,8 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
     for (ProbePoints& points : pieces) {
         if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMaxCovered);
         if (visibility_ == Visibility::observer) continue;
-        // A point that is freely visible from somewhere is not lit as seen through other surfaces.
+        // A point that is freely visible from somewhere is not lit as if seen through other
+        // surfaces.
         for (const float maximum : {0.0f, kMaxCovered})
             for (uint32_t view = 1; view < views_.size() && (transmission_ || maximum == 0); ++view)
                 search(look, batch, points, view, maximum);
@@ -132,8 +133,8 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
     }
 }
 
-/// The point of each voxel that lies nearest to its middle, of those on lines along `axis`, or of
-/// all for -1.
+/// The point closest to the middle of each voxel, among those on lines along `axis`, or among all
+/// points for -1.
 ProbePoints DisplayLatticeStage::nearest(const std::vector<ProbePoints>& pieces,
                                          const ShownVoxels& shown, int axis) {
     ProbePoints chosen = allocate_points(device_, uint32_t(shown.voxels.count));
@@ -201,7 +202,7 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const SpaceM
             keep(medium, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
             continue;
         }
-        // The nearest surface is the voxel's; those behind have voxels of their own.
+        // The nearest surface belongs to the voxel; surfaces behind have voxels of their own.
         light_rays(batch, {first, count, 0, task.is_shown},
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
                        if (is_first) keep(medium, entries, nodes, task, first, count, voxels);
@@ -259,9 +260,9 @@ void DisplayLatticeStage::light_rest(const LookAhead& look, const LightRays& lig
     light_missed(look, light_rays, medium, batch, shown, host, true);
 }
 
-/// Lights the voxels that have no light yet from elsewhere. A ray along the surface at its point,
-/// as at an outline or along a wall, may miss the surface. Others of the views that see the point
-/// meet it, or else a ray next to it.
+/// Lights voxels that have no light yet, by other rays. A ray that grazes the surface at its point,
+/// as at an outline or along a wall, may miss the surface. Rays of other views that see the point,
+/// or rays next to the first one, meet it.
 void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& light_rays,
                                        const SpaceMedium& medium, RayBatch& batch,
                                        ShownVoxels& shown, HostPoints& host, bool is_shown) {
@@ -282,7 +283,7 @@ void DisplayLatticeStage::light_missed(const LookAhead& look, const LightRays& l
                 return;
     };
     if (visibility_ != Visibility::observer) {
-        // The other side of a transparent surface is seen through it, as in find_views.
+        // The back of a transparent surface is seen through it, as in find_views.
         look_elsewhere(0.0f);
         if (transmission_) look_elsewhere(kMaxCovered);
     }

@@ -12,23 +12,23 @@
 
 namespace voxelume {
 
-/// The voxels that a lattice shows, each with the probe point that gives it its light.
+/// The voxels that a lattice shows, each with the probe point by which it is lit.
 struct ShownVoxels {
     VoxelArrays voxels;                  ///< only `indices` are filled
     ProbePoints points;                  ///< one for each voxel
-    std::array<ProbePoints, 3> of_axes;  ///< those on lines along each axis, or none of a voxel
+    std::array<ProbePoints, 3> of_axes;  ///< each voxel's point on lines along each axis, if any
     Buffer<uint32_t> starts;             ///< the number of voxels before each group of the mask
 };
 
 /// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
 Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size);
 
-/// Traces rays 0 .. count-1 of a batch. Where surfaces let light through, also fills what all
-/// surfaces along each ray cover.
+/// Traces rays 0 .. count-1 of a batch. Where surfaces let light through, also computes how much
+/// all surfaces along each ray cover.
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 
-/// The rays 0 .. count-1 of a batch, of which the first is number `first` of all points, a multiple
-/// of 16, and which sample of the light of each they are for. Light that isn't shown needs no paths
+/// The rays 0 .. count-1 of a batch, for sample number `sample` of each point's light. The first
+/// ray belongs to point number `first`, a multiple of 16. Light that isn't shown needs no paths
 /// beyond the surface.
 struct SampledRays {
     uint32_t first, count, sample = 0;
@@ -50,25 +50,26 @@ class DisplayLatticeStage {
     /// allows.
     void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
 
-    /// Which of some points, in lattice voxels, are visible in one of the views that the display's
-    /// visibility allows. Points without a view yet are looked at together, view by view.
+    /// True for each of these points, in lattice voxels, that is visible in one of the views that
+    /// the display's visibility allows. Points without a view yet are looked at together, view by
+    /// view.
     std::vector<bool> are_visible(const LookAhead& look, RayBatch& batch,
                                   std::span<const glm::vec3> points);
 
-    /// Has points that lie in objects find no view from now on. `note_objects` must then be the
-    /// sink of the layers that `look` traces.
+    /// From now on, points inside objects get no view. `note_objects` must then be the sink of the
+    /// layers that `look` traces.
     void leave_out_objects(const RayBatch& batch);
     void note_objects(const RayBatch& entries, uint32_t count, bool is_first);
 
-    /// The voxels of all points that have a view. Finds `of_axes` for `samples` above 1.
+    /// Chooses the voxels of all points that have a view. Finds `of_axes` if `samples` is above 1.
     ShownVoxels choose(const std::vector<ProbePoints>& pieces, int samples);
 
-    /// Finds the voxels' objects and depths, batch by batch, and their light unless others replace
-    /// it: `is_shown`.
+    /// Finds the voxels' objects and depths, batch by batch. Also finds their light if `is_shown`
+    /// is true; otherwise samples replace it.
     void light(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
                RayBatch& batch, ShownVoxels& shown, bool is_shown);
 
-    /// Lights the voxels again whose objects are 0.
+    /// Lights the voxels whose objects are 0 once more.
     void light_rest(const LookAhead& look, const LightRays& light_rays, const SpaceMedium& medium,
                     RayBatch& batch, ShownVoxels& shown);
 
@@ -94,7 +95,7 @@ class DisplayLatticeStage {
               const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
     void light_points(const LightRays& light_rays, const SpaceMedium& medium, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
-    /// The points of all voxels, read from the device when the first one is missed.
+    /// The points of all voxels, read from the device when a ray misses for the first time.
     struct HostPoints {
         std::vector<float> coordinates;
         std::vector<uint32_t> views;
@@ -113,7 +114,7 @@ class DisplayLatticeStage {
     const Pyramid& world_;
     Buffer<float4> views_;
     uint32_t groups_;
-    Buffer<uint32_t> in_object_;  ///< of a batch's rays; empty: points in objects have views, too
+    Buffer<uint32_t> in_object_;  ///< flags of rays; empty: points in objects have views, too
     Buffer<uint32_t> mask_;       ///< one bit for every voxel of the lattice
     Program program_;
     Kernel aim_, objects_, note_, mark_, count_, list_, choose_, take_, keep_;

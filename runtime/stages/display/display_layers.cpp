@@ -11,13 +11,12 @@
 namespace voxelume {
 namespace {
 
-/// A smaller share of the light from behind counts as none.
+/// Below this transmittance, light from behind counts as none.
 constexpr double kMinTransmittance = 1.0 / (1 << 20);
-/// The medium's own light is known however much covers it: this only keeps quotients of doubles
-/// finite.
+/// The medium's own light is known at any transmittance; this limit only keeps quotients finite.
 constexpr double kMinSpaceTransmittance = 1e-250;
 
-/// What one voxel of a ray shows. Samples of one place are in order, the nearest first.
+/// One sample of a ray in a voxel. Samples of one voxel are in order, the nearest first.
 struct Sample {
     uint64_t place;
     glm::dvec3 light;  ///< the light that it adds when nothing covers it
@@ -62,7 +61,7 @@ class Assembly {
 
     void add_record(const LayerRecords& layer, size_t n) {
         const glm::ivec2 pixel = pixel_of(word(layer, n, VXL_LAYER_RAY), size_.x);
-        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // of a tile beyond the image
+        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // outside the image
         const uint64_t column = uint64_t(pixel.x) + uint64_t(size_.x) * uint64_t(pixel.y);
         glm::dvec3 light = numbers(layer, n, VXL_LAYER_LIGHT);
         const bool in_medium = word(layer, n, VXL_LAYER_IN_MEDIUM) != 0;
@@ -123,8 +122,8 @@ class Assembly {
         return way;
     }
 
-    /// Adds an amount of medium to the last step of a way. `light` is what it adds where its colour
-    /// varies.
+    /// Adds an amount of medium to the last step of a way. `light` is the light that it adds, given
+    /// if its colour varies.
     void add_behind(double amount, const glm::vec3* light, Way& way) const {
         const glm::dvec3 own =
             light ? glm::dvec3(*light) : color_ * (1.0 - glm::exp(-absorption_ * amount));
@@ -159,8 +158,8 @@ class Assembly {
         return column + uint64_t(size_.x) * uint64_t(size_.y) * k;
     }
 
-    /// Adds a voxel that leaves a part of what is behind it. Its light is what reaches E, so it is
-    /// divided by what the voxels in front let through.
+    /// Adds a voxel that lets a part of the light behind it through. Its light is what reaches E,
+    /// so it is divided by the transmittance of the voxels in front.
     void put(uint64_t column, Sample voxel, double leaves, double min_transmittance) {
         double& throughput = throughput_[column];
         voxel.light = glm::max(voxel.light / std::max(throughput, min_transmittance), 0.0);
@@ -176,8 +175,7 @@ class Assembly {
     std::vector<Sample> samples_;
 };
 
-/// The samples of one place, laid over one another. The first sample with an object names the
-/// voxel.
+/// Composites the samples of one voxel. The first sample with an object names the voxel.
 Sample merged(std::span<const Sample> samples) {
     Sample sum = samples.front();
     for (const Sample& sample : samples.subspan(1)) {

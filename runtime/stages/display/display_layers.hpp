@@ -22,9 +22,9 @@ struct LayerEnvironment {
 /// follow one another, the nearest first.
 ///
 /// Every surface gets a voxel with its opacity, and so does the medium in front of it; surfaces
-/// that share a voxel are laid over one another. A ray's voxels, laid over one another, give its
-/// light. Light of single channels that an object along the ray absorbs is taken from the colours
-/// of the voxels behind.
+/// that share a voxel are composited. Compositing a ray's voxels gives its light. If an object
+/// along the ray absorbs single channels, their light is subtracted from the colours of the voxels
+/// behind.
 void assemble_layers(const std::vector<LayerRecords>& layers, const LayerEnvironment& environment,
                      Volume& volume);
 

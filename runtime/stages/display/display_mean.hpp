@@ -13,12 +13,13 @@ Buffer<float> allocate_light_sums(const Device& device, uint32_t rays);
 /// The kernel of display_mean.cl.
 class DisplayMeanStage {
   public:
-    /// Takes batches of `rays`, each of which begins `paths` paths, at least 2.
+    /// Takes batches of `rays`, each with `paths` paths, at least 2.
     DisplayMeanStage(const Device& device, const Features& features, uint32_t rays, uint32_t paths);
 
     uint32_t paths() const { return paths_; }
 
-    /// Adds the light of path `path` of rays 0 .. count-1. The last path's rays get the mean.
+    /// Adds the light of path `path` of rays 0 .. count-1. With the last path, the rays get the
+    /// mean.
     void add(uint32_t path, RayBatch& batch, uint32_t count);
 
   private:

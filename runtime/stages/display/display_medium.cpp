@@ -14,26 +14,26 @@ namespace {
 
 constexpr size_t kMeansAtOnce = 1 << 20;  ///< voxels that are measured together
 
-/// The maximum number of lines in a voxel along an edge across them.
+/// The maximum number of lines in a voxel along an edge perpendicular to them.
 constexpr double kMaxLines = 8;
 
 uint32_t stride_of(const glm::ivec3& size) {
     return uint32_t(size.x + 15) / 16 * 16;
 }
 
-/// Two lines for each of the world's voxels along an edge.
+/// The number of lines along an edge: two for each of the world's voxels.
 uint32_t lines_along(const float4& edge) {
     const double voxels = glm::length(glm::dvec3(edge.x, edge.y, edge.z));
     return uint32_t(std::clamp(std::ceil(2 * voxels - 1e-3), 1.0, kMaxLines));
 }
 
-/// One voxel: the light that it adds where nothing covers it, and its opacity.
+/// The medium in one voxel: the light that it adds if nothing covers it, and its opacity.
 struct MediumSample {
     glm::dvec3 light{0};
     double opacity = 0;
 };
 
-/// What a way of `length` metres through the medium shows.
+/// The opacity and light of a way of `length` metres through the medium.
 MediumSample shown_by(const Medium& medium, double absorption, double density,
                       const glm::dvec3& color, double length) {
     MediumSample sample;
@@ -43,7 +43,7 @@ MediumSample shown_by(const Medium& medium, double absorption, double density,
     return sample;
 }
 
-/// The mix of two samples that share a voxel: each lies in front of the other in one half.
+/// The composite of two samples in a voxel: each lies in front of the other in one half.
 MediumSample mixed(const MediumSample& a, const MediumSample& b) {
     return {a.light * (1 - b.opacity / 2) + b.light * (1 - a.opacity / 2),
             a.opacity + b.opacity - a.opacity * b.opacity};
@@ -119,10 +119,10 @@ MediumVoxels DisplayMediumStage::listed(uint32_t first_row, uint32_t rows) const
 double way_through(const VolumeFrame& frame, const glm::ivec3& cell) {
     const glm::dvec3& e = frame.edge;
     const CoverAxes axes = cover_axes(frame.display);
-    if (axes == CoverAxes::all) return (e.x + e.y + e.z) / 3;  // the medium faces no axis
+    if (axes == CoverAxes::all) return (e.x + e.y + e.z) / 3;  // the medium has no facing axis
     if (axes != CoverAxes::oblique) return e[int(axes)];
     const glm::dvec3 line = glm::abs(frame.origin + e * (glm::dvec3(cell) + 0.5));
-    // The mean over the parallels of a line: the volume by the area that they meet.
+    // The mean over parallel lines: the volume divided by the area that the lines meet.
     const double met = glm::dot(glm::dvec3(e.y * e.z, e.z * e.x, e.x * e.y), line);
     return met > 0 ? e.x * e.y * e.z * glm::length(line) / met : (e.x + e.y + e.z) / 3;
 }

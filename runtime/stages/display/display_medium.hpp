@@ -54,12 +54,12 @@ class DisplayMediumStage {
 
 /// Adds voxels of the medium to a volume of layout `lattice`, whose own voxels are surfaces.
 ///
-/// A voxel of the medium has the opacity and the light of a way through it as long as those are for
-/// which the display's opacities are meant. Where a voxel shows a surface that lets light through,
-/// the medium in it lies in front of one half of that and behind the other.
+/// A voxel of the medium has the opacity and the light of a way through it, with the length of
+/// way_through(). Where a voxel shows a surface that lets light through, the medium lies in front
+/// of one half of the surface and behind the other.
 void add_medium_voxels(const MediumVoxels& voxels, const Medium& medium, Volume& volume);
 
-/// The length of such ways through a voxel, in metres.
+/// The length of the way through a voxel for which the display's opacities hold, in metres.
 double way_through(const VolumeFrame& frame, const glm::ivec3& cell);
 
 }  // namespace voxelume

@@ -126,7 +126,7 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
     layers_.push_back(std::move(records));
 }
 
-/// Measures a few entries at a time, since a step of a ray takes room whether it has medium or not.
+/// Measures a few entries at a time, since each step of a ray takes memory, with or without medium.
 void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
                                        const Layer& layer, LayerRecords& records) {
     const auto steps = size_t(steps_.count);

@@ -47,14 +47,14 @@ struct LayerRecords {
     std::vector<uint32_t> first_step;
 };
 
-/// What the voxels of each sight ray need; an array has `total` places of one or more components.
+/// The data of each sight ray for its voxels; an array has `total` slots of one or more components.
 struct RayDepths {
-    Buffer<uint32_t> steps;    ///< of the surface met, VXL_NO_STEP for none
-    Buffer<float> depths;      ///< of the surface, metres
-    Buffer<uint32_t> objects;  ///< plus 1, 0 for none
+    Buffer<uint32_t> steps;    ///< step of the surface met, VXL_NO_STEP for none
+    Buffer<float> depths;      ///< depth of the surface, metres
+    Buffer<uint32_t> objects;  ///< object number plus 1, 0 for none
     Buffer<float> colors;      ///< 3: the light along the ray
     Buffer<float> spans;       ///< VXL_SPAN_COMPONENTS; only in a world with a medium
-    uint32_t total = 0;        ///< places for rays
+    uint32_t total = 0;        ///< slots for rays
 };
 
 RayDepths allocate_ray_depths(const Device& device, const Features& features, uint32_t total);
@@ -62,8 +62,8 @@ RayDepths allocate_ray_depths(const Device& device, const Features& features, ui
 /// VXL_DEPTHS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayDepths& depths);
 
-/// Kernels of display_rays.cl or, for layers, display_layers.cl, and what they keep of each sight
-/// ray. The paper's blocks 2 and 3.
+/// Kernels of display_rays.cl or, for layers, display_layers.cl, and the data that they store for
+/// each sight ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {
   public:
     /// `camera` casts the frame's rays. It has the frame's width and height and one sample per
@@ -72,7 +72,7 @@ class DisplayRaysStage {
                      const VolumeFrame& frame, const Medium& medium,
                      const Environment& environment);
 
-    /// Keeps rays 0 .. count-1 of the batch, which are lit; the batch begins at ray `first_ray` of
+    /// Stores rays 0 .. count-1 of the batch, which are lit; the batch begins at ray `first_ray` of
     /// the display.
     void keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray, uint32_t count);
 
@@ -85,12 +85,12 @@ class DisplayRaysStage {
         const NodeLight& nodes;
         uint32_t first_ray;
     };
-    /// Keeps a layer. It is called instead of `keep` if light comes from several surfaces along a
+    /// Stores a layer. It is called instead of `keep` if light comes from several surfaces along a
     /// ray (`transmission`), or through a medium whose density varies (`medium_grid`).
     void keep_layer(const Pyramid& world, const DensityGrid* density, const Layer& layer);
     bool has_layers() const { return has_layers_; }
 
-    /// Writes the voxels of all rays to the volume, after every ray was kept.
+    /// Writes the voxels of all rays to the volume, after every ray was stored.
     void read(Volume& volume);
 
   private:
@@ -106,7 +106,7 @@ class DisplayRaysStage {
     float near_depth_;
     Environment environment_;
     RayDepths rays_;
-    Buffer<float> seen_;  ///< of the batch's nodes before a layer: light, coverage
+    Buffer<float> seen_;  ///< light and coverage of the batch's nodes before a layer
     std::vector<LayerRecords> layers_;
     Program program_;
     std::optional<Kernel> measure_, count_, place_, fill_;  ///< without layers

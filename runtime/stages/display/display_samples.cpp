@@ -9,8 +9,8 @@
 namespace voxelume {
 namespace {
 
-/// The logarithm of the places in a row of the squares from which samples are chosen: at least four
-/// places for each, as long as that takes less time than the samples' light.
+/// The logarithm of the number of positions in a row of the squares from which samples are chosen:
+/// at least four positions for each sample, as long as choosing takes less time than lighting.
 int log2_of_places(uint32_t samples) {
     constexpr int kMin = 3, kMax = 5;
     int log2 = kMin;
@@ -18,7 +18,8 @@ int log2_of_places(uint32_t samples) {
     return log2;
 }
 
-/// What is added to a voxel's shift for sample `i`: multiples of the golden ratio.
+/// The offset that sample `i` adds to a voxel's shift: the fraction of a multiple of the golden
+/// ratio.
 float turn_of(uint32_t i) {
     constexpr double kGolden = 0.61803398874989485;
     return float(kGolden * i - std::floor(kGolden * i));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxels of the layout `lattice` -> samples on the surface in each, whose mean light it shows.
+// voxels of the layout `lattice` -> samples on the surface in each voxel, which shows their mean
+// light.
 #pragma once
 
 #include "runtime/opencl/program.hpp"
@@ -7,7 +8,7 @@
 
 namespace voxelume {
 
-/// What samples add up in: for each voxel 3 numbers of a normal and 4 of light, the sums of colours
+/// The sums of samples: for each voxel 3 numbers of a normal and 4 of light, the sums of colours
 /// times weights, and of weights; for each ray of a batch its weight.
 struct SampleSums {
     Buffer<float> normals, light, weights;
@@ -15,16 +16,16 @@ struct SampleSums {
 
 SampleSums allocate_sample_sums(const Device& device, size_t voxels, uint32_t rays);
 
-/// The kernels of display_samples.cl. A voxel may hold several surfaces, of which each crosses
-/// lines along the axis that it faces most: it has a probe point on these.
+/// The kernels of display_samples.cl. A voxel may hold several surfaces. Each surface crosses lines
+/// along the axis that it faces most, and has a probe point on these.
 class DisplaySampleStage {
   public:
-    /// `samples` of each surface in a voxel, at least 2.
+    /// `samples` is the number for each surface in a voxel, at least 2.
     DisplaySampleStage(const Device& device, const Features& features, const Camera& camera,
                        const VolumeFrame& frame, const Pyramid& world, int samples);
 
-    /// Lights the samples batch by batch, and gives the voxels their means. With `clears_others`
-    /// voxels without samples have object 0 afterwards.
+    /// Lights the samples batch by batch, and stores their means in the voxels. With
+    /// `clears_others` voxels without samples have object 0 afterwards.
     void light(const LightRays& light_rays, const SpaceMedium& medium, const Buffer<float4>& views,
                RayBatch& batch, ShownVoxels& shown, bool clears_others);
 

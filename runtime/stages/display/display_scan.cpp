@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMaxParts = 64;
 
-/// The numbers of lines in a voxel that measure what its surfaces cover: along the one axis for
-/// which this must hold column by column, and along all of them.
+/// The numbers of lines in a voxel for measuring how much its surfaces cover: along one axis, if
+/// column by column matters, and along all axes.
 constexpr int kColumnLines = 64, kMeanLines = 16;
 
 int lines_along(int axis, CoverAxes axes) {
@@ -24,16 +24,16 @@ int lines_along(int axis, CoverAxes axes) {
     return int(axes) == axis ? kColumnLines : 0;
 }
 
-/// The place of line i of `count` across a voxel. No two have the same coordinate along any edge,
-/// so that outlines along the lattice's axes are met as evenly as others.
+/// The position of line i of `count` across a voxel. No two have the same coordinate along any
+/// edge, so that outlines along the lattice's axes are sampled as evenly as others.
 glm::vec2 cover_place(int i, int count) {
     constexpr double kGoldenRatio = 0.61803398874989485;
     const double down = (i + 0.5) * kGoldenRatio;
     return {(i + 0.5) / count, down - std::floor(down)};
 }
 
-/// The part of a batch whose lines are scanned together. It is small because lines have room for
-/// many crossings; and if that room is too small, only these few lines are scanned again.
+/// The part of a batch whose lines are scanned together. It is small because each line has slots
+/// for many crossings; if a line needs more slots, only these few lines are scanned again.
 constexpr uint32_t kBatchParts = 4;
 
 /// The number of parts into which a display voxel's edge is divided so that none is longer than a
@@ -61,15 +61,16 @@ VoxelBox box_of_objects(const Pyramid& world) {
         all = {glm::min(all.low, box.low - kInfluence), glm::max(all.high, box.high + kInfluence)};
     }
     if (world.instances.empty()) return all;
-    // Instances move without a new build of the world, after which the boxes above are old.
+    // Instances move without a new build of the world, so the boxes above may be outdated.
     const VoxelBox bounds = box_of(world.frame), &own = world.instances.box;
     const VoxelBox seen{glm::max(own.low, bounds.low), glm::min(own.high, bounds.high)};
     if (!is_empty(seen)) all = {glm::min(all.low, seen.low), glm::max(all.high, seen.high)};
     return all;
 }
 
-/// The range of numbers of the lines that meet a box of the world, across one axis of the lattice
-/// with `count` parts of a voxel along it. `first` is above `last` if there are none.
+/// The range of numbers of the lines that meet a box of the world, across one axis of the lattice.
+/// A voxel has `parts` parts along the axis, and the lattice `count`. `first` is above `last` if no
+/// line meets the box.
 LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& box) {
     const glm::dvec3 along(row.x, row.y, row.z);
     double minimum = double(row.w), maximum = minimum;
@@ -78,7 +79,7 @@ LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& 
         minimum += std::min(low, high);
         maximum += std::max(low, high);
     }
-    // One line more on each side than the rounding of `row` can change.
+    // One more line on each side than the rounding of `row` can change.
     const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + maximum - minimum) * parts;
     const double first = std::floor(minimum * parts - slack),
                  last = std::ceil(maximum * parts + slack);
@@ -180,7 +181,7 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
                  frame.edge[b];
     const glm::dvec3 origin =
         (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
-    // A box of parallel rays. Its unit of length is a part across them, and a lattice voxel along
+    // A box of parallel rays. Its unit of length is a part across them and a lattice voxel along
     // them.
     Camera& camera = result.camera;
     camera.origin = to_float4(origin);

@@ -17,20 +17,20 @@ namespace voxelume {
 
 /// Probe points in lattice voxels, in an order that depends on the world and the lattice alone.
 struct ProbePoints {
-    int axis = 0;  ///< along which their lines lead
+    int axis = 0;  ///< axis of the points' lines
     uint32_t count = 0;
     uint32_t total = 0;         ///< room in each array, a multiple of 16
     Buffer<float> coordinates;  ///< x, y, z, `total` apart
     Buffer<uint32_t> views;     ///< a view in which each point is visible; kNoView for none
 };
 
-/// The points of lines, one line after another, and what they cross there: only where light goes
-/// through surfaces.
+/// The points of lines, one line after another, and the surfaces that they cross; only if light
+/// goes through surfaces.
 struct LinePoints {
     ProbePoints points;
     uint32_t lines = 0;
     Buffer<uint32_t> starts;    ///< the number of each line's first point, and of all points
-    Buffer<uint32_t> surfaces;  ///< of each point, see line_order.h
+    Buffer<uint32_t> surfaces;  ///< surface of each point, see line_order.h
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
@@ -54,8 +54,8 @@ struct CrossingArrays {
 };
 void bind(KernelArguments& to, const CrossingArrays& arrays);
 
-/// The arrays of `count` points, which have no views yet; and the crossings of `lines` lines, with
-/// `slots` places for each, and their surfaces.
+/// Arrays for `count` points, which have no views yet; and arrays for the crossings of `lines`
+/// lines, with `slots` slots for each, and for their surfaces.
 ProbePoints allocate_points(const Device& device, uint32_t count);
 Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
 Buffer<uint32_t> allocate_surfaces(const Device& device, uint32_t lines, uint32_t slots);
@@ -76,19 +76,19 @@ class DisplayScanStage {
     DisplayScanStage(const Device& device, const Features& features, const VolumeFrame& frame,
                      const GridFrame& world, LineSurfaces surfaces);
 
-    /// The crossings of all lines, in pieces that a part of a batch gives. `batch` holds the rays
+    /// The crossings of all lines, in pieces from parts of a batch. `batch` holds the rays
     /// meanwhile.
     std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
 
     /// The points of a part of the lines along `axis`.
     using PointSink = std::function<void(int axis, LinePoints points)>;
 
-    /// Gives `sink` the points where lines cross surfaces, or enter a cube: what sight rays count
-    /// of them, too. These lines lie inside the voxels of `frame`.
+    /// Calls `sink` with the points where lines cross surfaces or enter a cube, which are what
+    /// sight rays count, too. These lines lie inside the voxels of `frame`.
     void scan_covers(const VolumeFrame& frame, const Pyramid& world, RayBatch& batch,
                      const PointSink& sink);
 
-    /// The number of lines in a voxel that lead along `axis` for that; 0 where none are needed.
+    /// The number of lines in a voxel along `axis` for scan_covers(); 0 if none are needed.
     int cover_lines(int axis) const;
 
     const LineSurfaces& surfaces() const { return surfaces_; }
@@ -106,7 +106,7 @@ class DisplayScanStage {
         Camera camera;
         float4 row;         ///< row of the lattice coordinate along the lines
         float4 row_second;  ///< row of the second coordinate across them
-        glm::vec2 offset;   ///< of the lines from the edges of parts, in parts
+        glm::vec2 offset;   ///< offset of the lines from the edges of parts, in parts
     };
     Family family(int axis, const VolumeFrame& frame, const GridFrame& world,
                   const glm::ivec2& parts, const glm::vec2& offset) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// world -> the directions in which points of a lattice are looked for from outside.
+// world -> the directions from which points of a lattice are seen from outside.
 #pragma once
 
 #include <vector>

@@ -33,19 +33,19 @@ namespace voxelume {
 /// suffice or for more than 2^30 voxels, 2^28 in grids with distances.
 Pyramid build_index(const Device& device, const BrickGrid& grid);
 
-/// What a pyramid holds.
+/// The number of entries in each level of a pyramid.
 struct PyramidCounts {
-    size_t sectors = 0;  ///< with voxels
+    size_t sectors = 0;  ///< sectors with voxels
     size_t leaves = 0, voxels = 0, primitives = 0;
 };
 
-/// What a pyramid stores of its voxels.
+/// The kinds of data that a pyramid stores for its voxels.
 struct PyramidParts {
     bool attributes = false, colors = false, normals = false, fields = false, exact = false;
     size_t listed_fields = 0;
 };
 
-/// The buffers of the pyramid of such a grid, whose triangle and solid buffers it shares.
+/// The buffers of the pyramid of this grid, whose triangle and solid buffers it shares.
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts);
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidParts& parts,
                          const PyramidCounts& counts);
@@ -56,8 +56,8 @@ struct WrittenVoxels {
 };
 void bind(KernelArguments& to, const WrittenVoxels& written);
 
-/// Builds the pyramids of one state of a grid after another, and looks for voxels only where the
-/// grid has changed. The result is that of `build_index`.
+/// Builds the pyramids of a grid's successive states, and looks for voxels only where the grid has
+/// changed. The result equals that of `build_index`.
 class Indexer {
   public:
     explicit Indexer(const Device& device);
@@ -70,8 +70,8 @@ class Indexer {
     /// pyramid.
     Pyramid index(const BrickGrid& grid, const std::vector<uint32_t>* changed);
 
-    /// The pyramid of a placed world; `changed` is as above, and only asked whether it is empty if
-    /// the world has fields.
+    /// The pyramid of a placed world. `changed` is as in the function above; if the world has
+    /// fields, it only matters whether it is empty.
     Pyramid index(const PlacedWorld& world, const std::vector<uint32_t>* changed);
 
   private:

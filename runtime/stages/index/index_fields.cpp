@@ -16,11 +16,10 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kCounts = 3;      // of each brick: voxels, primitives, listed fields
+constexpr size_t kCounts = 3;      // counts per brick: voxels, primitives, listed fields
 constexpr size_t kEntryWords = 3;  // a brick of a field, its object's rank, its brackets
 
-/// The entries of VXL_UNITED_PARAMETERS of index_fields.cl, and what else is known of the world's
-/// bricks.
+/// The entries of VXL_UNITED_PARAMETERS of index_fields.cl, and further data of the world's bricks.
 struct UnitedBricks {
     std::vector<uint32_t> numbers;     ///< the bricks, ascending
     std::vector<uint32_t> base_slots;  ///< for each: its slot in the base grid or kBrickOutside
@@ -37,8 +36,8 @@ uint32_t world_brick(const PlacedField& field, uint32_t place, const glm::ivec3&
     return uint32_t(at.x + table.x * (at.y + table.y * at.z));
 }
 
-/// Writes for each brick which of the fields' bricks it is made of, by a counting sort that keeps
-/// the fields' order.
+/// Lists for each brick the fields' bricks that it consists of, by a counting sort that keeps the
+/// fields' order.
 void list_entries(const PlacedWorld& world, UnitedBricks& united) {
     united.first.assign(united.numbers.size() + 1, 0);
     for (const uint32_t brick : united.bricks_of)
@@ -96,8 +95,8 @@ UnitedBricks unite_bricks(const PlacedWorld& world, const std::map<uint64_t, Vox
 struct UnitedArrays {
     uint32_t count = 0;
     Buffer<uint32_t> numbers, base_slots, first, entries, bricks_of;
-    Buffer<uint64_t> masks;                     ///< of each field's leaves
-    Buffer<uint64_t> united, listing, of_base;  ///< of the world's
+    Buffer<uint64_t> masks;                     ///< masks of the fields' leaves
+    Buffer<uint64_t> united, listing, of_base;  ///< masks of the world's leaves
 };
 
 /// VXL_UNITED_PARAMETERS of index_fields.cl.
@@ -139,7 +138,7 @@ Defines features_of(const PlacedWorld& world, const PlacedField* field) {
             {"VXL_OWN_COLORS", field && !field->grid.colors.empty()}};
 }
 
-/// The bricks' contents, numbered; listed fields come after all voxels.
+/// Numbers the bricks' contents; listed fields come after all voxels.
 Numbering number_united(const GridFrame& frame, const UnitedBricks& united,
                         const Buffer<uint64_t>& leaf_masks, const Buffer<uint32_t>& counts) {
     const std::vector<uint64_t> leaf_mask = leaf_masks.read();
@@ -165,7 +164,7 @@ PyramidParts parts_of(const PlacedWorld& world, const Numbering& numbers) {
 
 }  // namespace
 
-/// Finds the voxels of fields that are new, and forgets those of others.
+/// Finds the voxels of new fields, and forgets those of fields that are gone.
 void FieldIndexer::mark(const PlacedWorld& world) {
     std::map<uint64_t, VoxelMarks> before = std::exchange(marks_, {});
     for (const PlacedField& field : world.fields) {

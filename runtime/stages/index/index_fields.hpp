@@ -9,13 +9,13 @@
 
 namespace voxelume {
 
-/// Builds the pyramids of worlds with fields, one after another, and looks for the voxels of a
-/// field only where that is new.
+/// Builds the pyramids of successive worlds with fields, and looks for the voxels of a field only
+/// if it is new.
 ///
 /// A voxel that one object's surface may cross is smooth, and has that object's record. A voxel
-/// that several may cross lists their records, and an exact voxel those of the surfaces that may
-/// cross it; rays meet the nearest of all its surfaces. Between cubes and fields in one voxel the
-/// order of priorities decides.
+/// that several surfaces may cross lists their records. An exact voxel also lists the records of
+/// fields whose surfaces may cross it. Rays meet the nearest of all surfaces in a voxel. Between
+/// cubes and fields in one voxel, priority decides.
 class FieldIndexer {
   public:
     explicit FieldIndexer(const Device& device) : device_(device) {}

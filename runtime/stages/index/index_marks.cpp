@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// Marks the bricks of the slots `listed`, or all if it is empty. The leaf masks and counts of the
-/// result are in that order.
+/// Marks the bricks in the slots `listed`, or all bricks if it is empty. The leaf masks and counts
+/// of the result are in that order.
 VoxelMarks mark_listed(const Device& device, const Program& program, const BrickGrid& grid,
                        const std::vector<uint32_t>& listed, Buffer<uint64_t> masks) {
     const uint32_t count = listed.empty() ? grid.brick_count : uint32_t(listed.size());
@@ -66,8 +66,8 @@ VoxelMarks mark_changed_voxels(const Device& device, const Program& program, con
             listed.push_back(slot);
             continue;
         }
-        // A mask may only move from a slot that is no longer used to one that is: otherwise a mask
-        // might be overwritten before it is read.
+        // A mask may only move from a slot that is no longer used to one that is in use: otherwise
+        // it might be overwritten before it is read.
         if (old >= kBrickInside || (old != slot && old < grid.brick_count))
             return mark_voxels(device, program, grid);
         leaf_mask[slot] = before.leaf_mask[old];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first pass of indexing: which voxels of a grid rays must see.
+// The first pass of indexing: finds the voxels of a grid that rays must see.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct VoxelMarks {
                                       ///< retained
 };
 
-/// What bricks' marks are summed up to, until they are read.
+/// The sums of bricks' marks until they are read.
 struct MarkArrays {
     Buffer<uint64_t> leaf_mask;
     Buffer<uint32_t> counts;
@@ -35,8 +35,8 @@ VoxelMarks mark_voxels(const Device& device, const Program& program, const Brick
 /// The marks of all of a grid's bricks, by kernels built for it.
 VoxelMarks mark_grid(const Device& device, const BrickGrid& grid);
 
-/// The marks of all bricks, from the marks `before` the bricks with indices `changed` were changed.
-/// A voxel's mark depends on its own brick and that brick's neighbours only.
+/// The marks of all bricks, updated from the marks `before` a change of the bricks with indices
+/// `changed`. A voxel's mark depends on its own brick and that brick's neighbours only.
 VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,
                                const std::vector<uint32_t>& changed, VoxelMarks before);
 

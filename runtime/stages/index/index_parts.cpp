@@ -16,7 +16,8 @@ struct Chains {
     std::vector<uint32_t> first{0}, entries;
 };
 
-/// True if a field stands first in its bracket: whatever it is, the next ones are joined to it.
+/// True if a field is the first in its bracket. It can't be left out then, because later fields are
+/// joined to it.
 bool opens_bracket(std::span<const PlacedField> fields, size_t i) {
     if (i == 0) return true;
     const std::vector<FieldBracket>&before = fields[i - 1].place.brackets,
@@ -24,7 +25,8 @@ bool opens_bracket(std::span<const PlacedField> fields, size_t i) {
     return own.size() > before.size() || !std::equal(own.begin(), own.end(), before.begin());
 }
 
-/// Lists the parts of one object, in the bricks that any of them has. All have one table of bricks.
+/// Lists the parts of one object in all bricks in which it has any. All parts have one table of
+/// bricks.
 void list_chains(std::span<const PlacedField> fields, std::span<const uint32_t> first_of,
                  Chains& chains) {
     std::vector<std::vector<uint32_t>> slots;

@@ -16,9 +16,9 @@ Numbering number_bricks(const GridFrame& frame, const BrickContents& contents) {
     Numbering numbers;
     numbers.sectors.resize(size_t(sector_table.x) * sector_table.y * sector_table.z);
     std::vector<bool> occupied(numbers.sectors.size());
-    std::vector<glm::uvec2> places(bricks);  // sector, bit
+    std::vector<glm::uvec2> places(bricks);  // sector and bit of each brick
     for (size_t i = 0; i < bricks; ++i) {
-        if (contents.leaf_masks[i] == 0) continue;  // it may hold nodes beyond all voxels
+        if (contents.leaf_masks[i] == 0) continue;  // the brick may hold nodes beyond all voxels
         const int index = int(contents.brick_numbers[i]);
         places[i] = sector_and_bit({index % brick_table.x, index / brick_table.x % brick_table.y,
                                     index / (brick_table.x * brick_table.y)},

@@ -11,11 +11,11 @@
 
 namespace voxelume {
 
-/// What a brick holds, in the order of the bricks of a list.
+/// The contents of the bricks of a list, in the list's order.
 struct BrickContents {
-    std::span<const uint32_t> brick_numbers;  ///< places in the table of bricks
+    std::span<const uint32_t> brick_numbers;  ///< indices into the table of bricks
     std::span<const uint64_t> leaf_masks;     ///< a brick without leaves holds nothing
-    std::span<const uint32_t> counts;         ///< `counted` per brick; voxels are the first
+    std::span<const uint32_t> counts;         ///< per brick `counted`; the first is of voxels
     size_t counted = 0;
 };
 
@@ -25,7 +25,7 @@ struct Numbering {
     std::vector<uint32_t> starts;  ///< per brick of the list: the first leaf, then one number for
                                    ///< each of its counts
     uint32_t leaf_count = 0;
-    std::vector<uint64_t> totals;  ///< of each count
+    std::vector<uint64_t> totals;  ///< sum of each count
 };
 
 /// Numbers the contents of a lattice's bricks in the order of the pyramid, which depends on the

@@ -18,7 +18,7 @@ namespace {
 
 constexpr uint32_t kWhite = 0xFFFFFF;
 
-/// The sizes of the joined buffers; during the joining, how much of them is filled.
+/// The sizes of the joined buffers; while joining, the sizes of their filled parts.
 struct Extent {
     uint64_t sectors = 0, records = 0, leaves = 0, voxels = 0, primitives = 0, triangles = 0,
              solids = 0;
@@ -36,11 +36,11 @@ struct Extent {
 
 struct Parts {
     bool colors = false, fields = false, exact = false;
-    bool voxel_normals = false, normals = false;  ///< of cubes, of triangles' corners
+    bool voxel_normals = false, normals = false;  ///< normals of cubes, of triangles' corners
     JoinedTextures textures;
 };
 
-/// What pyramids are joined to.
+/// The result of joining pyramids.
 class Total {
   public:
     Total(const Pyramid& world, std::span<const ModelPyramid> models) : frame_(world.frame) {
@@ -202,7 +202,7 @@ class Joiner {
             words(p.normals, full_.voxels, joined_.normals);
         else if (parts_.voxel_normals)
             copies(p.records(), full_.voxels, VXL_NO_NORMAL, joined_.normals);
-        // An exact voxel may list fields; zeros mean that it lists none.
+        // An exact voxel may list fields; zeros mean that there are none.
         if (p.listed_fields > 0)
             program_.kernel("append_fields")
                 .launch(WorkItem::light, p.records(), p.records(), uint32_t(full_.voxels),
@@ -218,7 +218,7 @@ class Joiner {
                        joined_.primitive_first);
             return;
         }
-        // The end of a list is the start of the next one, unless listed fields are between.
+        // The end of a list is the start of the next one, unless listed fields lie between them.
         const uint32_t starts = p.voxel_count + (p.listed_fields > 0 ? 1 : 0);
         program_.kernel("append_numbers")
             .launch(WorkItem::light, starts, starts, uint32_t(full_.voxels),
@@ -267,7 +267,7 @@ class Joiner {
     Parts parts_;
     Pyramid joined_;
     Extent full_;
-    JoinedTextures textures_;  ///< of those that are appended
+    JoinedTextures textures_;  ///< textures of the appended models
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace voxelume {
 Pyramid allocate_joined(const Device& device, const Pyramid& world,
                         std::span<const ModelPyramid> models);
 
-/// The world's pyramid with the models' behind it in every buffer, and no instances yet.
+/// The world's pyramid with the models' pyramids appended in every buffer, and no instances yet.
 ///
 /// The models' packed attributes hold the kind of each voxel or primitive, and its group as the
 /// material. Throws Error::limit for more voxels or primitives than can be numbered, or if memory

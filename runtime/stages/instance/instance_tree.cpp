@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-/// A coordinate far from every world, where no ray comes.
+/// A coordinate far from every world, which no ray reaches.
 constexpr float kNowhere = 1e30f;
 
 class TreeBuilder {

@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kWholeBound = 1e-9;  // voxels; decimal placements of whole voxels are that close
+constexpr double kWholeBound = 1e-9;  // voxels; accuracy of decimal placements by whole voxels
 
 /// The affine map between voxels, object voxels = linear * world voxels + offset.
 struct VoxelMap {
@@ -49,7 +49,7 @@ bool is_whole(double value) {
     return std::abs(value - std::round(value)) < kWholeBound;
 }
 
-/// True if the map only moves by whole voxels, turns by quarters and mirrors, and if the object's
+/// True if the map only shifts by whole voxels, turns by quarters and mirrors, and if the object's
 /// voxels are so near that the world's fixed point can hold every distance to them.
 bool is_aligned(const VoxelMap& map, const InstanceModel& model, const PyramidShape& world) {
     const double extent = std::ldexp(1.0, 24) / double(world.fixed_point);
@@ -109,7 +109,7 @@ Placed place_instance(const Instance& instance, const InstanceModel& model,
         for (int column = 0; column < 3; ++column)
             map.linear[column] = glm::round(map.linear[column]);
         map.offset = glm::round(map.offset);
-        low -= 1.0, high += 1.0;  // no ray that touches a voxel misses the box
+        low -= 1.0, high += 1.0;  // a ray that touches a voxel never misses the box
     }
     const glm::dmat3 world_from_voxels = glm::inverse(map.linear);
     const glm::dvec3 middle = world_from_voxels * ((low + high) * 0.5 - map.offset);
@@ -139,8 +139,8 @@ Placed place_instance(const Instance& instance, const InstanceModel& model,
     record.first_material = instance.first_material;
     record.material_count = instance.material_count;
 
-    // A point of the surface is right within plane_bound along each axis of the world; a
-    // transformed point is right within twice the plane_bound of the object.
+    // A point of the surface is accurate within plane_bound along each axis of the world; a
+    // transformed point is accurate within twice the plane_bound of the object.
     const glm::dvec3& e = world_frame.voxel_edge;
     const double uneven = std::max({e.x, e.y, e.z}) / std::min({e.x, e.y, e.z});
     placed.origin_offset = std::sqrt(3.0) * uneven *

@@ -16,8 +16,9 @@ void set_instances(const Device& device, std::span<const Instance> list,
                    std::span<const uint32_t> materials, Pyramid& pyramid);
 
 /// Places the instances. It may be called whenever they move: each call makes new records, so a
-/// copy of the pyramid made before still shows them where they were. `world_from_object` holds the
-/// map of each object of the scene, metres to metres; maps may mirror and shear.
+/// copy of the pyramid that was made before still shows their earlier placements.
+/// `world_from_object` holds the map of each object of the scene, metres to metres; maps may mirror
+/// and shear.
 ///
 /// Throws Error::scene for a map that is singular or nearly so
 /// (runtime/stages/place/placement_map.hpp).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points of light paths + a light with an area -> radiance, through a queue of shadow rays;
-// and of paths that run into the light.
+// surface points of light paths + an area light -> radiance, through a queue of shadow rays; and
+// radiance of paths that run into the light.
 #pragma once
 
 #include <optional>
@@ -21,14 +21,14 @@ class AreaLightStage {
     AreaLightStage(const Device& device, const Features& features,
                    const Buffer<MaterialRecord>& materials);
 
-    /// Adds the light to surface points 0 .. count-1, as LightStage does, but each point sees a
-    /// point of the light of its own. `number` tells lights apart.
+    /// Adds the light to surface points 0 .. count-1, as LightStage does, but each surface point
+    /// sees a point of its own on the light. `number` differs between lights.
     void add(const Pyramid& pyramid, const LightRecord& light, const LightAreaRecord& area,
              const PathSampling& sampling, uint32_t number, RayBatch& batch, uint32_t count,
              ShadowQueue& queue);
 
-    /// Adds the light of those of rays 0 .. count-1 that run into it before their hits to their
-    /// nodes. Only for features with `meets_lights`.
+    /// Adds the light to the nodes of those of rays 0 .. count-1 that run into it before their
+    /// hits. Only for features with `meets_lights`.
     void meet(const Pyramid& pyramid, const LightRecord& light, const LightAreaRecord& area,
               const Surroundings& surroundings, RayBatch& batch, uint32_t count, NodeLight& nodes);
 

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// A coordinate on a texture brought to 0..1.
+/// A texture coordinate wrapped to 0..1.
 double wrapped(double at, uint32_t wrap) {
     if (wrap == VXL_TEXTURE_WRAP_CLAMP) return std::clamp(at, 0.0, 1.0);
     if (wrap == VXL_TEXTURE_WRAP_MIRROR) return std::abs(at - 2 * std::round(at / 2));
@@ -36,7 +36,7 @@ struct Level {
     }
 };
 
-/// The first level in which a part of a texture covers at most `max_texels`.
+/// The first level on which a part of a texture covers at most `max_texels`.
 Level level_of(const uint32_t* head, double part, double max_texels) {
     Level level{head + VXL_TEXTURE_HEAD, int(head[0]), int(head[1]), head[2]};
     while ((level.width > 1 || level.height > 1) &&
@@ -87,7 +87,7 @@ EmissionMaps::Places EmissionMaps::places(size_t i) const {
 glm::dvec3 EmissionMaps::mean(size_t i, const Places& part) const {
     const size_t map = map_of(i);
     if (map == 0) return glm::dvec3(1);
-    constexpr int kRows = 6;  // the part is seen at the middles of kRows^2 equal triangles
+    constexpr int kRows = 6;  // the part is sampled at the middles of kRows^2 equal triangles
     const glm::dvec2 a = part[1] - part[0], b = part[2] - part[0];
     const double area = std::abs(a.x * b.y - a.y * b.x) / 2;
     static const std::vector<float> linear = srgb_levels();
@@ -95,7 +95,7 @@ glm::dvec3 EmissionMaps::mean(size_t i, const Places& part) const {
     glm::dvec3 sum(0);
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < 2 * row + 1; ++column) {
-            // Triangles in a row point up and down by turns.
+            // Triangles in a row point alternately up and down.
             const double down = column % 2 == 1 ? 1.0 / 3 : 0;
             const double y = (row + 2.0 / 3 - down) / kRows;
             const int pair = column / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// the emission maps of triangles -> the mean of what a part of a triangle sends out.
+// the emission maps of triangles -> the mean emission of a part of a triangle.
 #pragma once
 
 #include <array>
@@ -11,21 +11,21 @@
 
 namespace voxelume {
 
-/// The emission maps that the triangles of a source wear, in the host's memory.
+/// The emission maps of the triangles of a source, in the host's memory.
 class EmissionMaps {
   public:
-    using Places = std::array<glm::dvec2, 3>;  ///< of a triangle's corners on its map
+    using Places = std::array<glm::dvec2, 3>;  ///< UVs of a triangle's corners on its map
 
-    /// Reads the textures, but for sources without maps.
+    /// Reads the textures, unless the source has no maps.
     explicit EmissionMaps(const EmissiveSource& source);
 
-    /// The places of the source's triangle number `i`; those of one without a map don't count.
+    /// The UVs of the source's triangle number `i`; they don't matter for a triangle without a map.
     Places places(size_t i) const;
-    /// The mean of the map of triangle number `i` between three places; 1 where it has none.
+    /// The mean of the map of triangle number `i` between three UVs; 1 without a map.
     glm::dvec3 mean(size_t i, const Places& part) const;
 
   private:
-    /// The number of the first word of a triangle's map; 0: it has none.
+    /// The index of the first word of a triangle's map; 0: it has none.
     size_t map_of(size_t i) const;
 
     std::vector<uint32_t> worn_, textures_;

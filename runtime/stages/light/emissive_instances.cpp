@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-/// A piece of a model's surface, which an affine map puts into the world.
+/// A piece of a model's surface, transformed into the world by an affine map.
 EmissivePiece placed(EmissivePiece piece, const glm::dmat4& world_from_object,
                      const glm::dvec3& model_origin, const glm::dvec3& world_origin) {
     const glm::dmat3 linear(world_from_object);
@@ -46,7 +46,7 @@ EmissiveSource model_source(const Scene& scene, const Pyramid& world, const Mode
     source.pyramid.frame = model.frame;
     for (const Instance& instance : world.instances.list)
         if (instance.model == use.model) source.instance = instance.object;
-    // Packed attributes of models hold numbers of groups.
+    // In models, packed attributes hold numbers of groups.
     for (size_t group = 0; group <= VXL_MATERIAL_MASK; ++group)
         source.emission.push_back(
             scene.materials[use.materials[std::min(group, use.materials.size() - 1)]].emission);

@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// A point farther than this from the surface, in voxels, only serves to estimate the area.
+/// A point farther than this from the surface, in voxels, is only used to estimate the area.
 constexpr double kOnSurface = 1.0 / 256;
 
 std::vector<uint32_t> emissive_materials_of(const EmissiveSource& source) {
@@ -173,7 +173,7 @@ EmissivePiece voxel_piece(const glm::dvec3& cell, const VoxelSurface& surface,
 
 using Polygon = std::vector<glm::dvec3>;
 
-/// The part of a convex polygon where side * (p[axis] - plane) <= 0.
+/// The part of a convex polygon on one side of a plane, where side * (p[axis] - plane) <= 0.
 Polygon clipped(const Polygon& polygon, int axis, double plane, double side) {
     Polygon result;
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -189,7 +189,7 @@ Polygon clipped(const Polygon& polygon, int axis, double plane, double side) {
 }  // namespace
 
 double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const glm::dvec3& edge) {
-    constexpr double kFar = 4;  // more than the unit cube's diagonal, from a point near the cube
+    constexpr double kFar = 4;  // more than the diagonal of the unit cube
     const glm::dvec3 n = glm::normalize(gradient);
     const glm::dvec3 minimum = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(n, minimum)) * kFar;
@@ -241,7 +241,7 @@ EmissiveSource world_source(const Scene& scene, const Pyramid& world,
         source.light_samples.push_back(object.light_samples);
     }
     for (const Material& material : scene.materials) source.emission.push_back(material.emission);
-    // The models of instances come after the world.
+    // The models of instances follow the world.
     source.triangle_count = instances.models.empty()
                                 ? uint32_t(world.triangles.size() / kFloatsPerTriangle)
                                 : instances.models.front().first_triangle;

@@ -23,13 +23,13 @@ double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const 
 
 /// Voxels with surfaces that may emit light: the world's, or those of an instance's model.
 struct EmissiveSource {
-    Pyramid pyramid;            ///< its frame is that of these voxels
+    Pyramid pyramid;            ///< pyramid in the frame of these voxels
     uint32_t first_sector = 0;  ///< start of their table in the pyramid's sectors; 0: the world's
     uint32_t first_triangle = 0, triangle_count = 0;
-    /// By objects' numbers in packed attributes; a model's are 0.
+    /// Indexed by the objects' numbers in packed attributes, which are 0 in models.
     std::vector<uint32_t> is_emissive{};
     std::vector<std::optional<int>> light_samples{};
-    std::vector<glm::vec3> emission{};   ///< by materials' numbers in packed attributes
+    std::vector<glm::vec3> emission{};   ///< indexed by the materials' numbers in packed attributes
     std::optional<uint32_t> instance{};  ///< for a model: the number of an object that shows it
 };
 
@@ -40,11 +40,11 @@ using ListedPiece = std::array<uint32_t, 4>;
 EmissiveSource world_source(const Scene& scene, const Pyramid& world,
                             const std::vector<uint32_t>& is_emissive);
 
-/// A model as instances show it that differ in their places alone.
+/// A use of a model by instances that differ only in their placements.
 struct ModelUse {
     uint32_t model = 0;
     std::optional<int> light_samples;
-    std::vector<uint32_t> materials;  ///< of its groups; the last is that of all further ones
+    std::vector<uint32_t> materials;  ///< of its groups; the last serves all further groups
 
     friend bool operator<(const ModelUse& a, const ModelUse& b) {
         return std::tie(a.model, a.light_samples, a.materials) <
@@ -52,18 +52,18 @@ struct ModelUse {
     }
 };
 
-/// `materials` are all of InstanceSet::materials.
+/// The use of a model by an instance. `materials` are all of InstanceSet::materials.
 ModelUse model_use(const Scene& scene, const Instance& instance,
                    std::span<const uint32_t> materials);
 
 EmissiveSource model_source(const Scene& scene, const Pyramid& world, const ModelUse& use);
 
-/// The voxels with emissive surfaces of any kind, sorted by z, y and x: in the place of the form
-/// the sides through which these are met.
+/// The voxels with emissive surfaces of any kind, sorted by z, y and x. In each entry, the sides at
+/// which rays meet the surfaces replace the piece's form.
 std::vector<ListedPiece> emissive_voxels(const Device& device, const Features& features,
                                          const EmissiveSource& source);
 
-/// By objects' numbers.
+/// Pieces by the numbers of their objects.
 using PiecesOfObjects = std::map<uint32_t, std::vector<EmissivePiece>>;
 
 /// The pieces of each emissive object: an open face of a cube, the part of a smooth surface or an
@@ -71,7 +71,7 @@ using PiecesOfObjects = std::map<uint32_t, std::vector<EmissivePiece>>;
 /// both sides.
 ///
 /// `is_emissive` has a value per object. Pieces of cubes and voxels come first, in the order of
-/// their places, then those of triangles, in the order of the mesh.
+/// their positions, then those of triangles, in the order of the mesh.
 PiecesOfObjects emissive_pieces(const Device& device, const Features& features, const Scene& scene,
                                 const Pyramid& world, const std::vector<uint32_t>& is_emissive);
 
@@ -79,8 +79,8 @@ PiecesOfObjects emissive_pieces(const Device& device, const Features& features, 
 PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
                                  const EmissiveSource& source);
 
-/// Adds the pieces of emissive instances, in the world. Those of a model are found once for all
-/// instances that show it in the same materials.
+/// Adds the pieces of emissive instances, in the world. Pieces of a model are found once for all
+/// instances that show it with the same materials.
 void add_instance_pieces(const Device& device, const Features& features, const Scene& scene,
                          const Pyramid& world, const std::vector<uint32_t>& is_emissive,
                          PiecesOfObjects& pieces);

@@ -24,7 +24,7 @@ using Corners = std::array<Corner, 3>;
 struct EmissiveMesh {
     std::vector<Corners> triangles;
     std::vector<uint32_t> materials;
-    std::vector<size_t> numbers;  ///< among the source's triangles
+    std::vector<size_t> numbers;  ///< indices into the source's triangles
 };
 
 std::map<uint32_t, EmissiveMesh> emissive_meshes(const EmissiveSource& source) {
@@ -77,21 +77,21 @@ glm::dvec3 area_vector(const Triangle& t) {
     return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5;
 }
 
-/// A triangle to take apart, and its place on its map.
+/// A triangle to divide, and its UVs on its map.
 struct Part {
     Triangle corners;
     EmissionMaps::Places places;
 };
 
-/// What the parts of a triangle have in common.
+/// The values that all parts of a triangle share.
 struct Whole {
     EmissivePiece piece;
-    double largest;  ///< area of a part
+    double largest;  ///< maximum area of a part
     const EmissionMaps& maps;
-    size_t number;  ///< of the triangle
+    size_t number;  ///< number of the triangle
 };
 
-/// Halves a triangle across its longest edge, again and again, until its parts are small enough.
+/// Halves a triangle across its longest edge repeatedly until its parts are small enough.
 void add_parts(const Part& part, const Whole& whole, std::vector<EmissivePiece>& pieces) {
     const Triangle& t = part.corners;
     const double area = glm::length(area_vector(t));

@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-/// An emitter without its probability, and what that is in proportion to.
+/// An emitter without its probability, which is proportional to the weight.
 struct WeightedEmitter {
     EmitterRecord record{};
     double weight = 0;
@@ -29,8 +29,8 @@ double luminance(const glm::vec3& color) {
     return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-/// The order of emitters' importance, which no two share: equal ones go by a hash, so that those
-/// that stay lie all over the scene.
+/// The strict order of emitters' importance: a hash decides between equal weights, so that the
+/// emitters that remain are spread over the scene.
 bool matters_more(const WeightedEmitter& a, const WeightedEmitter& b) {
     const auto rank = [](const WeightedEmitter& e) {
         return std::tuple(-e.weight, emitter_hash(e.record.voxel, e.record.instance),
@@ -46,7 +46,7 @@ void keep_brightest(std::vector<WeightedEmitter>& emitters) {
 }
 
 /// Adds the emitters of a source whose voxels have a `volume` in cubic metres. Never holds more
-/// than twice those that may stay.
+/// than twice the maximum number.
 void add_emitters(const EmissiveSource& source, std::span<const ListedPiece> voxels,
                   uint32_t instance, double volume, std::vector<WeightedEmitter>& emitters) {
     const double side = std::pow(volume, 2.0 / 3);
@@ -103,14 +103,14 @@ std::vector<WeightedEmitter> emitters_of(const Device& device, const Features& f
     return emitters;
 }
 
-/// Leaves as many emitters as there may be, whose order depends on no library's.
+/// Limits the number of emitters. Their order doesn't depend on the standard library.
 void limit_emitters(std::vector<WeightedEmitter>& emitters) {
     if (emitters.size() <= kMaxEmitters) return;
     keep_brightest(emitters);
     std::ranges::sort(emitters, matters_more);
 }
 
-/// `share` is that of rays to light which go to emitters.
+/// `share` is the part of rays to light that go to emitters.
 std::vector<EmitterRecord> records_of(const std::vector<WeightedEmitter>& emitters, double share) {
     std::vector<double> weights;
     double sum = 0;
@@ -146,7 +146,7 @@ void copy_rows(const glm::dmat3& matrix, float (&to)[9]) {
             to[3 * row + column] = float(matrix[column][row]);
 }
 
-/// The frame of voxels whose grid an affine map puts into the world.
+/// The frame of voxels of a model that an affine map transforms into the world.
 EmitterFrame frame_of(const glm::dmat4& world_from_object, const GridFrame& model,
                       const GridFrame& world) {
     glm::dmat3 linear(world_from_object);
@@ -156,7 +156,7 @@ EmitterFrame frame_of(const glm::dmat4& world_from_object, const GridFrame& mode
     frame.volume = float(std::abs(glm::determinant(linear)) * volume_of(model.voxel_edge));
     for (int column = 0; column < 3; ++column)
         linear[column] = linear[column] * model.voxel_edge[column] / world.voxel_edge;
-    // A voxel's diagonal is no longer than its edges together.
+    // A voxel's diagonal is at most the sum of its edges.
     double width = 0;
     for (int column = 0; column < 3; ++column) width += glm::length(linear[column]);
     frame.width = std::nextafter(float(width), INFINITY);
@@ -189,9 +189,9 @@ std::vector<EmitterFrame> frames_of(const Scene& scene, const Pyramid& world) {
 }  // namespace
 
 double emitter_host_bytes(size_t voxels, size_t listed) {
-    constexpr double kTables = 32;  // of the alias table while it is made, an emitter
+    constexpr double kTables = 32;  // bytes of the alias table for each emitter, while it is made
     const auto emitters = double(std::min(voxels, kMaxEmitters));
-    // Arrays that grow have up to twice the room that they need, and are copied to it.
+    // Growing arrays have up to twice the capacity that they need, and are copied.
     const double gathered =
         3 * double(std::min(voxels, 2 * kMaxEmitters)) * sizeof(WeightedEmitter);
     return gathered + double(std::min(voxels, listed)) * sizeof(ListedPiece) +

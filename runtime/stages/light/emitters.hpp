@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// emissive voxels -> a table by which light paths choose one, and find those that they have met.
+// emissive voxels -> a table by which light paths choose an emitter, and look up one that they met.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,19 @@ namespace voxelume {
 /// running into them.
 inline constexpr size_t kMaxEmitters = size_t{1} << 20;
 
-/// The share of rays to light that go to emitters where others go to a sky.
+/// The share of rays to light that go to emitters if other rays go to a sky.
 inline constexpr float kEmittersBesideSky = 0.5f;
 
-/// The main memory that listing `voxels` takes, of sources that have `listed` together.
+/// The main memory for listing `voxels` voxels of sources that have `listed` in all.
 double emitter_host_bytes(size_t voxels, size_t listed);
 
 /// The value of VXL_EMITTERS that a scene's settings ask for, if it has emissive objects.
 int emitter_feature(const RenderSettings& render);
 
 /// Lists the voxels of all objects that emit light and have light samples, in the world and in
-/// instances. The probability of one is in proportion to the luminance of its emission and to the
-/// area of its open sides, or of one of its sides where it holds no cube. The table is equal on
-/// every device. Throws Error::limit if the device's memory doesn't suffice.
+/// instances. A voxel's probability is proportional to the luminance of its emission and to the
+/// area of its open sides, or of one side if it holds no cube. The table is equal on every device.
+/// Throws Error::limit if the device's memory doesn't suffice.
 EmitterTable build_emitters(const Device& device, const Features& features, const Scene& scene,
                             const Pyramid& world);
 

@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// A cell has this many samples in each direction, so that all cells have about equally many.
+/// The number of samples of a cell in each direction, so that all cells have about equally many.
 constexpr double kCellSamples = 8;
 
 }  // namespace
@@ -23,8 +23,7 @@ Footprint footprint_of(const Scene& scene, const GridFrame& world) {
         2.0 * shape.half_extent(observer.display) / glm::dvec2(frame_size(scene.render));
     const double samples = all_samples(scene.render), all = std::sqrt(samples);
     const ReconstructionFilter& filter = scene.render.filter;
-    // Rays through a lens, and samples outside of their pixel, don't tell which pixel they belong
-    // to.
+    // With a lens, or samples outside of their pixel, rays don't tell to which pixel they belong.
     const bool has_cells = observer.aperture == 0 && filter.is_pixel();
     const double spread = filter_row(filter).equal_box * filter.width;
     const double cells = has_cells ? std::max(std::floor(all / kCellSamples), 1.0) : all / spread;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of the world a sample's ray stands for, by which textures are blurred.
+// The area of the world that a sample's ray represents, by which textures are blurred.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// The footprint of the rays of a scene's observer: one sample's share of a pixel.
+/// The footprint of the rays of a scene's observer: one sample's part of a pixel.
 Footprint footprint_of(const Scene& scene, const GridFrame& world);
 
 /// VXL_FOOTPRINT_PARAMETER of kernels: nothing in scenes without textures.

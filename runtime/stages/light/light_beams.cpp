@@ -12,8 +12,8 @@
 namespace voxelume {
 namespace {
 
-/// The edge of a grid's square in voxels of the dilated occupancy. The rest of a beam's width is
-/// for the rounding of the points where rays meet the grid.
+/// The edge of a grid's square in voxels of the dilated occupancy. The rest of a beam's width
+/// covers the rounding of the points where rays meet the grid.
 constexpr double kEdge = 2 * (VXL_BEAM_RADIUS - 0.25);
 
 /// The maximum sideways movement of rays for each voxel along their axis, as for other beams; see
@@ -26,7 +26,7 @@ glm::dvec3 way(const LightRecord& light, const glm::dvec3& point) {
     return light.kind == VXL_LIGHT_DIRECTIONAL ? at : at - point;
 }
 
-/// The axis that all vectors from the world to the light follow most, or -1 if there is none.
+/// The axis that is closest to all vectors from the world to the light, or -1 if there is none.
 int common_axis(const LightRecord& light, const glm::dvec3& size) {
     const glm::dvec3 low = way(light, size), high = way(light, {0, 0, 0});
     const glm::dvec3 minimum = glm::max(low, -high);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// a light -> beams: how far from the light the world is empty.
+// a light -> beams: the distances from the light within which the world is empty.
 #pragma once
 
 #include "runtime/stages/trace/beam.hpp"
@@ -12,28 +12,28 @@ namespace voxelume {
 /// `maximum` of them would be needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
 
-/// The number of lights that may each send the maximum number of beams; more lights share the beams
-/// of this many.
+/// The number of lights that may each send the maximum number of beams; more lights together send
+/// as many beams as these.
 inline constexpr uint32_t kLightsOfMaxBeams = 4;
 
-/// True if beams of lights can tell where shadow rays end: not where these gather what they pass,
-/// nor where most of them begin on surfaces that no sight ray meets.
+/// True if beams of lights can tell where shadow rays end: not if shadow rays accumulate
+/// transmittance, nor if most of them begin on surfaces that no sight ray meets.
 inline bool lights_send_beams(const Features& features) {
     return features.shadows && !features.filter && !features.global;
 }
 
-/// The grids of several lights, which have `together` beams at most.
+/// The grids of several lights, with at most `together` beams in all.
 std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
                                  float scale, uint32_t maximum, uint32_t together);
-/// What a grid's beams are kept in.
+/// The array of a grid's beams.
 Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
 
 /// True if two grids of one dilated occupancy have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 
 /// The maximum number of beams of one light that saves more time than it costs, for pixels of this
-/// width and `rays` sight rays in all: one beam for every 16 rays that may meet the world, and no
-/// more than the grid of a light that isn't close by may have.
+/// width and `rays` sight rays in all: one beam for every 16 rays that may meet the world, and at
+/// most the number for the grid of a distant light.
 uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples,
                               double voxels_a_pixel);
 
@@ -46,7 +46,7 @@ class LightBeamStage {
                    DilatedOccupancy dilated_occupancy);
 
     /// Sends those beams of a grid with columns that pass sectors with voxels, where shadow rays
-    /// begin. Returns how far each beam comes.
+    /// begin. Returns the length of each beam.
     Buffer<float> send(const BeamGrid& grid);
 
     uint64_t sent() const { return sent_; }

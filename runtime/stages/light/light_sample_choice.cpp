@@ -51,7 +51,7 @@ class Division {
         return widest;
     }
 
-    /// The number of pieces that have `share` of the area. Both sides keep at least a piece for
+    /// The number of pieces that have `share` of the area. Each side keeps at least a piece for
     /// every light sample.
     static size_t cut_at(std::span<const EmissivePiece> pieces, double share, size_t low_count,
                          size_t count) {

@@ -21,7 +21,7 @@ struct EmissivePiece {
 struct LightSample {
     glm::dvec3 position{0};
     glm::dvec3 normal{0};
-    double area = 0;      ///< of the part
+    double area = 0;      ///< area of the part
     glm::dvec3 power{0};  ///< sum of emission times area
 };
 

@@ -20,11 +20,11 @@ void copy(const glm::vec3& from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-// The places of hits are rounded to this share of the longest way through the world, or less.
+// The positions of hits are rounded to this part of the longest way through the world, or less.
 constexpr double kPlaceRounding = 0x1p-20;
 
-/// A face in the border of two blocks shows the upper one all over, wherever rounding puts its
-/// points.
+/// Sets a checker. A face on the border of two blocks shows the upper block everywhere, wherever
+/// rounding puts its points.
 void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord& record) {
     copy(checker.color, record.checker_color);
     const int longest = std::max({world.size.x, world.size.y, world.size.z});
@@ -43,7 +43,7 @@ double coat_width_of(const Material& material) {
     return width_of(material.coat_roughness.value_or(kCoatRoughness));
 }
 
-/// What the facets of a material's surface that isn't metal reflect.
+/// The reflectance of the facets of a material's non-metallic part.
 struct Reflectance {
     double straight, grazing;
 };
@@ -53,7 +53,7 @@ Reflectance reflectance_of(const Material& material) {
     return {all * (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)), all};
 }
 
-/// A physically based material's record, which Whitted's model adds nothing to. `means` are those
+/// A physically based material's record, to which Whitted's model adds nothing. `means` are those
 /// of its facets.
 MaterialRecord physical_record(const Material& material, const GridFrame& world,
                                const AlbedoMeans& means) {
@@ -65,7 +65,7 @@ MaterialRecord physical_record(const Material& material, const GridFrame& world,
     plain.refraction = float(glass);
     plain.fresnel = false;
     MaterialRecord record = material_record(plain, world);
-    // The layers are those of what isn't glass.
+    // Layers belong to the part that isn't glass.
     record.metallic = glass < 1 ? float(material.metallic.value_or(0) / (1 - glass)) : 0;
     record.width = float(width_of(material.roughness.value_or(kRoughness)));
     const Reflectance reflectance = reflectance_of(material);
@@ -76,7 +76,7 @@ MaterialRecord physical_record(const Material& material, const GridFrame& world,
     return record;
 }
 
-/// An index of refraction by which facets bend light; those of no effect become a small one.
+/// The index of refraction by which facets bend light; an index without effect becomes a small one.
 double glass_index(double ior) {
     constexpr double kMin = 1e-3;
     return std::abs(ior - 1) < kMin ? 1 + kMin : ior;
@@ -95,8 +95,8 @@ std::array<float, VXL_GLASS_FLOATS> glass_block(double width, double ior) {
     return block;
 }
 
-/// The block of a material's coat, or of one without whose facets reflect less than its index says.
-/// `albedos` is the number of the first value of the coat's table.
+/// The block of a material with a coat, or of one without whose facets reflect less than its index
+/// implies. `albedos` is the number of the first value of the coat's table.
 std::array<float, VXL_COAT_FLOATS> coat_block(const Material& material, double width,
                                               double albedos) {
     std::array<float, VXL_COAT_FLOATS> block{};
@@ -117,7 +117,7 @@ std::array<float, VXL_COAT_FLOATS> coat_block(const Material& material, double w
     return block;
 }
 
-/// Records of materials, and the tables behind them.
+/// Records of materials, followed by the tables.
 class RecordList {
   public:
     RecordList(const Scene& scene, const GridFrame& world, bool has_maps)
@@ -157,8 +157,8 @@ class RecordList {
     }
 
   private:
-    /// Adds floats as records of tables. Returns the number of their first float in the array of
-    /// all materials, in which `before_` records come before the tables.
+    /// Appends floats as records of tables. Returns the number of their first float in the array of
+    /// all materials, in which `before_` records precede the tables.
     float add_table(std::span<const float> values) {
         const size_t first = tables_.size();
         tables_.resize(first + values.size_bytes() / sizeof(MaterialRecord));
@@ -198,7 +198,7 @@ class RecordList {
     bool has_maps_;
     float all_roughnesses_ = 0;
     std::vector<MaterialRecord> records_, tables_;
-    std::map<double, float> albedos_;  // those of one width have one table
+    std::map<double, float> albedos_;  // one table for each width
     std::map<std::pair<double, double>, float> glasses_;
 };
 

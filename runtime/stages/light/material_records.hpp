@@ -14,8 +14,8 @@ namespace voxelume {
 /// The record of a material of Whitted's model.
 MaterialRecord material_record(const Material& material, const GridFrame& world);
 
-/// The records of all materials, and behind them the tables of those that are physically based.
-/// Without Features::physical these are in Whitted's model.
+/// The records of all materials, followed by the tables of physically based ones. Without
+/// Features::physical these are records of Whitted's model.
 std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world,
                                              const Features& features);
 

@@ -60,7 +60,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
         sky_.record = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
     }
     if (features.textures()) footprint_.footprint = footprint_of(scene, world);
-    if (features.global) environment_.ambient = {};  // it stands for light that paths find
+    if (features.global) environment_.ambient = {};  // replaces light that paths find
     if (features.paths)
         ranks_ = Buffer<uint32_t>(device, "ranks",
                                   std::span<const uint32_t>(object_ranks(scene.objects)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hits -> surface points, and the radiance that they have without lights.
+// hits -> surface points, and their radiance without lights.
 #pragma once
 
 #include "kernels/shared/scene.h"
@@ -15,7 +15,7 @@
 
 namespace voxelume {
 
-/// VXL_SOURCE_PARAMETERS of kernels: nothing in scenes without such meshes.
+/// VXL_SOURCE_PARAMETERS of kernels: nothing in scenes without meshes for textures.
 void bind(KernelArguments& to, const SourceMeshes& sources);
 
 /// VXL_CUBE_STEPS_PARAMETER of kernels: nothing in scenes without resampled cubes.
@@ -33,15 +33,15 @@ class ShadeStage {
     ShadeStage(const Device& device, const Features& features, const Scene& scene,
                const GridFrame& world);
 
-    /// Finds the points, normals and packed attributes of hits 0 .. count-1, and starts their
-    /// radiance. `from_observer` says that the rays come from there, without a reflection.
+    /// Finds the points, normals and packed attributes of hits 0 .. count-1, and initializes their
+    /// radiance. `from_observer` is true for rays that come straight from the observer.
     void surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count,
                  bool from_observer = true);
 
-    /// Says which emitters paths look for. Needed for features with `emitters` only.
+    /// Sets the emitters to which paths send rays. Needed for features with `emitters` only.
     void set_emitters(EmitterTable emitters) { emitters_ = std::move(emitters); }
 
-    /// Says how probably a ray to light goes to a sky that is a map.
+    /// Sets the probability that a ray to light goes to a sky that is a map.
     void set_sky_chance(float chance) { sky_.map.record.chance = chance; }
 
     const Environment& environment() const { return environment_; }

@@ -12,11 +12,11 @@
 namespace voxelume {
 namespace {
 
-/// The kcd/m^2 that are radiance 1 in the scene: a white surface in the light of a sun of 100 klx,
-/// whose intensity is 1.
+/// The kcd/m^2 of radiance 1 in the scene: a white surface in the light of a sun of 100 klx, whose
+/// intensity is 1.
 constexpr double kLuminance = 100 / std::numbers::pi;
 
-/// Preetham's coefficients A to E of Perez' formula: a rise with the turbidity, and a value.
+/// Preetham's coefficients A to E of Perez' formula: a slope over the turbidity, and an offset.
 constexpr double kPerez[3][5][2] = {
     {{0.1787, -1.4630}, {-0.3554, 0.4275}, {-0.0227, 5.3251}, {0.1206, -2.5771}, {-0.0670, 0.3703}},
     {{-0.0193, -0.2592},
@@ -30,8 +30,8 @@ constexpr double kPerez[3][5][2] = {
      {-0.0441, -1.6537},
      {-0.0109, 0.0529}}};
 
-/// The chromaticity of the zenith: by powers of the turbidity from 2 down, cubics of the sun's
-/// angle from the zenith.
+/// The chromaticity of the zenith: for the powers of the turbidity from 2 down, a cubic of the
+/// sun's angle from the zenith.
 constexpr double kZenith[2][3][4] = {{{0.00166, -0.00375, 0.00209, 0},
                                       {-0.02903, 0.06377, -0.03202, 0.00394},
                                       {0.11693, -0.21196, 0.06052, 0.25886}},
@@ -46,7 +46,7 @@ double zenith_chromaticity(const double (&rows)[3][4], double turbidity, double 
     return sum;
 }
 
-/// Perez' formula at the zenith, for a sun at an angle from it.
+/// The value of Perez' formula at the zenith, for a sun at this angle from the zenith.
 double perez_at_zenith(const double (&c)[5], double angle) {
     const double cosine = std::cos(angle);
     return (1 + c[0] * std::exp(c[1])) *

@@ -20,8 +20,7 @@ int sky_feature(const Sky& sky);
 /// The sky's record for kernels.
 SkyRecord sky_record(const Sky& sky);
 
-/// The sun as a directional light, and the disk around the end of its unit vector that it shines
-/// from.
+/// The sun as a directional light. It shines from a disk around the end of its unit vector.
 LightRecord sun_light_record(const Sky& sky, const GridFrame& world);
 LightAreaRecord sun_area_record(const Sky& sky, const GridFrame& world);
 

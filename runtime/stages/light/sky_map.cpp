@@ -18,8 +18,8 @@ double luminance(const float* rgb) {
     return 0.2126 * double(rgb[0]) + 0.7152 * double(rgb[1]) + 0.0722 * double(rgb[2]);
 }
 
-/// The light of each texel of a row: its luminance, and an eighth of each neighbour's, as much as
-/// reaches into it where texels are blended.
+/// The light of each texel of a row: its luminance, blended with an eighth of each neighbour's, as
+/// linear interpolation between texels does.
 std::vector<double> blurred_row(const SkyMapData& data, int y) {
     const auto width = size_t(data.width);
     const float* row = &data.texels[size_t(y) * width * 3];
@@ -32,8 +32,8 @@ std::vector<double> blurred_row(const SkyMapData& data, int y) {
     return result;
 }
 
-/// Adds values that share an axis of the picture evenly to parts that do so, too, of which there
-/// are no more.
+/// Distributes values along an axis of the picture over `parts` equal parts, of which there are at
+/// most as many as values.
 template <class Add>
 void share_out(size_t values, size_t parts, const Add& add) {
     for (size_t i = 0; i < values; ++i) {
@@ -47,8 +47,8 @@ void share_out(size_t values, size_t parts, const Add& add) {
     }
 }
 
-/// How much of the light of a row of texels, of the one above it and of the one below reaches into
-/// the row: integrals over it of what each counts for there by the sine of the angle.
+/// The weights of a row of texels, of the one above and of the one below in the row's light:
+/// integrals over the row of linear interpolation times the sine of the angle.
 struct RowShares {
     double above, here, below;
 };
@@ -84,8 +84,8 @@ std::vector<double> light_of_cells(const SkyMapData& data) {
     return cells;
 }
 
-/// Writes where, in 32-bit fractions, the parts of [0, 1) begin that weights have in proportion,
-/// each of 2^-32 at least. Returns the parts.
+/// Divides [0, 1) into parts proportional to weights, each at least 2^-32, and writes the starts as
+/// 32-bit fractions. Returns the parts.
 std::vector<double> write_parts(std::span<const double> weights, uint32_t* starts) {
     constexpr double kAll = 4294967296.0;
     double sum = 0;
@@ -118,7 +118,8 @@ std::shared_ptr<const SkyMapData> read_map(const Sky& sky) {
     return data;
 }
 
-/// Calls a reader of the sky's file, whose messages then begin with the place of its name.
+/// Calls a reader of the sky's file. Its messages then begin with the place of the file's name in
+/// the text.
 template <class Read>
 auto with_place(const Sky& sky, const Read& read) {
     try {
@@ -148,7 +149,7 @@ void make_sky_cells(SkyMapData& data) {
     }
     data.table.resize(table_words(columns, rows));
     const std::vector<double> row_parts = write_parts(sums, data.table.data());
-    // A picture's place covers 2 pi^2 times the sine of its angle.
+    // The solid angle at a position of the picture is 2 pi^2 times the sine of its angle.
     const double per_part = double(columns * rows) / (2 * std::numbers::pi * std::numbers::pi);
     for (size_t row = 0; row < rows; ++row) {
         const std::span<const double> weights = std::span(cells).subspan(row * columns, columns);

@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// How far rounding may move a point, or a closest point, from its place, in the mesh's size.
+/// The maximum error by rounding of a point, or of a closest point, relative to the mesh's size.
 constexpr double kRounding = 0x1p-20;
 
 uint64_t nodes_of(uint64_t triangles) {

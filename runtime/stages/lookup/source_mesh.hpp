@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// meshes -> the words in which kernels find closest points, and what these wear.
+// meshes -> the words in which kernels find closest points, and the textures there.
 #pragma once
 
 #include <span>
@@ -11,30 +11,30 @@
 
 namespace voxelume {
 
-/// Where a mesh lies among the words of SourceMeshes, as SourceRecord has it.
+/// The position of a mesh in the words of SourceMeshes, as SourceRecord has it.
 struct SourcePlaces {
     uint32_t nodes = VXL_NO_SOURCE, triangles = 0, worn = 0, textures = 0;
 };
 
-/// What source meshes are made of, to tell their words without a mesh.
+/// The sizes of a source mesh, which give its number of words without the mesh.
 struct SourceSize {
     uint64_t triangles = 0;
     MeshPaint paint;
     uint64_t texture_key = 0;  ///< meshes with equal keys have equal textures
 };
 
-/// Makes room for meshes of these sizes; each key's textures are stored once. Throws Error::limit
-/// for more words than can be numbered.
+/// Allocates words for meshes of these sizes; each key's textures are stored once. Throws
+/// Error::limit for more words than can be numbered.
 Buffer<uint32_t> allocate_source_words(const Device& device, std::span<const SourceSize> sizes);
 
-/// The meshes that are joined, and the place of each.
+/// The words of joined meshes, and the position of each.
 struct JoinedSources {
     Buffer<uint32_t> words;
     std::vector<SourcePlaces> places;
     bool has_maps = false;
 };
 
-/// Joins meshes, each of which has textures. Throws Error::limit as above.
+/// Joins meshes, each of which has textures. Throws Error::limit as allocate_source_words() does.
 JoinedSources join_source_meshes(const Device& device, std::span<const Mesh* const> meshes);
 
 }  // namespace voxelume

@@ -14,7 +14,7 @@ namespace {
 
 /// The maximum number of slots: a cell's index, slot * 4096 + cell, is a 32-bit number.
 constexpr double kMaxSlots = 1 << 20;
-/// Where cells have colours, three times that index is such a number, too.
+/// If cells have colours, three times a cell's index must be a 32-bit number, too.
 constexpr double kMaxColoredSlots = 1 << 18;
 /// The number of bricks that are sampled before they are written to the device together.
 constexpr size_t kBricksAtOnce = 64;
@@ -35,8 +35,8 @@ class ConstantTable {
     std::vector<float> values_;
 };
 
-/// The slots that a lattice needs: for bricks, and before them for constants. Every brick may turn
-/// out to be another constant.
+/// The slots that a lattice needs: first for constants, then for bricks. Every brick may have a
+/// different constant density.
 struct SlotCount {
     size_t constants = 0, bricks = 0;
 
@@ -56,7 +56,7 @@ SlotCount count_slots(const DensityLattice& lattice) {
     return slots;
 }
 
-/// Gives a larger size to the bricks of each aligned cube of `edge` bricks that all have one word.
+/// Marks the bricks of each aligned cube of `edge` bricks as a larger cube if all have one word.
 void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int edge,
                     uint32_t log2_size) {
     const auto at = [&](int x, int y, int z) -> uint32_t& {
@@ -95,7 +95,7 @@ class BrickWriter {
         const std::span<float, kBrickCells> cells(waiting_.end() - kBrickCells, kBrickCells);
         lattice_.sample(number, cells,
                         std::span(colors_).last(lattice_.has_colors() ? 3 * kBrickCells : 0));
-        // Where there are colours, too, only what can't be seen is alike.
+        // With colours, only bricks without density are constant: their colours are invisible.
         if (std::ranges::all_of(cells, [&](float value) { return value == cells.front(); }) &&
             (cells.front() == 0 || !lattice_.has_colors())) {
             const float density = cells.front();
@@ -121,7 +121,7 @@ class BrickWriter {
     ConstantTable& constants_;
     size_t next_slot_;
     DensityGrid& grid_;
-    std::vector<float> waiting_, colors_;  ///< of bricks that are written together
+    std::vector<float> waiting_, colors_;  ///< values of bricks that are written together
 };
 
 }  // namespace
@@ -181,7 +181,7 @@ DensityGrid form_density_grid(const Device& device, const World& world,
     for (size_t number = 0; number < words.size(); ++number) words[number] = writer.add(number);
     writer.write();
     grid.values.write(constants.values());
-    // Kernels read colours wherever another lane needs one, and a product with 0 must be 0.
+    // Kernels read colours whenever another lane needs one; multiplied by 0 they must give 0.
     if (lattice.has_colors())
         grid.colors.write(std::vector<float>(3 * slots.constants * kBrickCells), 0);
     join_constants(words, lattice.bricks(), 4, 6);

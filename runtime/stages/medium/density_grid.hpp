@@ -22,22 +22,22 @@ struct DensityGrid {
 /// VXL_DENSITY_PARAMETERS of kernels.
 void bind(KernelArguments& to, const DensityGrid& grid);
 
-/// What a density grid's buffers hold.
+/// The numbers of entries in a density grid's buffers.
 struct DensitySize {
-    size_t slots = 0;   ///< of values
-    size_t bricks = 0;  ///< of the lattice
+    size_t slots = 0;   ///< slots of values
+    size_t bricks = 0;  ///< bricks of the lattice
     bool has_colors = false;
 };
 
 /// The size of a density grid, found without allocating it.
 struct DensityPlan {
-    glm::ivec3 bricks{0};  ///< of the lattice
-    bool is_zero = false;  ///< known to be 0 everywhere: nothing is formed
+    glm::ivec3 bricks{0};  ///< bricks of the lattice
+    bool is_zero = false;  ///< known to be 0 everywhere: no grid is made
     DensitySize size = {};
-    double stored_bricks = 0;  ///< at most, besides constants
-    double buffer_bytes = 0;   ///< of the larger buffer
+    double stored_bricks = 0;  ///< maximum number, without constants
+    double buffer_bytes = 0;   ///< bytes of the larger buffer
     double bytes = 0;          ///< on the device
-    double host_bytes = 0;     ///< in main memory while it is formed
+    double host_bytes = 0;     ///< in main memory while it is made
 };
 
 /// The plan of the medium's density grid; empty for a medium without density, and for one that
@@ -50,12 +50,12 @@ DensityPlan plan_density(const World& world, bool scatters = false);
 /// The grid's buffers.
 DensityGrid allocate_density(const Device& device, const DensitySize& size);
 
-/// True if the medium is known to have density 0 at all voxels, without a look at all of them; a
-/// file of all zeros is. Throws Error::input as plan_density.
+/// True if the medium's density is known to be 0 at all voxels without evaluating them, as for a
+/// file of zeros. Throws Error::input as plan_density.
 bool has_no_medium(const World& world);
 
-/// Makes the density's lattice: a voxel has the density at its centre, or by a transfer function
-/// the mean over all of it, lit by `lights` where the scene lights it. Throws as plan_density does.
+/// Makes the density's lattice. A voxel has the density at its centre or, with a transfer function,
+/// the mean over the voxel, lit by `lights` where the scene lights it. Throws as plan_density does.
 DensityGrid form_density_grid(const Device& device, const World& world,
                               const std::vector<Light>& lights = {});
 

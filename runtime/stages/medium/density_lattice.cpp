@@ -10,10 +10,10 @@
 namespace voxelume {
 namespace {
 
-/// log2 of the cell's extent along an axis along which nothing changes: the whole axis is one cell.
+/// log2 of a cell's extent along an axis of constant density: the whole axis is one cell.
 constexpr int kWholeAxis = 16;
 
-/// Points of a brick's half voxels along an axis, with both ends.
+/// The number of points along an axis of a brick's half voxels, including both ends.
 constexpr int kPoints = 2 * kBrickSize + 1;
 
 }  // namespace
@@ -35,7 +35,7 @@ DensityLattice::DensityLattice(const World& world, const std::vector<Light>& lig
     bricks_ = (frame_.size + kBrickSize - 1) / kBrickSize;
 }
 
-/// Windows of one scan share its values.
+/// Adds a scan. Windows of one scan share its values.
 void DensityLattice::add_scan(const GridDensity& grid) {
     const auto same = std::ranges::find_if(seen_, [&](const GridDensity& known) {
         return known.file == grid.file && known.grid == grid.grid &&
@@ -73,7 +73,7 @@ bool DensityLattice::is_zero() const {
     return true;
 }
 
-/// True if all scans are known to have nothing in a box.
+/// True if all scans are known to be empty in a box.
 bool DensityLattice::is_empty_in(const Bounds& box) const {
     return std::ranges::all_of(scans_, [&](const Scan& scan) {
         const ValueRange range = scan.field->range_in(box);
@@ -97,9 +97,9 @@ void DensityLattice::sample(size_t number, std::span<float, kBrickCells> densiti
     field_->sample(first_corner(number) + frame_.voxel_edge * 0.5, frame_.voxel_edge, densities);
 }
 
-/// Adds absorption times colour, and the absorption, of a scan in the voxels of a brick. Each voxel
-/// has the mean of its eight halves' halves, whose values are taken for linear. So it is exact for
-/// a scan whose cells are as large as voxels and lie where they do.
+/// Adds absorption times colour, and absorption, of a scan in the voxels of a brick. Each voxel has
+/// the mean over its half voxels, in which values are interpolated linearly. So the mean is exact
+/// for a scan whose cells coincide with voxels.
 void DensityLattice::add_means(const Scan& scan, size_t number, std::span<glm::dvec4> sums) const {
     std::vector<float> values(size_t(kPoints) * kPoints * kPoints);
     scan.field->sample_values(first_corner(number), frame_.voxel_edge * 0.5, glm::ivec3(kPoints),
@@ -131,7 +131,7 @@ void DensityLattice::add_means(const Scan& scan, size_t number, std::span<glm::d
     }
 }
 
-/// What scans absorb adds up, and so does what they show for it.
+/// Averages all scans: their absorptions add up, and so do the products with their colours.
 void DensityLattice::average(size_t number, std::span<float, kBrickCells> densities,
                              std::span<float> colors) const {
     std::vector<glm::dvec4> sums(kBrickCells, glm::dvec4(0));

@@ -19,7 +19,7 @@ inline constexpr size_t kBrickCells = 4096;
 
 class DensityLattice {
   public:
-    /// `lights` light the scans that are lit by the scene; what they light has the same size.
+    /// `lights` light the scans that are lit by the scene, if any.
     explicit DensityLattice(const World& world, const std::vector<Light>& lights = {});
 
     const glm::ivec3& bricks() const { return bricks_; }
@@ -37,7 +37,7 @@ class DensityLattice {
                 std::span<float> colors) const;
 
   private:
-    /// A scan with its transfer function; several may look at one field.
+    /// A scan with its transfer function; several may share one field.
     struct Scan {
         std::shared_ptr<const DensityField> field;
         TransferCurve curve;
@@ -52,9 +52,9 @@ class DensityLattice {
                  std::span<float> colors) const;
 
     MediumLights scene_lights_;
-    std::shared_ptr<const DensityField> field_;  ///< of a medium without transfer functions
+    std::shared_ptr<const DensityField> field_;  ///< field of a medium without transfer functions
     std::vector<Scan> scans_;
-    std::vector<GridDensity> seen_;  ///< the grids of the scans
+    std::vector<GridDensity> seen_;  ///< grids of the scans
     GridFrame frame_;
     glm::ivec3 bricks_{0}, shift_{0};
 };

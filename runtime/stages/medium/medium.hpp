@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// radiance at surfaces -> radiance at the rays' starts: what the medium of S absorbs and emits.
+// radiance at surfaces -> radiance at the rays' starts: the absorption and emission of the medium
+// of S.
 #pragma once
 
 #include "kernels/shared/scene.h"
@@ -23,17 +24,17 @@ class MediumStage {
                 const Environment& environment, const Buffer<MaterialRecord>& materials,
                 const std::vector<Light>& lights = {});
 
-    /// Lets the medium absorb its part of the radiance of rays 0 .. count-1 and add its own. With
-    /// `transmission`, rays inside an object pass through its material instead. With `paths`, the
-    /// batch's transmittance is written.
+    /// Applies the medium to rays 0 .. count-1: absorbs a part of their radiance and adds its own.
+    /// With `transmission`, rays inside an object pass through its material instead. With `paths`,
+    /// the batch's transmittance is written.
     void sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    /// Takes the part that the medium absorbs from the light of at most `maximum` rays of the
-    /// queue. Without shadows the remaining light is added to the batch's radiance.
+    /// Applies the medium's absorption to the light of at most `maximum` rays of the queue. Without
+    /// shadows the remaining light is added to the batch's radiance.
     void shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum, RayBatch& batch);
 
     const MediumScattering& scattering() const { return scattering_; }
-    /// What light loses per metre on its way to a surface, at density 1.
+    /// The extinction per metre of rays to lights, at density 1.
     const float4& extinction() const { return extinction_.absorption; }
     /// The density grid; empty if the density is 1 everywhere.
     const DensityGrid& density() const { return density_; }
@@ -41,7 +42,7 @@ class MediumStage {
   private:
     Environment environment_;
     MediumScattering scattering_;
-    Environment extinction_;  ///< that of rays to lights, which lose what is scattered, too
+    Environment extinction_;  ///< environment of rays to lights, which also lose scattered light
     Buffer<MaterialRecord> materials_;
     DensityGrid density_;
     Program program_;

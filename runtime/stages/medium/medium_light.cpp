@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// The light's strength at a distance squared; `cosine` is that of the angle at which it leaves.
+/// The light's strength at a squared distance; `cosine` is that of the angle at which it leaves.
 double falloff_of(const Light& light, double squared, double cosine) {
     const LightType& type = type_of(light);
     const double part = type.part_at ? type.part_at(light, cosine) : 1;
@@ -38,7 +38,8 @@ MediumSurface medium_surface(const std::array<double, 8>& eighths, const glm::dv
     }
     const double contrast = glm::length(rise);
     if (!(contrast > 0)) return {};
-    // A difference of a quarter of the mean is a surface; smaller ones are parts of one.
+    // A difference of a quarter of the mean counts as a full surface; smaller ones as a part of
+    // one.
     return {glm::normalize(rise / edge), std::min(4 * contrast / sum, 1.0)};
 }
 
@@ -46,7 +47,7 @@ glm::dvec3 light_on(const MediumSurface& surface, const glm::dvec3& position,
                     const MediumLights& lights) {
     glm::dvec3 sum = lights.ambient;
     for (const Light& light : lights.lights) {
-        glm::dvec3 way = light.direction;  // of the light, a unit vector
+        glm::dvec3 way = light.direction;  // direction of the light, a unit vector
         double strength = 1;
         if (type_of(light).has_position) {
             const glm::dvec3 from_light = position - light.position;

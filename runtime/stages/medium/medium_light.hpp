@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that brings out surfaces in the colours of scans.
+// The light that shows surfaces in the colours of scans.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace voxelume {
 
-/// What lights a scan. Nothing casts shadows, and lights with an area shine from their middles.
+/// The lights of a scan. Nothing casts shadows, and area lights shine from their middles.
 struct MediumLights {
     std::vector<Light> lights;
     glm::dvec3 ambient{0};
@@ -19,10 +19,10 @@ struct MediumLights {
 /// The lights of a scan that is lit along one direction: a quarter is ambient.
 MediumLights lights_along(const glm::dvec3& direction);
 
-/// How a voxel faces light, by the absorptions of its eighths.
+/// The surface in a voxel, estimated from the absorptions of its eighths.
 struct MediumSurface {
-    glm::dvec3 inward{0};  ///< unit vector along which the absorption rises; 0: nowhere
-    double share = 0;      ///< 0..1: how much of a surface it is; the rest faces every light
+    glm::dvec3 inward{0};  ///< unit vector along which the absorption rises; 0: none
+    double share = 0;      ///< 0..1: the part that counts as a surface; the rest faces every light
 };
 
 /// The surface in a voxel with these edges.

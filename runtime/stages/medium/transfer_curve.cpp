@@ -10,13 +10,14 @@
 namespace voxelume {
 namespace {
 
-/// What light loses at a point, and what it gains.
+/// The emission (absorption times colour) and the absorption at a transfer point.
 glm::dvec4 light_of(const TransferPoint& point) {
     return {glm::dvec3(point.color) * point.absorption, point.absorption};
 }
 
-/// The mean of max(u, 0)^power, 0 or 1, over a box in whose middle u is `middle`, and along whose
-/// edges it grows by `rises`: a sum over the corners of truncated powers (de Boor 1976).
+/// The mean of max(u, 0)^power, with a power of 0 or 1, over a box in whose middle u is `middle`
+/// and along whose edges it grows by `rises`: a sum of truncated powers over the corners (de Boor
+/// 1976).
 double mean_ramp(double middle, std::span<const double> rises, size_t power) {
     double reach = 0, divisor = 1;
     for (size_t i = 0; i < rises.size(); ++i) {
@@ -38,17 +39,17 @@ double mean_ramp(double middle, std::span<const double> rises, size_t power) {
     return sum / divisor;
 }
 
-/// The mean, over the box of mean_ramp(), of what rises from 0 at one value to 1 at another. It
-/// needs no slope, which has no bound where the two are close.
+/// The mean, over the box of mean_ramp(), of a function that rises from 0 at one value to 1 at
+/// another. It needs no slope, which is unbounded if the two values are close.
 double mean_step(double from, double to, double middle, std::span<const double> rises,
                  double reach) {
-    // A difference of means would be lost in rounding here.
+    // The difference of means would be lost in rounding here.
     if (to - from < 1e-5 * reach) return mean_ramp(middle - (from + (to - from) / 2), rises, 0);
     return (mean_ramp(middle - from, rises, 1) - mean_ramp(middle - to, rises, 1)) / (to - from);
 }
 
-/// By how much the values rise along the edges of a box, without those that matter little next to
-/// the largest: their share of the mean would be lost in rounding.
+/// The rises of the values along the edges of a box, without negligible ones: their effect on the
+/// mean would be lost in rounding.
 size_t find_rises(const std::array<float, 8>& corners, std::array<double, 3>& rises) {
     std::array<double, 3> all{};
     for (size_t corner = 0; corner < 8; ++corner)

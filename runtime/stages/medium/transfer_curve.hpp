@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of a scan -> what light loses and gains there, averaged exactly over voxels.
+// Values of a scan -> emission and absorption, averaged exactly over voxels.
 #pragma once
 
 #include <array>
@@ -15,20 +15,19 @@ namespace voxelume {
 /// constant beyond the first and the last.
 class TransferCurve {
   public:
-    /// The points' values increase, however little.
+    /// The points' values must increase.
     explicit TransferCurve(std::span<const TransferPoint> points);
 
-    /// Absorption times colour, and in `w` the absorption, at a value: exactly 0 between points of
-    /// which both are 0, and exactly the first and the last point's beyond them.
+    /// Absorption times colour, and in `w` the absorption, at a value: exactly 0 between points
+    /// where both are 0, and exactly the first or last point's beyond the ends.
     glm::dvec4 at(double value) const;
 
-    /// The mean of the curve over a box with these values at its corners, x fastest. The values
-    /// between are taken for linear, and then the mean is exact: it is a sum of box splines of the
-    /// points.
-    /// A corner outside of the scan is kOutsideScan, and nothing is there.
+    /// The mean of the curve over a box with these values at its corners, x fastest. Values between
+    /// are interpolated linearly, and the mean is then exact: it is a sum of box splines of the
+    /// points. A corner outside of the scan is kOutsideScan and counts as empty.
     glm::dvec4 mean(const std::array<float, 8>& corners) const;
 
-    /// True if nothing is there at any value from `min` to `max`.
+    /// True if the curve is 0 at all values from `min` to `max`.
     bool is_zero_in(double min, double max) const;
 
   private:

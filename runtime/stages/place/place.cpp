@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-/// Refuses a field whose band ends inside of the world's voxels.
+/// Refuses a field whose band would end inside of the world's voxels.
 void check_band(const PlacedObject& object, const GridFrame& world) {
     if (object.in_world_frame || !stores_distances(surface_of(*object.grid))) return;
     const double ratio =
@@ -49,7 +49,7 @@ void check_object(const PlacedObject& object, const GridFrame& world) {
                     VXL_OBJECT_MASK + 1);
 }
 
-/// The objects with the loser of every overlap before its winner.
+/// The objects, sorted so that the loser of every overlap comes before its winner.
 std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
     std::vector<const PlacedObject*> order;
     for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
@@ -76,7 +76,7 @@ class Placer::State {
 
     bool continues_with(const GridFrame& frame) const { return bricks_ && frame == world_.frame; }
 
-    /// Makes the object's own buffers the world. The next call then begins with an empty world.
+    /// Uses the object's own buffers as the world. The next call then begins with an empty world.
     void share(const PlacedObject& object, const WorldParts& parts) {
         world_ = *object.grid;
         world_.attributes = {};
@@ -103,8 +103,8 @@ class Placer::State {
     const std::vector<uint32_t>* changed() const { return changed_ ? &*changed_ : nullptr; }
 
   private:
-    /// Makes the world store what the objects now need, and nothing else. A part that no object has
-    /// had before has one value in every brick, so no brick is painted for it.
+    /// Makes the world store exactly the parts that the objects now need. A new part has one value
+    /// in every brick, so no brick is painted for it.
     void follow(const WorldParts& parts) {
         const bool is_stored_otherwise = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -140,8 +140,8 @@ class Placer::State {
                           uint32_t(table.x) * (uint32_t(y) + uint32_t(table.y) * uint32_t(z)));
     }
 
-    /// The states that objects give to the world's bricks: to all if `asked` is empty, else only to
-    /// those that are true in it.
+    /// The states that objects give to the world's bricks: to all bricks if `asked` is empty, else
+    /// only to those for which it is true.
     template <class Painters>
     std::vector<uint8_t> states(Painters&& painters, const std::vector<bool>& asked) {
         const glm::ivec3 table = world_.frame.bricks();
@@ -170,7 +170,7 @@ class Placer::State {
     }
 
     /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
-    /// painter has a part in, or had one in before.
+    /// painter covers now or covered before.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);
@@ -192,7 +192,7 @@ class Placer::State {
         return bricks_->store(*changed_, states(all_painters(), asked));
     }
 
-    /// The bricks of a box that are among the `painted` ones of the world.
+    /// The bricks of a box that are among the `painted` bricks of the world.
     PaintedBricks painted_bricks(const std::vector<bool>& painted, const BrickBox& box) {
         std::vector<uint32_t> slots;
         for_each_brick(box, [&](uint32_t brick) {

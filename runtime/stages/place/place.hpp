@@ -14,7 +14,7 @@
 
 namespace voxelume {
 
-/// How many voxels of a distance field an edge of the world's voxels may span.
+/// The maximum ratio of an edge of the world's voxels to an edge of a distance field's voxels.
 inline constexpr double kFinestField = 1.42;
 
 /// An object's voxels and its placement in the world.
@@ -82,11 +82,11 @@ BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
 
 class NearLeaves;
 
-/// Places one list of objects after another. It paints only those bricks of the world again that a
-/// changed object had a part in or has one in now. The voxels are those that `place` gives.
+/// Places one list of objects after another. It repaints only those bricks of the world that a
+/// changed object covered or covers now. The voxels equal those of `place`.
 class Placer {
   public:
-    /// Placers that place objects with the same grids may share their near leaves.
+    /// Placers of objects with the same grids may share their near leaves.
     explicit Placer(const Device& device, std::shared_ptr<NearLeaves> near = {});
     ~Placer();
     Placer(const Placer&) = delete;
@@ -101,8 +101,8 @@ class Placer {
     /// buffers.
     uint32_t painted_bricks() const;
 
-    /// The indices of all bricks that differ from those before the last call, and perhaps of some
-    /// that don't; null if the last call began with an empty world.
+    /// The indices of all bricks that differ from those before the last call, and possibly of
+    /// others; null if the last call began with an empty world.
     const std::vector<uint32_t>* changed_bricks() const;
 
   private:

@@ -32,7 +32,7 @@ Buffer<uint32_t> count_primitives(const Device& device, const Program& program,
     return counts;
 }
 
-/// Starts every voxel's list. Afterwards `counts` holds where each list ends so far.
+/// Sets the start of every voxel's list. Afterwards `counts` holds the current end of each list.
 void start_lists(const Device& device, const Program& program, const Buffer<uint32_t>& counts,
                  BrickGrid& world) {
     Buffer<uint32_t> sums(device, "primitive sums", world.brick_count);
@@ -61,7 +61,7 @@ void start_lists(const Device& device, const Program& program, const Buffer<uint
                 Buffer<uint32_t>(device, "brick starts", starts), counts, world.primitive_first);
 }
 
-/// The numbers of triangles and of solids' records in the buffers that are joined so far.
+/// The numbers of triangles and of solids' records that are joined so far.
 struct Joined {
     uint32_t triangles = 0, solid_records = 0;
     JoinedTextures textures;

@@ -9,14 +9,14 @@
 
 namespace voxelume {
 
-/// The sizes of what the exact surfaces of a world come from.
+/// The sizes of the triangles and solids of a world's exact surfaces.
 struct SourceCounts {
-    size_t floats = 0;  ///< of triangles' corners
+    size_t floats = 0;  ///< floats of triangles' corners
     size_t solid_words = 0;
     bool normals = false;  ///< some triangle has normals
     JoinedTextures textures;
-    bool texture_alpha = false;  ///< the alpha of one of them counts
-    bool texture_maps = false;   ///< one of them has maps
+    bool texture_alpha = false;  ///< the alpha of some texture counts
+    bool texture_maps = false;   ///< some texture has maps
 
     void add(const BrickGrid& grid) {
         textures.add(grid.texture_key, grid.textures.size());
@@ -28,12 +28,12 @@ struct SourceCounts {
     }
 };
 
-/// Makes room in the world for triangles and analytic solids.
+/// Allocates the world's buffers of triangles and analytic solids.
 void allocate_sources(const Device& device, const SourceCounts& counts, BrickGrid& world);
 
-/// Gives `world`, whose bricks are numbered, the primitives of all exact objects: per voxel in the
-/// order of `objects`, with triangles and solids renumbered and their words those of the world.
-/// Without exact objects it has none. Throws Error::limit for more than 2^32 list entries.
+/// Sets the primitive lists of `world`, whose bricks are numbered: per voxel in the order of
+/// `objects`, with triangles and solids renumbered and their attributes converted to the world's.
+/// Without exact objects there are none. Throws Error::limit for more than 2^32 list entries.
 void join_exact_surfaces(const Device& device, std::span<const PlacedObject> objects,
                          BrickGrid& world);
 

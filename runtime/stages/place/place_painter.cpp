@@ -13,7 +13,7 @@ namespace voxelume {
 namespace {
 
 /// The distance from a surface, in voxels, up to which world distances are evaluated: `index` reads
-/// no farther ones.
+/// none beyond it.
 constexpr double kBandVoxels = 2.9;
 
 PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
@@ -50,8 +50,9 @@ int half_diagonal(const GridFrame& frame) {
         std::ceil(glm::length(e) / 2 / std::min({e.x, e.y, e.z}) * kDistanceUnitsPerVoxel));
 }
 
-/// A leaf is near if a node of it has a smaller distance, in the object's units. In cells larger
-/// than the world's, nodes within the band may be half a diagonal from the next corner.
+/// The threshold of near leaves: a leaf is near if one of its nodes has a smaller distance, in the
+/// object's units. In cells larger than the world's, nodes within the band may be half a diagonal
+/// from the next corner.
 int near_threshold(const PlacementMap& map, const GridFrame& grid) {
     constexpr double kMost = kBandVoxels * kDistanceUnitsPerVoxel;
     const double band = kMost / map.distance_scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An object on its way into the world: its inverse map, and the kernels that paint its voxels.
+// An object that is placed in the world: its inverse map, and the kernels that paint its voxels.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace voxelume {
 
 Surface surface_of(const BrickGrid& grid);
 
-/// The parts that the world stores: those that any of its objects has.
+/// The parts that the world stores: those that some object has.
 struct WorldParts {
     bool smooth = false, occupancy = false, colors = false, normals = false, transparent = false;
     std::set<uint32_t> attributes;  ///< all values that voxels can have
@@ -42,16 +42,16 @@ struct BrickBox {
     bool is_empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 };
 
-/// The world's bricks that the object's grid, and a margin around it, lie in.
+/// The world's bricks that contain the object's grid and a margin around it.
 BrickBox bricks_of(const PlacedObject& object, const GridFrame& world);
 
-/// The bricks of the world that are painted, on the device.
+/// The bricks of the world that are to be painted, on the device.
 struct PaintedBricks {
     uint32_t count = 0;
     Buffer<uint32_t> slots;
 };
 
-/// The bricks of a world, of which some are painted.
+/// A world and those of its bricks that are to be painted.
 struct PaintedWorld {
     const PaintedBricks& painted;
     const BrickGrid& world;
@@ -60,15 +60,15 @@ struct PaintedWorld {
 /// VXL_PAINTED_PARAMETERS of kernels.
 void bind(KernelArguments& to, const PaintedWorld& painted);
 
-/// The near leaves of objects' grids, which objects with the same grid share.
+/// The near leaves of objects' grids; objects with the same grid share them.
 class NearLeaves {
   public:
     /// Per slot: a mask of the leaves with voxels, or with distances below `threshold`. `mark`
-    /// makes them if no object had them in this list of objects or the last.
+    /// makes the masks unless the grid had them in this list of objects or the last one.
     Buffer<uint64_t> of(const BrickGrid& grid, int threshold,
                         const std::function<Buffer<uint64_t>()>& mark);
 
-    /// Begins the next list: forgets what the last one didn't ask for.
+    /// Begins the next list of objects, and forgets masks that the last list didn't use.
     void begin_list();
 
   private:
@@ -88,7 +88,7 @@ class Painter {
     const PlacedObject& object() const { return object_; }
     Surface surface() const { return surface_; }
 
-    /// The bricks of the world outside of which the object has no voxels.
+    /// The bricks of the world that may contain voxels of the object.
     const BrickBox& bricks() const { return bricks_; }
 
     /// Raises the states of `count` bricks of the world: the first `count` of `listed`, or all
@@ -96,12 +96,13 @@ class Painter {
     void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                   const Buffer<uint8_t>& states);
 
-    /// Adapts the painter to a world that stores other parts.
+    /// Adapts the painter to a world that stores different parts.
     void follow(const Device& device, const WorldParts& parts);
 
     void paint(const PaintedBricks& painted, BrickGrid& world);
 
-    /// Ends the world's distances at its bounds. The painter of any smooth object does it for all.
+    /// Closes the world's distances at its bounds. One call of any smooth object's painter closes
+    /// all.
     void close_distances(const PaintedBricks& painted, BrickGrid& world);
 
     /// VXL_OBJECT_PARAMETERS of kernels.

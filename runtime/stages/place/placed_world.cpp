@@ -18,7 +18,7 @@ bool has_several_fields(const PlacedObject& object) {
     return !object.grid->parts.empty();
 }
 
-/// The places of objects in the order of priorities, by their numbers.
+/// The rank of each object by priority, by objects' numbers.
 std::vector<uint32_t> ranks_of(std::span<const PlacedObject> objects) {
     std::vector<size_t> order(objects.size());
     std::iota(order.begin(), order.end(), size_t{0});
@@ -32,7 +32,7 @@ std::vector<uint32_t> ranks_of(std::span<const PlacedObject> objects) {
     return ranks;
 }
 
-/// The part of a lattice that has these bricks, as a lattice of its own.
+/// The part of a lattice with these bricks, as a lattice of its own.
 GridFrame part_of(const GridFrame& world, const glm::ivec3& first, const glm::ivec3& last) {
     const glm::ivec3 low = first * kBrickSize;
     return {world.origin + world.voxel_edge * glm::dvec3(low), world.voxel_edge,
@@ -82,7 +82,7 @@ std::vector<PlacedField> WorldPlacer::place_fields(const PlacedObject& object,
 }
 
 void WorldPlacer::place_voxels(std::span<const PlacedObject> objects, const GridFrame& world) {
-    world_.voxels = {};  // or lists that are replaced would stay beside the new ones
+    world_.voxels = {};  // frees lists that would otherwise coexist with the new ones
     world_.voxels = voxels_.place(objects, world);
     painted_ += voxels_.painted_bricks();
     const std::vector<uint32_t>* changed = voxels_.changed_bricks();
@@ -97,7 +97,7 @@ const PlacedWorld& WorldPlacer::place(std::span<const PlacedObject> objects,
     const bool had_fields = !world_.fields.empty();
     world_.fields.clear();
     world_.ranks = ranks_of(objects);
-    // One that is left alone stays apart, since others may come back.
+    // A single remaining field stays apart, since others may come back.
     const bool apart = (objects.size() > 1 || (had_fields && frame_ == world) ||
                         std::ranges::any_of(objects, has_several_fields)) &&
                        std::ranges::any_of(objects, is_smooth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// object grids -> a placed world: each smooth object's field apart, all else in one grid.
+// object grids -> a placed world: each smooth object's field separately, the rest in one grid.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// Places one list of objects after another, of any kinds.
+/// Places successive lists of objects of any kinds.
 ///
 /// Cubes and exact objects are placed as `place` does. Where there are several objects, or parts of
 /// one, each smooth one gets a grid of its own, in the part of the world's lattice around it, so
@@ -46,7 +46,7 @@ class WorldPlacer {
     std::shared_ptr<NearLeaves> near_;
     Placer voxels_;
     GridFrame frame_;
-    std::map<uint32_t, Kept> fields_;  ///< by their objects' numbers
+    std::map<uint32_t, Kept> fields_;  ///< by objects' numbers
     PlacedWorld world_;
     std::optional<std::vector<uint32_t>> changed_;
     uint32_t painted_ = 0;

@@ -21,7 +21,7 @@ double shortest(const glm::dvec3& edges) {
     return std::min({edges.x, edges.y, edges.z});
 }
 
-/// The largest number of fraction bits with which sums over all the world's voxels can't overflow.
+/// The largest number of fraction bits for which sums over all the world's voxels can't overflow.
 int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const GridFrame& world,
                   uint32_t object) {
     const glm::dvec3 size = glm::dvec3(world.bricks() * kBrickSize + 2 * kBrickSize);
@@ -41,8 +41,8 @@ int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const Grid
     return bits;
 }
 
-/// The reach along each object axis. `supercover` closes the gap that steps longer than a voxel
-/// would leave, `thin` covers half of every step.
+/// The reach along each object axis. `supercover` closes the gaps that steps longer than a voxel
+/// would leave; `thin` covers half of every step.
 glm::dvec3 reach_of(const glm::dmat3& linear, Reach reach) {
     if (reach == Reach::none) return glm::dvec3(1);
     glm::dvec3 longest(0);
@@ -57,7 +57,7 @@ glm::dvec3 reach_of(const glm::dmat3& linear, Reach reach) {
     return (glm::max(longest, glm::dvec3(1)) - 1.0) * 0.5;
 }
 
-/// Steps of the world's voxels, in voxels of the object.
+/// The steps from one voxel of the world to the next, in voxels of the object.
 glm::dmat3 steps_of(const GridFrame& object_frame, const GridFrame& world_frame,
                     const glm::dmat3& object_from_world) {
     glm::dmat3 linear;
@@ -108,7 +108,7 @@ bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_f
                          const glm::dmat4& world_from_object) {
     const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
     const glm::dmat3 steps = steps_of(object_frame, world_frame, object_from_world);
-    // What fixed point rounds to whole voxels.
+    // True if fixed point rounds the number to whole voxels.
     const auto is_whole = [](double value, int bits) {
         return std::abs(value - std::round(value)) < std::ldexp(0.5, -bits);
     };
@@ -169,8 +169,8 @@ PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world
     }
     map.distance_scale = stretch_of(glm::dmat3(world_from_object)).min *
                          shortest(object_frame.voxel_edge) / shortest(world_frame.voxel_edge);
-    // Moves by whole voxels and quarter turns between equal voxel edges keep every distance as it
-    // is.
+    // Shifts by whole voxels and quarter turns between equal voxel edges leave every distance
+    // unchanged.
     if (std::abs(map.distance_scale - 1) < 1e-12) map.distance_scale = 1;
     return map;
 }

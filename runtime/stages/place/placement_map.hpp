@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place of an object's voxels in the world, as the exact fixed-point map that kernels use.
+// The placement of an object's voxels in the world, as the exact fixed-point map that kernels use.
 #pragma once
 
 #include <array>
@@ -22,16 +22,17 @@ struct PlacementMap {
     friend bool operator==(const PlacementMap&, const PlacementMap&) = default;
 };
 
-/// How far around its centre's image a world voxel looks for occupied voxels of the object.
+/// The distance from its centre's image at which a world voxel looks for occupied voxels of the
+/// object.
 enum class Reach {
     none,        ///< distances: only the corners of the node's cell
-    supercover,  ///< as far as sets that are tight against paths through corners need
-    thin,        ///< as far as sets that are tight against paths through faces need
+    supercover,  ///< far enough for sets that are tight against paths through corners
+    thin,        ///< far enough for sets that are tight against paths through faces
 };
 
-/// How many voxels of an object's frame an edge of the world's voxels spans at most, seen through
-/// the object's map: 1 for equal lattices, however they are turned against each other. Not finite
-/// for a singular map.
+/// The maximum number of voxels of an object's frame along an edge of the world's voxels, seen
+/// through the object's map: 1 for equal lattices, however they are turned against each other. Not
+/// finite for a singular map.
 double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& world_frame,
                               const glm::dmat4& world_from_object);
 
@@ -40,9 +41,9 @@ double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& wo
 bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_frame,
                          const glm::dmat4& world_from_object);
 
-/// Turns gradients in the world's voxels into those in the object's; 0 for a map by which each
-/// voxel of the world is one of the object's: by whole voxels or parts of them, by quarters or
-/// mirrored.
+/// The matrix from gradients in the world's voxels to those in the object's. It is 0 if each voxel
+/// of the world lies in one voxel of the object: for maps that shift by whole voxels or simple
+/// fractions of them, turn by quarters or mirror.
 glm::dmat3 gradients_in_object(const GridFrame& object_frame, const GridFrame& world_frame,
                                const glm::dmat4& world_from_object);
 

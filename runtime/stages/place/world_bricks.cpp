@@ -22,7 +22,7 @@ constexpr const char* kAttributes = "world attributes";
 constexpr const char* kColors = "world colors";
 constexpr const char* kNormals = "world voxel normals";
 
-/// Puts a larger buffer in the place of an `old` one, whose values it begins with.
+/// Replaces an `old` buffer by a larger one that begins with its values.
 template <class T>
 void enlarge(Buffer<T>& old, Buffer<T> larger) {
     larger.copy(old);
@@ -73,7 +73,7 @@ void WorldBricks::store_like(const WorldParts& parts) {
     defines_ = brick_defines(parts);
 }
 
-/// Built when it is first needed: a world may store no brick.
+/// The kernel, built when it is first needed: a world may store no brick.
 Kernel WorldBricks::kernel(const char* name) const {
     return Program(device_, "place_bricks.cl", defines_).kernel(name);
 }
@@ -141,8 +141,8 @@ void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
                 world_.normals);
 }
 
-/// Makes room for `bricks` slots. A world that grows once may grow again, so from its second growth
-/// on it gets room for a quarter more, if a buffer may be that large.
+/// Allocates memory for `bricks` slots. A world that grows once may grow again, so from its second
+/// growth on it gets a quarter more, if a buffer may be that large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
     const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ || normals_ ? 4

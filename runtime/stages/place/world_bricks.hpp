@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bricks that a world stores: which ones, in what slots, and the buffers that hold them.
+// The bricks that a world stores: their slots, and their buffers.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,9 @@ class WorldBricks {
     /// Begins without any stored brick; `world` has its frame.
     WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world);
 
-    /// Gives the world the buffers that a world of these parts needs, and no others. A new buffer
-    /// holds the values of a world without the objects that need it; a new buffer of attributes
-    /// holds `attribute` in every voxel.
+    /// Gives the world exactly the buffers that a world of these parts needs. A new buffer holds
+    /// the values of a world without the objects that need it; a new buffer of attributes holds
+    /// `attribute` in every voxel.
     void store_like(const WorldParts& parts);
 
     /// Stores the bricks of `brick_numbers` whose state is VXL_SURFACE, marks those that are
@@ -32,7 +32,7 @@ class WorldBricks {
     std::vector<uint32_t> store(const std::vector<uint32_t>& brick_numbers,
                                 const std::vector<uint8_t>& states);
 
-    /// Empties bricks that are stored; they stay stored.
+    /// Clears the contents of stored bricks; they stay stored.
     void clear(const std::vector<uint32_t>& brick_numbers);
 
     uint32_t slot(uint32_t place) const { return slots_[place]; }

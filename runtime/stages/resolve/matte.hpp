@@ -15,27 +15,27 @@
 
 namespace voxelume {
 
-/// What a matte is made in, rank after rank.
+/// The ranks of a matte's pixels.
 struct MatteArrays {
     Buffer<uint32_t> numbers;  ///< number of the object or material plus 1
-    Buffer<float> shares;      ///< of the pixel
+    Buffer<float> shares;      ///< parts of the pixel
 };
 
-/// The arrays of the mattes that the channels have. Where `adds_samples`, they have more ranks than
-/// are named.
+/// The arrays of the mattes among the channels. With `adds_samples`, they have more ranks than have
+/// names.
 std::vector<MatteArrays> allocate_mattes(const Device& device, const glm::ivec2& size,
                                          const ImageChannels& channels, bool adds_samples = false);
 
-/// Kernels of matte.cl and the mattes they fill, batch by batch. Nothing is compiled or allocated
-/// where the channels have no matte.
+/// Kernels of matte.cl and the mattes they fill, batch by batch. Without a matte among the channels
+/// nothing is compiled or allocated.
 class MatteStage {
   public:
     /// Makes the mattes in these arrays. With `adds_samples` the camera's samples are added to
-    /// those that they hold.
+    /// those in the arrays.
     MatteStage(const Device& device, const Features& features, const Camera& camera,
                const Scene& scene, std::vector<MatteArrays> arrays, bool adds_samples);
 
-    /// Ranks what the pixels of `tiles` tiles from `first_tile` on show.
+    /// Ranks the objects and materials in the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
   private:
@@ -46,7 +46,7 @@ class MatteStage {
     static std::vector<Field> fields_of(const ImageChannels& channels);
 
     Camera camera_;
-    std::vector<Field> fields_;  ///< of packed attributes, of each matte
+    std::vector<Field> fields_;  ///< field of packed attributes of each matte
     std::vector<MatteArrays> arrays_;
     std::optional<Program> program_;
     std::optional<Kernel> rank_;

@@ -32,7 +32,7 @@ std::vector<const char*> id_plane_names(const ImageChannels& channels) {
     return names;
 }
 
-/// Values below normal ones have lost bits of their sum.
+/// Throws for subnormal values, whose sums have lost bits.
 void check_exact(const Image& earlier, const char* name) {
     const auto plane = earlier.planes.find(name);
     if (plane == earlier.planes.end()) return;

@@ -16,7 +16,7 @@ namespace voxelume {
 Defines resolve_defines(const Device& device, const Features& features,
                         const ImageChannels& channels, bool adds_samples = false);
 
-/// What an image is made in.
+/// The arrays in which an image is made.
 struct ImageArrays {
     Buffer<float> planes;         ///< one after another
     Buffer<uint32_t> ids;         ///< planes of the object's and the material's number plus 1
@@ -25,20 +25,19 @@ struct ImageArrays {
 ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
                            const ImageChannels& channels);
 
-/// Writes what an earlier image shows, to which samples are to be added, into arrays of its size.
-/// Throws Error::input if it lacks one of the channels, or has other pixels.
+/// Copies an earlier image, to which samples are to be added, into arrays of its size. Throws
+/// Error::input if it lacks one of the channels, or has other pixels.
 void begin_with(const Image& earlier, const ImageChannels& channels, ImageArrays& arrays);
 
-/// The image of `size` pixels that arrays hold, after every tile was computed. Waits for the
-/// device.
+/// The image of `size` pixels in these arrays, after every tile was computed. Waits for the device.
 Image image_in(const ImageArrays& arrays, const glm::ivec2& size, const ImageChannels& channels);
 
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
     /// Makes the image in these arrays, of the `channels` that are asked for. Variance is that of
-    /// colour, which is asked for, too. With `adds_samples` the camera's samples are added to those
-    /// that the arrays hold.
+    /// colour, which must be asked for, too. With `adds_samples` the camera's samples are added to
+    /// those in the arrays.
     ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels, ImageArrays arrays, bool adds_samples);
 

@@ -61,9 +61,9 @@ class LeafMasks {
     std::vector<std::array<uint64_t, kRecordsPerSector>> blocks_;
 };
 
-/// A mask dilated by one leaf along an axis whose coordinate is worth `step` bits: the leaves in
-/// the brick before, in the brick itself, and in the brick behind. `low` holds the bits of
-/// coordinate 0.
+/// A mask dilated by one leaf along an axis whose coordinate has a stride of `step` bits: the
+/// leaves in the brick before, in the brick itself, and in the brick after it. `low` holds the bits
+/// of coordinate 0.
 std::array<uint64_t, 3> dilated(uint64_t mask, int step, uint64_t low) {
     const uint64_t high = low << 3 * step;
     return {(mask & low) << 3 * step, mask | (mask & ~high) << step | (mask & ~low) >> step,
@@ -101,7 +101,7 @@ uint64_t leaves_of(const uint32_t* record) {
     return record[0] | uint64_t(record[1]) << 32;
 }
 
-/// The size of a frame in voxels four times as long.
+/// The size of a frame in voxels that are four times as long.
 glm::ivec3 coarse_size(const GridFrame& frame) {
     return (frame.size + 3) / 4;
 }
@@ -159,7 +159,7 @@ DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& py
 }
 
 std::optional<DilationLevel> dilation_for(double voxels_a_pixel) {
-    const double radius = 1.5 * voxels_a_pixel;  // of the rays through 4 x 4 pixels
+    const double radius = 1.5 * voxels_a_pixel;  // radius of the rays of 4 x 4 pixels
     if (radius <= VXL_BEAM_RADIUS) return DilationLevel::leaves;
     if (radius <= 4 * VXL_BEAM_RADIUS) return DilationLevel::bricks;
     return std::nullopt;

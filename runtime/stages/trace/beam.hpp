@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rays -> beams: how far groups of neighbouring rays run through empty space together.
+// rays -> beams: the distance over which groups of neighbouring rays share empty space.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ enum class DilationLevel { leaves, bricks };
 struct DilatedOccupancy {
     Buffer<uint32_t> sectors, bricks;
     DilationLevel of = DilationLevel::leaves;
-    std::vector<glm::ivec3> sectors_with_voxels;  ///< those of the pyramid
+    std::vector<glm::ivec3> sectors_with_voxels;  ///< sectors of the pyramid with voxels
 };
 
 /// The buffers of a dilated occupancy whose table has `sectors` entries and `stored` records; and

@@ -14,7 +14,7 @@
 
 namespace voxelume {
 
-/// Numbers of rays that paths have sent on.
+/// Numbers of rays that continue paths.
 struct NextRays {
     uint32_t paths = 0, to_emitters = 0;
 };
@@ -32,13 +32,12 @@ class ExtendStage {
   public:
     ExtendStage(const Device& device, const Features& features, Surroundings surroundings);
 
-    /// Says which sky paths send rays to. Needed for features with `sky_rays` only.
+    /// Sets the sky to which paths send rays. Needed for features with `sky_rays` only.
     void set_sky(SkyMap sky) { sky_ = std::move(sky); }
 
     /// Adds the light of entries 0 .. count-1 to the nodes of their sight rays, whose sums the
     /// first surfaces begin, and writes the next rays of their paths to `next`, which has room for
-    /// as many.
-    /// Where paths look for emitters or the sky, rays to these go to `to_emitters`, which has as
+    /// as many. If paths send rays to emitters or the sky, these go to `to_emitters`, which has as
     /// much room.
     NextRays paths(const Pyramid& pyramid, const PathSampling& sampling,
                    const EmitterTable& emitters, RayBatch& entries, uint32_t count, bool is_first,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// paths in a medium that scatters light -> the points where it does, the light there, and the
+// paths in a scattering medium -> the points where it scatters them, the light there, and the
 // paths' next rays.
 #pragma once
 
@@ -33,25 +33,24 @@ class MediumPathStage {
     MediumPathStage(const Device& device, const Features& features, const float4& absorption,
                     const MediumScattering& scattering, DensityGrid density);
 
-    /// Says which sky paths send rays to. Needed for features with `sky_rays` only.
+    /// Sets the sky to which paths send rays. Needed for features with `sky_rays` only.
     void set_sky(SkyMap sky) { sky_ = std::move(sky); }
 
-    /// Finds the paths of entries 0 .. count-1, whose hits are known, that are scattered before
-    /// these hits. Marks the entries, and writes the points to `points`, which has room for all.
-    /// Returns their number.
+    /// Finds those of entries 0 .. count-1, whose hits are known, that are scattered before their
+    /// hits. Marks the entries, and writes the scattering points to `points`, which has room for
+    /// all. Returns their number.
     uint32_t scatter(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& entries,
                      uint32_t count, RayBatch& points);
 
-    /// Chooses points that a light is near to on entries 0 .. count-1, whose hits are known, and
-    /// writes them to `points`. Returns their number. Call it for rays that begin their paths
-    /// (`is_first`) at any time, for others before `scatter`, and only for features with
-    /// `near_light`.
+    /// Chooses points near a light along entries 0 .. count-1, whose hits are known, and writes
+    /// them to `points`. Returns their number. Call it for rays that begin their paths (`is_first`)
+    /// at any time, for others before `scatter`, and only for features with `near_light`.
     uint32_t near(const Pyramid& pyramid, const LightRecord& light, const PathSampling& sampling,
                   bool is_first, RayBatch& entries, uint32_t count, RayBatch& points);
     /// Adds the light of these points to the nodes of their sight rays.
     void add_near(RayBatch& points, uint32_t count, NodeLight& nodes);
 
-    /// Queues rays from points 0 .. count-1 to a light without an area, or to one with it.
+    /// Queues rays from points 0 .. count-1 to a light without an area, or to an area light.
     void add_light(const Pyramid& pyramid, const LightRecord& light, RayBatch& points,
                    uint32_t count, ShadowQueue& queue);
     void add_area_light(const Pyramid& pyramid, const LightRecord& light,

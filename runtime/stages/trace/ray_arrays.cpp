@@ -8,8 +8,8 @@
 namespace voxelume {
 namespace {
 
-/// The surface points of a later depth that send on their rays together, as a part of a batch, and
-/// their number in small batches. With two rays each and all features, a depth takes about 300
+/// The part of a batch that limits how many surface points of a later depth are followed together,
+/// and their number in small batches. With two rays each and all features, a depth takes about 300
 /// bytes a ray: 10 MB on a CPU.
 constexpr uint32_t kFollowedPart = 4;
 constexpr uint32_t kFollowedPoints = 1u << 14;
@@ -17,7 +17,7 @@ constexpr uint32_t kFollowedPoints = 1u << 14;
 constexpr const char* kFewerRays =
     "render a smaller image, or with fewer samples a pixel or less depth";
 
-/// Makes arrays of `slots` places on a device.
+/// Allocates arrays with `slots` slots on a device.
 class ArrayMaker {
   public:
     ArrayMaker(const Device& device, uint32_t slots) : device_(device), slots_(slots) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// features -> the arrays of rays on their way through the stages, and the memory that they take.
+// features -> the arrays of rays that pass through the stages, and their memory.
 //
-// What is planned is allocated on a counting device.
+// Planning allocates the arrays on a counting device.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@ namespace voxelume {
 /// The arrays of one depth of paths.
 struct PathDepth {
     RayBatch entries;
-    RayQueue next;              ///< the rays of the layer behind them
-    RayBatch to_emitters;       ///< rays that paths send to emitters, where they do
-    RayQueue next_to_emitters;  ///< those that go on straight through surfaces
-    RayBatch points;            ///< where the medium scatters paths: their ways there, hits of
-                                ///< nothing, and radiance
+    RayQueue next;              ///< rays of the next layer
+    RayBatch to_emitters;       ///< rays from paths to emitters, if any
+    RayQueue next_to_emitters;  ///< such rays that continue straight through surfaces
+    RayBatch points;  ///< points where the medium scatters paths: the ways there, empty hits, and
+                      ///< radiance
     Children children;
     NodeLight nodes;
 };
@@ -33,7 +33,7 @@ inline uint32_t batch_rays(const Device& device, const Features& features) {
 /// to `maximum`.
 uint32_t batch_tiles(const Device& device, const Features& features, int samples, uint32_t maximum);
 
-/// The maximum number of rays that a surface point sends on.
+/// The maximum number of rays that a surface point spawns.
 inline uint32_t branches_of(const Features& features) {
     return features.refracts ? 2 : 1;
 }
@@ -49,8 +49,8 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
 /// Gives the batch new arrays for its rays and hits; holders of the old arrays keep them.
 void renew_sight(const Device& device, RayBatch& batch);
 
-/// The queue for the shadow rays of batches of at most `max_rays` and of the rays that these send
-/// on. Empty if nothing can block light.
+/// The queue for the shadow rays of batches of at most `max_rays`, and for shadow rays that
+/// continue. Empty if nothing can block light.
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
                                   uint32_t max_rays);
 
@@ -65,7 +65,7 @@ uint32_t depth_slots(const Features& features, uint32_t max_rays, size_t depth);
 /// The bytes that rays take on a device.
 struct RayBytes {
     double once = 0;       ///< for the observer's rays and their shadow rays
-    double first = 0;      ///< for those that these send on, the first depth
+    double first = 0;      ///< for their spawned rays, the first depth
     double per_depth = 0;  ///< for the reflected and refracted rays of each further depth
     size_t depth = 0;      ///< maximum number of depths, the first included
 
@@ -74,15 +74,15 @@ struct RayBytes {
     double maximum() const { return minimum() + (depth > 1 ? per_depth * double(depth - 1) : 0); }
 };
 
-/// Sight rays that go together, which are reflected or refracted up to `depth` times, in a scene
-/// with lights or without.
+/// Sight rays of one batch, which are reflected or refracted up to `depth` times, and whether the
+/// scene has lights.
 struct RayCounts {
     uint32_t rays = 0;
     bool is_lit = false;
     size_t depth = 0;
 };
 
-/// All arrays that they may need.
+/// All arrays for these rays.
 struct RayArrays {
     RayBatch batch;
     ShadowQueue shadows;
@@ -90,10 +90,10 @@ struct RayArrays {
 };
 RayArrays allocate_rays(const Device& device, const Features& features, const RayCounts& counts);
 
-/// What these arrays take.
+/// The bytes of these arrays.
 RayBytes ray_bytes(const Features& features, const RayCounts& counts);
 
-/// The most bytes of sight rays and hits that an image retains for the passes of its light.
+/// The maximum bytes of sight rays and hits that an image retains for the passes of its light.
 inline constexpr double kMaxPassHitBytes = double(1u << 30);
 
 /// The bytes of a sight ray and its hit.

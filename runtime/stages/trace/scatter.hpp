@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface points -> the rays that they send on, and the light that these return.
+// surface points -> the rays that they spawn, and the light that these return.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace voxelume {
 
-/// The counters of kernels that send rays on, as in kernels/lib/light/paths.h.
+/// The counters of kernels that spawn rays, as in kernels/lib/light/paths.h.
 inline constexpr uint32_t kCountLayer = 0, kCountChildren = 1, kCountEnded = 2, kPathCounters = 3;
 inline constexpr uint32_t kCountToEmitters = kCountLayer;  ///< global light has no layers
 
@@ -22,7 +22,7 @@ struct Children {
     Buffer<uint32_t> nodes;  ///< node of each entry's reflected ray; `stride` later that of its
                              ///< refracted ray
     Buffer<float> child_weights;  ///< the part of the child node's light that the surface returns;
-                                  ///< behind them with VXL_TINTED the colours of what it mirrors
+                                  ///< followed, with VXL_TINTED, by the colours of mirrored light
     Buffer<float> node_weights;   ///< 3: the weight of that light in the entry's node
 };
 
@@ -40,8 +40,8 @@ struct NodeLight {
 void bind(KernelArguments& to, const NodeLight& nodes);
 
 /// Called for each layer of surfaces along an observer's rays, the nearest first, after its light
-/// was added to the nodes. Entry n of the first layer is ray n; entries of other layers name their
-/// ray in `paths`.
+/// was added to the nodes. Entry n of the first layer is ray n; entries of later layers have their
+/// ray's number in `paths`.
 using LayerSink =
     std::function<void(const RayBatch& entries, uint32_t count, bool is_first, const NodeLight&)>;
 
@@ -49,7 +49,7 @@ using LayerSink =
 class ScatterStage {
   public:
     /// With `compact` = false every surface point gets a slot for each of its possible rays, used
-    /// or not. That serves to measure what compaction gains.
+    /// or not. This serves to measure the gain of compaction.
     ScatterStage(const Device& device, const Features& features, Surroundings surroundings,
                  float min_weight, bool compact);
 
@@ -70,10 +70,10 @@ class ScatterStage {
     void gather(const RayBatch& entries, uint32_t begin, uint32_t end, const Children& children,
                 const NodeLight& child_nodes, NodeLight& nodes);
 
-    /// Sets which analytic solids transmit light: the numbers of their first records.
+    /// Sets the analytic solids that transmit light: the numbers of their first records.
     void set_bodies(Buffer<uint32_t> solids) { bodies_ = std::move(solids); }
 
-    uint64_t ended() const { return ended_; }  ///< paths ended for their small weight
+    uint64_t ended() const { return ended_; }  ///< paths that ended because of their small weight
 
   private:
     uint32_t take(uint32_t counter);

@@ -30,8 +30,8 @@ double depth_of_world(const Observer& observer, const GridFrame& world) {
 Camera camera_of(const Scene& scene, const GridFrame& world) {
     const Observer& observer = scene.observer;
     const glm::dmat3& axes = observer.world_from_observer;
-    // Rays of a pyramid or box far from the world start at the world's depth: on the way there
-    // float would lose precision.
+    // Rays of a pyramid or box far from the world start at the world's depth, since floats would
+    // lose precision on the way there.
     const DisplayShapeRow& shape = shape_row(observer.display);
     const double lead = shape.depth_is_along_z ? depth_of_world(observer, world) : 0.0;
     const glm::dvec3 origin =

@@ -21,9 +21,10 @@ Camera camera_of(const Scene& scene, const GridFrame& world);
 /// The distance between the rays of neighbouring pixels at the middle of the world, in voxels.
 double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world);
 
-/// The positions of the samples in a pixel: x and y, equal for all pixels, in [0, 1) but for
+/// The positions of the samples in a pixel: x and y, equal for all pixels, in [0, 1) except for
 /// filters that are wider than a pixel. A single sample is the centre; several are the R2 sequence
-/// of Roberts 2018, which fills a square evenly for any number, denser where the filter is higher.
+/// of Roberts 2018, which fills a square evenly for any number of samples, denser where the filter
+/// is higher.
 std::vector<float> sample_offsets(int samples, int first = 0,
                                   const ReconstructionFilter& filter = {});
 
@@ -39,8 +40,8 @@ class SightStage {
     /// Sets another observer's camera for the rays from here on; the number of samples stays.
     void look(const Camera& camera) { camera_ = camera; }
 
-    /// From here on tiles are of those pixels that a list names, 16 each: by their numbers along
-    /// the image's rows, or VXL_NO_PIXEL.
+    /// From now on tiles consist of the listed pixels, 16 each: by their numbers along the image's
+    /// rows, or VXL_NO_PIXEL.
     void choose(const Device& device, std::span<const uint32_t> pixels);
 
     /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each. Returns their
@@ -50,7 +51,7 @@ class SightStage {
   private:
     Camera camera_;
     Buffer<float> offsets_;
-    std::optional<Buffer<uint32_t>> pixels_;  ///< only those are seen
+    std::optional<Buffer<uint32_t>> pixels_;  ///< if set, only these pixels are cast
     Program program_;
     Kernel cast_;
 };

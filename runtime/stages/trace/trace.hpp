@@ -28,7 +28,7 @@ struct Surroundings {
     Buffer<uint32_t>
         medium_overflows{};  ///< one number, only in `medium_set_capped` scenes: how often a ray
                              ///< entered more objects at once than its set has room for
-    float4 absorption{};     ///< of the medium, per metre
+    float4 absorption{};     ///< absorption of the medium, per metre
     DensityGrid density{};   ///< ... and its density, if that isn't 1 everywhere
 };
 

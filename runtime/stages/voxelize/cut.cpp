@@ -17,11 +17,10 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kWhite = 0x00FFFFFF;
-constexpr double kFarVoxels = 64;  // how far beyond the frame cut space extends; no distance
-                                   // matters there
+constexpr double kFarVoxels = 64;  // extent of cut space beyond the frame
 
-/// How much of a brick a grid fills. The share of an intersection is the smaller of two, that of a
-/// union the larger.
+/// The part of a brick that a grid fills. An intersection has the smaller of two parts, a union the
+/// larger.
 enum class Share { none, some, all };
 
 Share share_of(uint32_t slot) {
@@ -36,7 +35,7 @@ Share either(Share a, Share b) {
     return std::max(a, b);
 }
 
-/// Makes the grid of the bricks that both operands fill in part.
+/// Makes the grid of the bricks that both operands fill partly.
 class Joiner {
   public:
     Joiner(const Device& device, const BrickGrid& body)
@@ -73,7 +72,7 @@ class Joiner {
     }
 
   private:
-    /// Stores the bricks whose share is neither none nor all. `body` holds the body's slots.
+    /// Stores the bricks that are partly filled. `body` holds the body's slots.
     void store_bricks(const std::vector<uint32_t>& body, const auto& share) {
         std::vector<uint32_t> slots(body.size());
         for (size_t brick = 0; brick < slots.size(); ++brick) {
@@ -121,7 +120,7 @@ class Joiner {
     Device device_;
     Program code_;
     const BrickGrid& body_;
-    std::vector<uint32_t> bricks_, body_slots_;  // of the stored bricks
+    std::vector<uint32_t> bricks_, body_slots_;  // for each stored brick
     BrickGrid grid_;
 };
 
@@ -159,7 +158,7 @@ BrickGrid cut_field(const Device& device, std::shared_ptr<const BrickGrid> body,
     }
     BrickGrid left = with_parts(std::move(parts));
     if (left.brick_count > 0) return left;
-    return voxelize_part(device, rest, false, glm::dmat4(1), frame);  // nothing
+    return voxelize_part(device, rest, false, glm::dmat4(1), frame);  // an empty grid
 }
 
 BrickGrid common_cubes(const Device& device, const CoveredBody& body, const CoveredBody& rest) {

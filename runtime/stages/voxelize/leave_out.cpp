@@ -13,16 +13,16 @@
 namespace voxelume {
 namespace {
 
-/// What is added to distances that are 0, 1, 2 .. nodes from the nearest point, in distance units:
-/// 1.5 voxels, of which walls thinner than two have none, and beyond the walls less from node to
-/// node. The interpolated field bulges outwards next to a rise, by up to a sixteenth of it; where
-/// each rise is a fifth of the next, it sinks all the same.
+/// The increase of distances at 0, 1, 2 .. nodes from the nearest point, in distance units: 1.5
+/// voxels, at which walls thinner than two disappear, and beyond the walls less from node to node.
+/// The interpolated field bulges outwards next to a rise, by up to a sixteenth of it; since each
+/// rise is a fifth of the one before, the surface still sinks.
 constexpr std::array<int, kLeftOut + 1> kRise = {12288, 12288, 12288, 2458, 492, 98};
 
-/// How many times as large the field's voxels may be.
+/// The maximum ratio of the field's voxels to `voxel_edge`.
 constexpr double kLargest = 4.0 / 3;
 
-/// The distances of a grid, in main memory, and how near they are to points.
+/// The distances of a grid in main memory, and which nodes are near points.
 class Nodes {
   public:
     explicit Nodes(const BrickGrid& grid)
@@ -59,7 +59,7 @@ class Nodes {
     std::vector<bool> is_near_;
 };
 
-/// The nodes around `from` that no earlier call has raised, which this one does.
+/// Raises the nodes around `from` that no earlier call has raised, and returns them.
 std::vector<glm::ivec3> raise_around(const std::vector<glm::ivec3>& from, int rise, Nodes& nodes) {
     std::vector<glm::ivec3> raised;
     for (const glm::ivec3& node : from)

@@ -81,9 +81,9 @@ class Outlines {
     std::map<uint32_t, uint32_t> root_of_;
 };
 
-/// Offset, in lattice units, of the point where an outline's caps meet from the outline's middle.
-/// Winding numbers don't depend on that point. Away from the middle itself, centres of voxels
-/// seldom lie on edges between caps, where neither cap has an angle.
+/// The offset, in lattice units, from an outline's middle to the point where its caps meet. Winding
+/// numbers don't depend on that point. Away from the middle, centres of voxels seldom lie on edges
+/// between caps, where neither cap has an angle.
 constexpr glm::i64vec3 kAside(37, 53, 71);
 
 /// The sum and number of an outline's corners, and the vertex at their middle.

@@ -17,11 +17,10 @@ inline constexpr int kLatticePerVoxel = 4096;
 /// every predicate of kernels/lib/voxelize/lattice.h within its bits.
 inline constexpr int kLatticeReach = 16384;
 
-/// Corners and triangles as kernels read them.
+/// Vertices and triangles as kernels read them.
 struct MeshLattice {
     std::vector<glm::ivec3> vertices;   ///< lattice units from the frame's origin
-    std::vector<glm::uvec3> triangles;  ///< the mesh's, in its order, then those that close its
-                                        ///< holes
+    std::vector<glm::uvec3> triangles;  ///< the mesh's in order, then those that close its holes
     size_t surface_triangles = 0;       ///< number of the mesh's own triangles
 };
 

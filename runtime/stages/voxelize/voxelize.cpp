@@ -48,7 +48,7 @@ DeviceTriangles part_of(DeviceTriangles all, size_t first, size_t count) {
     return all;
 }
 
-/// Makes the bricks that hold triangles the stored bricks.
+/// Makes the bins with triangles the grid's stored bricks.
 void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.bins = std::move(bins);
     job.grid.brick_count = job.bins.stored;
@@ -56,13 +56,13 @@ void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.grid.slots = allocate_slots(job.device, "brick slots", job.grid.frame);
 }
 
-/// True if the options need to know where a mesh's inside is.
+/// True if the options need the inside of a mesh.
 bool needs_inside(const VoxelizeOptions& options) {
     return stores_distances(options.surface) ||
            (shows_voxels(options.surface) && options.set == VoxelSet::solid);
 }
 
-/// Lattice units by which `exact` voxels are widened: rays meet corners that aren't snapped.
+/// The lattice units by which `exact` voxels are widened: rays meet corners that aren't snapped.
 constexpr int kListMargin = 1;
 
 /// The mesh with its triangles' corners in the opposite order. A map that mirrors turns them back.
@@ -74,10 +74,10 @@ Mesh turned_over(Mesh mesh) {
     return mesh;
 }
 
-// The kinds of surfaces fit the bits of a voxel's kind, whose last number is taken.
+// The kinds of surfaces fit the bits of a voxel's kind, whose last number is in use.
 static_assert(kSurfaceKinds.size() <= VXL_KIND_EXACT_IN_CUBE);
 
-/// What the mesh's groups and colours give to voxels; the packed attributes are those of
+/// The values that the mesh's groups and colours give to voxels; the packed attributes are those of
 /// shared/voxel.h.
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     MeshLabels labels;
@@ -93,7 +93,7 @@ MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     return labels;
 }
 
-/// Keeps the triangles that `exact` voxels list, for rays: their corners in voxels, not rounded.
+/// Stores the triangles that `exact` voxels list, for rays: their corners in voxels, not rounded.
 void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                     const MeshLabels& labels) {
     std::vector<glm::vec3> voxels;
@@ -113,7 +113,7 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
         Buffer<uint32_t>(job.device, "source attributes", std::span<const uint32_t>(words));
 }
 
-/// The normals of the triangles' corners, for light; empty for a mesh that is shaded flat.
+/// The normals of the triangles' corners for lighting; empty for a mesh with flat shading.
 std::vector<uint32_t> normals_of(const GridFrame& frame, const Mesh& mesh,
                                  const glm::dmat4& frame_from_mesh, const Shading& shading) {
     const std::vector<glm::vec3> normals = corner_normals(mesh, shading);

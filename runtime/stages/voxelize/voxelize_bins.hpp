@@ -38,21 +38,20 @@ struct TriangleBins {
 /// VXL_BINS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const TriangleBins& bins);
 
-/// What sorting finds.
+/// The counts that sorting yields.
 struct BinCounts {
-    size_t bins = 0;      ///< of the frame, and of the column left of it
-    size_t occupied = 0;  ///< those that hold triangles
-    size_t stored = 0;    ///< of these, the frame's
-    size_t pairs = 0;     ///< of a triangle and a bin
+    size_t bins = 0;      ///< bins of the frame, and of the column left of it
+    size_t occupied = 0;  ///< bins with triangles
+    size_t stored = 0;    ///< bins with triangles in the frame
+    size_t pairs = 0;     ///< pairs of a triangle and a bin
 };
 
-/// The arrays of a mesh's lattice, of bins, and of the places up to which bins are filled.
+/// The arrays of a mesh's lattice, of bins, and of the current ends of bins' lists.
 DeviceTriangles allocate_triangles(const Device& device, size_t vertices, size_t triangles);
 TriangleBins allocate_bins(const Device& device, const BinCounts& counts);
 Buffer<uint32_t> allocate_cursors(const Device& device, size_t bins);
 
-/// Turns counts into where each one's share starts; returns the total. Throws Error::limit for
-/// 2^32.
+/// Turns counts into the starts of ranges; returns the total. Throws Error::limit for 2^32.
 uint64_t starts_of_counts(std::vector<uint32_t>& counts);
 
 /// Sorts triangles into bricks: a triangle is in the bin of each brick whose closed box of `extent`

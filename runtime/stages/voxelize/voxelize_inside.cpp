@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// triangles of each brick -> which of its points are inside, by winding numbers.
+// triangles of each brick -> the brick's points that are inside, by winding numbers.
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 
@@ -36,7 +36,7 @@ std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
     return states.read();
 }
 
-/// The stored bricks by state: those with surface, in their order, and the others in between.
+/// The stored bricks by state: those with surface, in their order, and the new ones between them.
 struct Restored {
     std::vector<uint32_t> slots, coordinates, first, numbers;
 };

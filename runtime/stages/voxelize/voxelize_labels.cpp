@@ -17,7 +17,7 @@ double label_band(const GridFrame& frame) {
     return 0.35 + 0.5 * double(glm::length(glm::vec3(edge_scale(frame))));
 }
 
-/// The numbers of what triangles' corners have: their own, or those of their vertices.
+/// The indices of corners' attributes: triangles' own, or those of their vertices.
 Buffer<uint32_t> corner_indices(const VoxelizeJob& job, const char* name,
                                 const std::vector<glm::uvec3>& indices) {
     if (indices.empty()) return job.triangles.triangles;

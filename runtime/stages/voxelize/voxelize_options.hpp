@@ -21,7 +21,7 @@ inline bool has_cube_normals(const VoxelizeOptions& options) {
     return shows_voxels(options.surface) && options.normals == CubeNormals::surface;
 }
 
-/// The options that a model asks for.
+/// The options of a model.
 inline VoxelizeOptions options_of(const Model& model) {
     return {.surface = model.surface,
             .set = model.set,

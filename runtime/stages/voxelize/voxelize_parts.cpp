@@ -10,13 +10,13 @@
 namespace voxelume {
 namespace {
 
-/// What a bracket of a formula, or the parts before some part of it, are in a frame.
+/// The content of a frame: the result of a bracket of a formula, or of the parts joined so far.
 struct JoinedParts {
-    std::vector<GridPart> parts;  ///< whose surfaces pass the frame
-    bool is_full = false;         ///< without parts: they fill the frame instead of being outside
+    std::vector<GridPart> parts;  ///< parts whose surfaces pass the frame
+    bool is_full = false;         ///< without parts: the frame is inside; otherwise outside
 };
 
-/// Joins parts to those before them, and drops what decides nothing.
+/// Joins parts to those before them, and drops those that decide nothing.
 void join(JoinedParts& all, JoinedParts next, FieldLink link) {
     const bool is_union = link == FieldLink::least;
     const bool is_idle = all.parts.empty() && all.is_full != is_union;
@@ -37,8 +37,8 @@ bool is_within(const GridPart& part, size_t depth, uint32_t bracket) {
     return depth == 0 || (around.size() >= depth && around[depth - 1].number == bracket);
 }
 
-/// Joins the parts in the bracket at `depth` that begins with the first of `left`, and takes them
-/// from there.
+/// Joins the parts in the bracket at `depth` that begins with the first of `left`, and removes them
+/// from `left`.
 JoinedParts join_bracket(std::span<GridPart>& left, size_t depth) {
     const uint32_t bracket = depth > 0 ? left.front().place.brackets[depth - 1].number : 0;
     JoinedParts all;

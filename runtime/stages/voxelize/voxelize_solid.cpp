@@ -54,8 +54,7 @@ class SolidVoxelizer {
     }
 
   private:
-    /// The length of `voxels` times half a voxel's diagonal, plus `more`, in shortest edges,
-    /// rounded up.
+    /// `voxels` times half a voxel's diagonal, plus `more`, in shortest edges, rounded up.
     float reach(double voxels, double more) const {
         return std::nextafter(static_cast<float>(voxels * half_diagonal_ + more), INFINITY);
     }

@@ -33,16 +33,16 @@ BrickGrid voxelize_solid(const Device& device, const Solid& solid,
                          const glm::dmat4& frame_from_solid, const GridFrame& frame,
                          const VoxelizeOptions& options);
 
-/// Does what voxelize_solid does for a `smooth` solid, or for all that lies outside of it.
+/// Voxelizes a `smooth` solid as voxelize_solid does, or everything outside of it.
 BrickGrid voxelize_part(const Device& device, const Solid& solid, bool is_complement,
                         const glm::dmat4& frame_from_solid, const GridFrame& frame);
 
-/// The grids of a formula's parts, in its order, as one grid with parts: those that decide
-/// somewhere in the frame, which is that of all. The grid has no bricks if none does.
+/// The grids of a formula's parts, in its order, as one grid with parts. Only parts that decide
+/// somewhere in the common frame are kept. The grid has no bricks if there are none.
 BrickGrid with_parts(std::vector<GridPart> parts);
 
-/// Does what voxelize_solid does for a `smooth` solid, and gives each of its parts, as parts_of has
-/// them, a grid of its own where its surface passes through the frame.
+/// Voxelizes a `smooth` solid as voxelize_solid does, with a grid for each of its parts_of() whose
+/// surface passes through the frame.
 BrickGrid voxelize_parts(const Device& device, const Solid& solid,
                          const glm::dmat4& frame_from_solid, const GridFrame& frame);
 

@@ -8,8 +8,8 @@
 namespace voxelume {
 namespace {
 
-/// The slices of a brick that one work-item handles: all of them where cores are few, else one
-/// layer of leaves.
+/// The number of a brick's slices that one work-item handles: all of them on devices with few
+/// cores, else one layer of leaves.
 int slices_per_item(const Device& device) {
     return device.is_cpu() ? kBrickSize : kLeafSize;
 }

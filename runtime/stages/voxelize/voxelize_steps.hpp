@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of voxelizing a mesh. Each runs a few kernels on what the steps before left in the job.
+// The steps of voxelizing a mesh. Each runs a few kernels on the results of earlier steps in the
+// job.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -15,10 +16,10 @@ namespace voxelume {
 /// The state that the steps of one call share.
 struct VoxelizeJob {
     const Device& device;
-    DeviceTriangles triangles;  ///< the mesh's own
+    DeviceTriangles triangles;  ///< triangles of the mesh
     DeviceTriangles caps;       ///< the triangles that close its open outlines
     TriangleBins bins;          ///< the bins of the stored bricks
-    glm::ivec4 size, bricks;    ///< the frame's, in voxels and in bricks
+    glm::ivec4 size, bricks;    ///< size of the frame in voxels and in bricks
     BrickGrid grid;             ///< the result so far
     bool has_points = false;    ///< the mesh is points and lines alone
 
@@ -38,21 +39,21 @@ glm::ivec3 band_reach(const GridFrame& frame, double band);
 /// Winding numbers of a closed mesh.
 struct Windings {
     Buffer<int16_t> numbers;     ///< 4096 per brick with triangles, from its left face
-    Buffer<int16_t> row_starts;  ///< 256 per bin with triangles: at its left face
-    Buffer<int16_t> passing;     ///< one per brick of the frame: of those without triangles
+    Buffer<int16_t> row_starts;  ///< 256 per bin with triangles: numbers at its left face
+    Buffer<int16_t> passing;     ///< one per brick of the frame: in those without triangles
 };
 
 /// VXL_WINDING_PARAMETERS of kernels.
 void bind(KernelArguments& to, const Windings& windings);
 
-/// Allocate arrays: of winding numbers in `stored` bricks and `bins` with triangles, for a frame of
-/// `places` bricks; of which points of stored bricks are inside, row by row; and of triangles'
-/// shapes.
+/// Allocates winding numbers for `stored` bricks and `bins` with triangles, in a frame of `places`
+/// bricks. The other two functions allocate the rows of inside points of stored bricks, and the
+/// shapes of triangles.
 Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places);
 Buffer<uint16_t> allocate_inside(const Device& device, size_t stored);
 Buffer<float> allocate_shapes(const Device& device, size_t triangles);
 
-/// Vectors and lengths of each triangle that do not depend on a brick, for distances.
+/// The vectors and lengths of each triangle that do not depend on a brick, for distances.
 Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance);
 
 /// Computes the SUPERCOVER or THIN occupancy, whichever `cover` was built for.
@@ -83,9 +84,9 @@ void list_primitives(VoxelizeJob& job, const Program& exact);
 
 /// The values that voxels take from the mesh's groups, colours and normals.
 struct MeshLabels {
-    uint32_t attributes = 0;                    ///< of a voxel without a triangle
-    std::vector<uint32_t> triangle_attributes;  ///< empty: one value for all
-    const Mesh* mesh = nullptr;                 ///< what has the colours
+    uint32_t attributes = 0;                    ///< value for voxels without a triangle
+    std::vector<uint32_t> triangle_attributes;  ///< empty: one value for all triangles
+    const Mesh* mesh = nullptr;                 ///< mesh with the colours
     bool has_normals = false;                   ///< cubes get normals of the surface
     std::vector<uint32_t> corner_normals{};     ///< as in BrickGrid::triangle_normals; empty: each
                                                 ///< triangle's own

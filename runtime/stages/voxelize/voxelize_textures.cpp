@@ -34,7 +34,7 @@ class VoxelAreas {
     glm::dvec3 unit_;
 };
 
-/// The share of a texture that a triangle covers; negative where a corner has no place.
+/// The share of a texture that a triangle covers; negative if a corner has no UV.
 double uv_area(const Mesh& mesh, size_t triangle) {
     const glm::uvec3& t =
         mesh.triangle_uvs.empty() ? mesh.triangles[triangle] : mesh.triangle_uvs[triangle];
@@ -65,7 +65,7 @@ std::vector<uint32_t> words_of(const VoxelizeJob& job, const Mesh& mesh) {
 
 uint32_t texture_level(double texels, double voxels, int levels) {
     uint32_t level = 0;
-    // A level has a quarter of the texels of the one before: halfway there is a half.
+    // A level has a quarter of the texels of the one before, so the geometric mean is a half.
     for (; int(level) + 1 < levels && texels > 2 * voxels; ++level) texels /= 4;
     return level;
 }

@@ -13,24 +13,24 @@ inline constexpr const char* kTextureWords = "texture words";
 inline constexpr const char* kUvs = "texture places";
 inline constexpr const char* kCornerUvs = "texture corners";
 
-/// Everything empty for a mesh without textures.
+/// The textures; empty for a mesh without.
 struct DeviceTextures {
-    Buffer<uint32_t> texels;   ///< of all textures and levels
+    Buffer<uint32_t> texels;   ///< texels of all textures and levels
     Buffer<uint32_t> records;  ///< four a texture; shared/texture.h
     Buffer<uint32_t> words;    ///< one a triangle; shared/texture.h
 };
 
-/// The level of a texture on which a triangle's texels are closest in size to voxels: the area of
-/// the triangle is `texels` on the first level, and `voxels` squares of the shortest edge.
+/// The level of a texture whose texels are closest in size to voxels: the area of the triangle is
+/// `texels` on the first level, and `voxels` squares of the shortest edge.
 uint32_t texture_level(double texels, double voxels, int levels);
 
 /// Kernels gather by signed indices.
 inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
 
-/// Tells whether the alpha of textures counts where rays meet them.
+/// The effect of textures' alpha where rays meet them.
 enum class TextureAlpha : uint8_t { counts, is_ignored };
 
-/// Textures as they were written: where each begins, from their start, and a hash of all.
+/// Written textures: the start of each, relative to the first, and a hash of all.
 struct WrittenTextures {
     std::vector<uint32_t> places;
     uint64_t hash = 0;
@@ -41,17 +41,18 @@ struct WrittenTextures {
 WrittenTextures write_textures(const Mesh& mesh, Buffer<uint32_t>& words, size_t start,
                                TextureAlpha alpha);
 
-/// What a mesh's triangles wear, in the words of shared/texture.h; `places` are those of textures.
+/// The textures on a mesh's triangles, in the words of shared/texture.h; `places` are the positions
+/// of textures.
 std::vector<uint32_t> worn_words(const Mesh& mesh, const std::vector<uint32_t>& places);
 
-/// What triangles of exact voxels wear, as the job's grid keeps it for rays. Meshes without
+/// Stores the textures of exact voxels' triangles in the job's grid for rays. Meshes without
 /// textures get nothing. Throws Error::limit for more texels than a device's buffer holds.
 void keep_textures(VoxelizeJob& job, const Mesh& mesh);
 
-/// The words of all textures in BrickGrid::textures.
+/// The number of words of all textures in BrickGrid::textures.
 uint64_t texture_words(const MeshPaint& paint);
 
-/// Throws Error::limit for more texels than a device's buffer holds.
+/// Uploads a mesh's textures. Throws Error::limit for more texels than a device's buffer holds.
 DeviceTextures upload_textures(const VoxelizeJob& job, const Mesh& mesh);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// a mesh's textures -> what its exact triangles wear, for the rays that meet them.
+// a mesh's textures -> the textures of its exact triangles, for the rays that meet them.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ uint32_t corner_color(const Mesh& mesh, size_t triangle, int corner) {
            uint32_t(srgb_code(color.z)) << 16;
 }
 
-/// Writes pieces of textures one behind the other, and hashes them.
+/// Writes textures one after another, and hashes them.
 class TextureWriter {
   public:
     TextureWriter(Buffer<uint32_t>& words, size_t start)
@@ -56,7 +56,7 @@ class TextureWriter {
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
-/// Where each texture begins, behind the records of its maps.
+/// The position of each texture, after the records of its maps.
 std::vector<uint32_t> texture_places(const Mesh& mesh) {
     std::vector<uint32_t> places;
     places.reserve(mesh.textures.size());

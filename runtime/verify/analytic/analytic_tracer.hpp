@@ -12,7 +12,7 @@
 
 namespace voxelume::oracle {
 
-/// What a ray sees.
+/// The result of tracing a ray.
 struct Seen {
     glm::dvec3 radiance{0};
     uint64_t signature = 0;  ///< hash of every decision on the way: which surfaces, lit or not,

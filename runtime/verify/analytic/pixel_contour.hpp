@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// What an ideal image shows at a pixel's centre.
+/// The content of an ideal image at a pixel's centre.
 enum class PixelSide : uint8_t {
     outside,
     inside,

@@ -28,7 +28,8 @@ void check_names(const std::vector<std::string>& names) {
                         suggest(name, known));
 }
 
-/// The scenes in their own order: those that are named, or without names those that are there.
+/// Selects the scenes in their own order: those that are named, or without names those that are
+/// available.
 void choose_scenes(const v1::BenchOptions& options, BenchOptions& result) {
     const std::vector<std::string>& names = options.scenes;
     check_names(names);
@@ -97,7 +98,7 @@ Image reference(const std::filesystem::path& file, const GlobalScene& scene) {
     return api::inside(read);
 }
 
-/// Adds what other programs measured.
+/// Adds the measurements of other programs.
 void add_peers(const std::filesystem::path& file, BenchOptions& options) {
     PeerResults peers = read_peers(file);
     check_size(peers, file, options.size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels that there are, and what devices have launched of them, for callers.
+// The list of kernels, and the launches of each on a device, for callers.
 #include "runtime/api/border/guarded.hpp"
 #include "runtime/api/border/handles.hpp"
 #include "runtime/opencl/self_test/self_test.hpp"

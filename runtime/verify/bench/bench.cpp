@@ -43,7 +43,7 @@ BenchReport describe(const Device& device, const BenchOptions& options) {
     return report;
 }
 
-/// What the rows of one subject and size are compared with.
+/// The truths with which the rows of one subject and size are compared.
 struct Measured {
     const BenchSubject& subject;
     const BenchTruth& truth;

@@ -50,7 +50,7 @@ struct BenchRow {
     int resolution = 0;     ///< voxels per metre
     double voxel_size = 0;  ///< metres
     double min_radius = 0;  ///< minimum radius of curvature, metres; 0 for edges, or if unknown
-    BenchTimes seconds;     ///< times of the repeat with the least total
+    BenchTimes seconds;     ///< times of the repeat with the smallest total
     uint64_t voxels = 0;
     uint64_t world_bytes = 0;  ///< bytes of the world's pyramid
     uint64_t peak_bytes = 0;   ///< maximum of bytes on the device at once
@@ -63,7 +63,7 @@ struct BenchRow {
     bool is_best = false;  ///< true on the Pareto front of total time and depth RMS in its scene
 };
 
-/// How fast the errors of one scene and surface decrease with the size of voxels.
+/// The rates at which the errors of one scene and surface decrease with the size of voxels.
 struct BenchFit {
     std::string scene;
     Surface surface = Surface::cubes;
@@ -86,7 +86,7 @@ struct BenchReport {
     std::vector<BenchRow> rows;
     std::vector<BenchFit> fits;
     std::vector<BenchPeerRow> peers;
-    std::vector<GlobalRow> global_rows;  ///< of each scene ours, then those of other programs
+    std::vector<GlobalRow> global_rows;  ///< rows of each scene: ours, then those of other programs
     std::vector<GlobalFit> global_fits;
 };
 

@@ -19,8 +19,9 @@ namespace {
 
 constexpr const char* kColors[] = {"R", "G", "B"};
 
-/// The references' samples begin here and at twice this number. Sequences of samples are shuffled
-/// in blocks of powers of two, so these blocks tell nothing of the first one.
+/// The number of the first sample of the references; the second one begins at twice this number.
+/// Sequences of samples are shuffled in blocks of powers of two, so these samples are independent
+/// of the first block.
 constexpr int kFirstOfReferences = 1 << 20;
 
 /// Each reference has at least this many samples, and twice as many as any row, but no more than a
@@ -34,7 +35,7 @@ Scene cornell_scene(glm::ivec2 size) {
     return scene;
 }
 
-/// The scene whose noise is measured: of the samples that each row says, at the frame's own moment.
+/// The scene for measuring noise: with the samples of each row, at the frame's own moment.
 Scene measured_scene(Scene scene) {
     scene.observer.shutter = 0;
     scene.render.light = LightMode::global;

@@ -25,7 +25,7 @@ using References = std::array<Image, 2>;
 struct GlobalScene {
     std::string name;
     Scene scene;
-    std::optional<References> references;  ///< another program's; without them ours are made
+    std::optional<References> references;  ///< of another program; none: this program makes them
 };
 
 /// A scene that the program has, by its name.
@@ -35,7 +35,7 @@ struct GlobalEntry {
     Scene (*open)(glm::ivec2 size);
 };
 
-/// All of them, in the order of measurement.
+/// All entries, in the order of measurement.
 std::span<const GlobalEntry> global_entries();
 
 /// A scene with a number of samples, by this program or by another.
@@ -45,13 +45,13 @@ struct GlobalRow {
     int samples = 0;          ///< per pixel
     double relative_mse = 0;  ///< see `relative_mse`
     double light = 0;         ///< mean light over that of the references; 0: not known
-    double seconds = 0;       ///< of the picture alone, without building the world
+    double seconds = 0;       ///< time of the picture alone, without building the world
     BenchTimes times{};       ///< of this program's picture, with its world, which counts neither
                               ///< among `kernels` nor `programs`
     uint64_t peak_bytes = 0;  ///< maximum of bytes on the device at once; 0: not known
 };
 
-/// How fast the error of a program's pictures of a scene falls.
+/// The slope at which the error of a program's pictures of a scene falls.
 struct GlobalFit {
     std::string program, scene;
     SlopeFit by_samples, by_seconds;
@@ -60,11 +60,11 @@ struct GlobalFit {
 /// The mean over pixels and colours of the squared error over the squared light, to which a
 /// hundredth of the picture's squared mean is added for what is dark.
 ///
-/// The error's square is the product of the differences from both references, so that their noise
-/// adds nothing to it on average: it doesn't depend on each other's, nor on the image's. What
-/// remains of it, in the light that is divided by, makes the error larger by about 1.5 times the
-/// square of the relative noise of a reference. Of references that are black it is 0, or NaN if
-/// the image isn't. All have the same size.
+/// The squared error is the product of the differences from both references. Their noise and the
+/// image's are independent, so it adds nothing on average. Noise in the light by which errors are
+/// divided makes the result larger by about 1.5 times the square of a reference's relative noise.
+/// For black references the result is 0, or NaN if the image isn't black. All images have the same
+/// size.
 double relative_mse(const Image& image, const References& references);
 
 /// Measures a scene with each number of samples, ascending. Of `repeats` pictures and a first one,

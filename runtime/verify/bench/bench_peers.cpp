@@ -117,7 +117,7 @@ GlobalRow global_row_of(const Json& json, const Place& place) {
     return row;
 }
 
-/// The names of two files. They lie beside the file that names them.
+/// The paths of two files in the folder of the file that names them.
 std::array<std::filesystem::path, 2> references_of(const Json& json, const Place& place) {
     if (!json.is_array() || json.size() != 2 || !json[0].is_string() || !json[1].is_string())
         place.refuse("it is {}, not the names of two pictures", kind_of(json));

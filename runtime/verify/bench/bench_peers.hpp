@@ -31,7 +31,7 @@ struct BenchPeerRow {
     double total_seconds() const { return build_seconds + trace_seconds; }
 };
 
-/// What other programs measured.
+/// The measurements of other programs.
 struct PeerResults {
     std::vector<BenchPeerRow> rows;
     glm::ivec2 size{0};  ///< pixels of the images of `rows`; 0: the file has none

@@ -12,7 +12,7 @@ namespace voxelume {
 /// ground is an exact instance, equal for all voxel sizes and surfaces.
 Scene shadow_scene(const BenchSubject& subject, Surface surface, int resolution, glm::ivec2 size);
 
-/// Which of the ground's pixels lie in the subject's shadow.
+/// The ground's pixels that lie in the subject's shadow.
 struct ShadowTruth {
     glm::ivec2 size{0};
     std::vector<PixelSide> sides;  ///< inside: in shadow; unknown: not the ground

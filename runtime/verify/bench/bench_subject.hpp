@@ -20,7 +20,7 @@ namespace voxelume {
 using FirstHit = std::function<std::optional<AnalyticHit>(const glm::dvec3& origin,
                                                           const glm::dvec3& direction)>;
 
-/// The light that such a ray brings. Several threads may call it.
+/// The light along such a ray. Several threads may call it.
 using Radiance = std::function<glm::dvec3(const glm::dvec3& origin, const glm::dvec3& direction)>;
 
 /// A subject that can be rendered with any surface, in voxels of any size.

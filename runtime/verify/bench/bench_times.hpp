@@ -21,7 +21,7 @@ struct BenchTimes {
 /// A row isn't measured again once its renders have taken this many seconds.
 inline constexpr double kMaxRowSeconds = 1;
 
-/// Lets the device's counters begin anew.
+/// Resets the device's counters.
 void clear_counters(const Device& device);
 
 /// The times of a render, after clear_counters().

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conclusions from rows of errors and times: how fast errors decrease, and which choices nothing
-// beats.
+// Conclusions from rows of errors and times: the rate at which errors decrease, and the choices
+// that are on the Pareto front.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The errors at which other programs are quicker, and those at which they aren't.
+// The ranges of errors in which other programs are faster, and those in which they aren't.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace voxelume {
 
 struct BenchReport;
 
-/// The results of one program that none of its others beats: errors, descending, and the
-/// seconds that they take, ascending.
+/// The results of one program that none of its other results beats: errors, descending, and their
+/// seconds, ascending.
 using ErrorFront = std::vector<std::pair<double, double>>;
 
 /// The front of such pairs, which come in any order. Pairs that aren't positive are left out.
@@ -30,7 +30,7 @@ struct FrontPiece {
 std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other,
                                        double coarse);
 
-/// What errors are called in sentences: "from 0.019 m of depth RMS", "to 2.1e-05 m".
+/// The words for errors in sentences: "from 0.019 m of depth RMS", "to 2.1e-05 m".
 struct ErrorWords {
     const char* unit;
     const char* measure;

@@ -20,17 +20,18 @@ std::string program_of(const std::string& program) {
     return program.empty() ? kOurs : program;
 }
 
-/// Unknown values are empty.
+/// A value as text; empty if unknown.
 std::string known(double value, const char* format) {
     return value > 0 ? fmt::format(fmt::runtime(format), value) : "";
 }
 
-/// An error that isn't known is a dash.
+/// An error as text; a dash if unknown.
 std::string error_text(double error, const char* format) {
     return std::isnan(error) ? "-" : fmt::format(fmt::runtime(format), error);
 }
 
-/// A row's error times its time, which is even where errors fall as those of independent samples.
+/// A row's error times its time, which is constant where errors fall as those of independent
+/// samples.
 double product_of(const GlobalRow& row) {
     return row.relative_mse * row.seconds;
 }

@@ -210,7 +210,7 @@ std::string bench_text(const BenchReport& report) {
 
 std::string bench_csv(const BenchReport& report) {
     std::vector<std::map<std::string, std::string>> rows;
-    std::vector<std::string> names;  // of all rows, in the order in which they come
+    std::vector<std::string> names;  // names in all rows, in the order in which they come
     const auto add = [&](const nlohmann::ordered_json& flat) {
         std::map<std::string, std::string> values;
         for (const auto& [path, value] : flat.items()) {

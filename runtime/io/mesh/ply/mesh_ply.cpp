@@ -170,7 +170,7 @@ class BodyParser {
             corner_uvs_.push_back(rows_.number_or_nan(property.type));
     }
 
-    /// Appends the face's triangles, its colour, and what its corners have of a texture.
+    /// Appends the face's triangles, its colour, and the UVs of its corners.
     void append_face(const PlyLayout& layout) {
         const size_t before = mesh_.triangles.size();
         cutter_.append(source_, corners_, mesh_);
@@ -188,7 +188,8 @@ class BodyParser {
             mesh_.triangle_uvs.push_back(places + first);
     }
 
-    /// Triangles in strips: each index makes one with the two before it, and -1 ends a strip.
+    /// Parses triangle strips: each index makes a triangle with the two before it, and -1 ends a
+    /// strip.
     void parse_strips(const PlyElement& element) {
         const PlyProperty& corners = corners_of(element, "tristrips");
         for (uint64_t i = 0; i < element.count; ++i) {
@@ -233,7 +234,7 @@ class BodyParser {
 
     void skip_element(const PlyElement& element) {
         if (element.properties.empty()) {
-            return;  // such elements take no bytes, however many there are
+            return;  // such elements take no bytes, whatever their number
         }
         for (uint64_t i = 0; i < element.count; ++i) {
             rows_.begin_row();
@@ -261,7 +262,7 @@ class BodyParser {
     std::vector<uint32_t> corners_;
     std::vector<double> corner_uvs_;  ///< u and v of the face's corners, if it has them
     std::vector<float> alphas_;       ///< one a vertex, if they have any
-    bool has_face_alpha_ = false;     ///< of some that don't cover all
+    bool has_face_alpha_ = false;     ///< some faces aren't opaque
     PlyRow row_{};
 };
 

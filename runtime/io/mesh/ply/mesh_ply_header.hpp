@@ -41,7 +41,7 @@ struct PlyHeader {
     PlyFormat format;
     std::vector<PlyElement> elements;
     const char* body;     ///< the first byte after the header's last line
-    std::string texture;  ///< of the first comment TextureFile; empty without one
+    std::string texture;  ///< name in the first comment TextureFile; empty without one
 };
 
 /// Parses the header. Throws Error::input with the line for a header that isn't PLY 1.0, and with

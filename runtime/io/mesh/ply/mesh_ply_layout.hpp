@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the properties of a PLY file's vertices and faces mean, classified before rows are read.
+// The meaning of the properties of a PLY file's vertices and faces, classified before rows are
+// read.
 #pragma once
 
 #include "runtime/io/mesh/ply/mesh_ply_header.hpp"
@@ -34,7 +35,7 @@ using PlyRow = std::array<double, kPlyRoles>;
 
 struct PlyLayout {
     std::vector<PlyRole> roles;  ///< one per property
-    PlyRow scale{};              ///< what stands for 1
+    PlyRow scale{};              ///< the value that stands for 1
     bool has_color = false;
     bool has_alpha = false;
     bool has_normal = false;
@@ -53,12 +54,11 @@ inline bool is_ply_color(PlyRole role) {
 /// colours of another type than uchar, ushort, float and double; alpha of another one is skipped.
 PlyLayout ply_vertex_layout(const MeshSource& source, const PlyElement& element);
 
-/// The layout of faces, of which nothing but the colour and its alpha counts. Colours of other
-/// types are skipped.
+/// The layout of faces: only the colour and its alpha count. Colours of other types are skipped.
 PlyLayout ply_face_layout(const PlyElement& element);
 
-/// The linear colour of a row; a negative first component where it is out of range, with the value
-/// and its maximum as the others.
+/// The linear colour of a row. If it is out of range, the first component is negative, and the
+/// others are the value and its maximum.
 glm::dvec3 ply_color(const PlyRow& row, const PlyLayout& layout);
 
 }  // namespace voxelume

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// What surfaces of a width return of light at an angle of this cosine.
+/// The light that surfaces of a width return at an angle of this cosine.
 FacetAlbedo albedo_at(double cosine, double width) {
     FacetAlbedo sum;
     for_each_facet(cosine, width, [&sum](const SeenFacet& facet) {
@@ -23,7 +23,7 @@ FacetAlbedo albedo_at(double cosine, double width) {
     return sum;
 }
 
-/// The value of one of the two rows of a table at a place between its entries.
+/// The value of one of the two rows of a table at an index between its entries.
 double between(const AlbedoTable& table, int row, double at) {
     return between_entries(table.values, VXL_ALBEDO_FLOATS, row, at);
 }

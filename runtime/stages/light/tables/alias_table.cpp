@@ -7,7 +7,7 @@ std::vector<AliasSlot> alias_table(std::span<const double> weights) {
     double sum = 0;
     for (const double weight : weights) sum += weight;
     std::vector<AliasSlot> slots(weights.size());
-    std::vector<double> left;  // of each number's weight, in slots
+    std::vector<double> left;  // remaining weight of each number, in slots
     std::vector<uint32_t> poor, rich;
     left.reserve(weights.size());
     for (uint32_t i = 0; i < weights.size(); ++i) {
@@ -15,7 +15,7 @@ std::vector<AliasSlot> alias_table(std::span<const double> weights) {
         slots[i].alias = i;
         (left[i] < 1 ? poor : rich).push_back(i);
     }
-    // A poor number leaves the rest of its slot to a rich one, which may become poor by that.
+    // A poor number gives the rest of its slot to a rich one, which may become poor by that.
     while (!poor.empty() && !rich.empty()) {
         const uint32_t low = poor.back(), high = rich.back();
         poor.pop_back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// weights -> a table that chooses each number in proportion to its weight, in one look.
+// weights -> a table that chooses each number in proportion to its weight, with one lookup.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace voxelume {
 
-/// One of equally probable slots: number i itself with this share, or else another number.
+/// One of equally probable slots: number i itself with this share, otherwise another number.
 struct AliasSlot {
     double own_share = 1;
     uint32_t alias = 0;

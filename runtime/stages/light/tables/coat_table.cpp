@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kCoatReflectance = VXL_COAT_REFLECTANCE;
 
-/// What the coat returns in the directions of facets below more than at the angle itself, on
-/// average over the facets: of all light, and of the part (1 - m)^5.
+/// The excess of the coat's reflection in the directions of facets below over that at the angle
+/// itself, on average over the facets: of all light, and of the part (1 - m)^5.
 FacetAlbedo losses_at(double cosine, double coat_width, double width, const AlbedoTable& coat) {
     const double here = coat_returned(coat, coat_width, cosine);
     FacetAlbedo losses, seen;

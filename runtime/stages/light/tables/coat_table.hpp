@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// widths of a coat's highlights and of those below it -> what the coat takes from the latter.
+// widths of a coat's highlights and of those below -> the light that the coat takes from the
+// latter.
 #pragma once
 
 #include <array>
@@ -9,25 +10,25 @@
 
 namespace voxelume {
 
-/// The table of kernels/shared/scene.h, and means over all directions, by their cosine, for a coat
-/// that is everywhere.
+/// The table of kernels/shared/scene.h, and means over all directions, weighted by their cosine,
+/// for a coat on the whole surface.
 struct CoatTable {
     std::array<float, VXL_ALBEDO_ENTRIES * 2> values{};
-    double returned = 0;                   ///< by the coat
-    double taken = 0, taken_by_angle = 0;  ///< from what facets below return at once
+    double returned = 0;                   ///< share that the coat returns
+    double taken = 0, taken_by_angle = 0;  ///< shares of the light that facets below return at once
 };
 
-/// What a coat returns at an angle, whose facets have this table and width.
+/// The share that a coat returns at an angle; its facets have this table and width.
 double coat_returned(const AlbedoTable& table, double width, double cosine);
 
-/// The part of what a coat's facets miss that they return later.
+/// The part of the light missing from a coat's facets that they return later.
 double coat_later(const AlbedoTable& table);
 
-/// The table of a coat over facets of a width, both as width_of has them. It takes about 60 ms, but
-/// for tables that the process has asked for before. Any thread may call it.
+/// The table of a coat over facets of a width, both as width_of has them. It takes about 60 ms,
+/// except for tables that the process has asked for before. Any thread may call it.
 CoatTable coat_table(double coat_width, double width);
 
-/// The means of facets below a coat that is on a share of the surface.
+/// The means of facets below a coat that covers a share of the surface.
 AlbedoMeans means_under_coat(const AlbedoMeans& facets, const CoatTable& coat, double share);
 
 }  // namespace voxelume

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The albedo of facets is the mean, over those that are seen, of the part that others don't hide:
-// Heitz 2014, "Understanding the Masking-Shadowing Function"; seen facets as Dupuy & Benyoub 2023
-// find them, by points of a spherical cap.
+// The albedo of facets is the mean, over visible facets, of the part that other facets don't hide:
+// Heitz 2014, "Understanding the Masking-Shadowing Function". Visible facets are sampled as in
+// Dupuy & Benyoub 2023, by points of a spherical cap.
 #include "runtime/stages/light/tables/facet_rings.hpp"
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 namespace voxelume {
 namespace {
 
-/// Light that comes at an angle to facets, and what a ring of those that it sees returns. With the
-/// surface stretched until facets are a sphere, the light comes along (x, 0, z).
+/// Light that comes to facets at an angle, and the reflection of a ring of facets that it reaches.
+/// With the surface stretched until facets are a sphere, the light comes along (x, 0, z).
 struct FacetRing {
-    double width = 1, sine = 0, cosine = 1;  // the light's
+    double width = 1, sine = 0, cosine = 1;  // of the light
     double length = 1, x = 0, z = 1;         // of (width * sine, 0, cosine), and its direction
-    double radius = 0, height = 0;           // the ring's
+    double radius = 0, height = 0;           // of the ring
 
     /// The angles around the ring that mirror light upwards: the height of the mirrored direction
     /// is a quotient of linear functions of the angle's cosine.
@@ -32,7 +32,7 @@ struct FacetRing {
         return {edge, std::numbers::pi};
     }
 
-    /// The facets at an angle around the ring, by a share of all.
+    /// The facets at an angle around the ring, which are a share of all.
     SeenFacet at(double turn, double share) const {
         const double hx = width * (radius * std::cos(turn) + x);
         const double across = width * radius, along = hx - width * x;
@@ -72,7 +72,7 @@ void for_each_facet(double cosine, double width, const std::function<void(const 
 }
 
 void for_each_cosine(const std::function<void(double share, double cosine)>& add) {
-    constexpr int kSteps = 4096;  // of the cosines' logarithms
+    constexpr int kSteps = 4096;  // steps of the cosines' logarithms
     constexpr double kMin = 1e-6;
     const auto at = [](double step) { return std::pow(kMin, 1 - step / kSteps); };
     for (int step = 0; step < kSteps; ++step)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facets of a rough surface that are seen from a direction.
+// The facets of a rough surface that are visible from a direction.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ inline double squared(double x) {
 
 /// Facets that look one way.
 struct SeenFacet {
-    double seen = 0;   ///< the share of what is seen that they are and other facets don't hide
+    double seen = 0;   ///< share of these unhidden facets in all that is visible
     double out = 0;    ///< cosine of the direction in which they mirror light
     double meets = 0;  ///< cosine of the angle at which they meet it
 };
@@ -22,7 +22,7 @@ struct SeenFacet {
 /// all light.
 void for_each_facet(double cosine, double width, const std::function<void(const SeenFacet&)>& add);
 
-/// Calls `add` with cosines, and the share of even light that comes at each.
+/// Calls `add` with cosines, and with the share of uniform light that comes at each.
 void for_each_cosine(const std::function<void(double share, double cosine)>& add);
 
 }  // namespace voxelume

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is returned at once is the mean over facets that are seen, by points of a spherical cap
-// (Dupuy & Benyoub 2023), of what each reflects and refracts that others don't hide.
+// The light returned at once is the mean over visible facets, sampled by points of a spherical cap
+// (Dupuy & Benyoub 2023), of what each reflects and refracts, without the part that others hide.
 #include "runtime/stages/light/tables/glass_table.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ double second_power(double x) {
     return x * x;
 }
 
-/// Fresnel's reflectance of unpolarised light, and the cosine of the refracted angle: 0 where all
-/// is reflected.
+/// Fresnel's reflectance of unpolarised light, and the cosine of the refracted angle: 0 for total
+/// reflection.
 struct Bend {
     double reflected = 1, cosine = 0;
 };
@@ -31,7 +31,7 @@ Bend bend_at(double eta, double c) {
     return {(second_power(across) + second_power(along)) / 2, t};
 }
 
-/// The share of light that other facets hide from one, along a direction of this height.
+/// The share of light along a direction of this height that other facets hide from a facet.
 double stretched(double width, double height) {
     return std::sqrt(second_power(width) * (1 - second_power(height)) + second_power(height));
 }
@@ -40,7 +40,7 @@ struct Returned {
     double back = 0, through = 0;
 };
 
-/// What a surface returns at once of light at an angle of this cosine. `eta` is the index on the
+/// The light that a surface returns at once at an angle of this cosine. `eta` is the index on the
 /// light's side over the other.
 Returned returned_at(double cosine, double width, double eta) {
     constexpr int kRings = 192, kParts = 96;
@@ -78,12 +78,12 @@ Returned returned_at(double cosine, double width, double eta) {
 
 constexpr int kLastAngle = VXL_GLASS_ENTRIES - 1;
 
-/// The place of a cosine in tables, from 0 to kLastAngle.
+/// The index of a cosine in tables, from 0 to kLastAngle.
 double place_of(double width, double cosine) {
     return kLastAngle * (std::sqrt(cosine * (1 + width) / (cosine + width)) + cosine) / 2;
 }
 
-/// The cosine of a place, by halves.
+/// The cosine of an index, found by bisection.
 double cosine_at(double width, double place) {
     constexpr int kHalves = 60;
     double low = 0, high = 1;
@@ -111,7 +111,7 @@ void set_side(double width, double eta, size_t side, GlassTable& table) {
         table.values[size_t(2 * entry) + side] = float(std::max(1 - r.back - r.through, 0.0));
     }
     constexpr int kSteps = 4096;
-    constexpr double kMin = 1e-9;  // of a mean that others are divided by
+    constexpr double kMin = 1e-9;  // minimum of a mean that others are divided by
     double sum = 0;
     for (int step = 0; step < kSteps; ++step) {
         const double cosine = (step + 0.5) / kSteps;
@@ -120,7 +120,7 @@ void set_side(double width, double eta, size_t side, GlassTable& table) {
     table.missing[side] = std::max(sum, kMin);
 }
 
-/// The part that gets through, of all light that facets return at once to even light from outside.
+/// The part of uniform light from outside, of all that facets return at once, that gets through.
 double part_through(double width, double ior) {
     constexpr int kAngles = 32;
     Returned sum;
@@ -138,7 +138,8 @@ GlassTable make_glass_table(double width, double ior) {
     set_side(width, 1 / ior, 0, table);
     set_side(width, ior, 1, table);
     // Light after the first scattering passes equally in both directions, per square of the index,
-    // so that paths are reversible. From outside, it is the part that passes at once.
+    // so that paths are reversible. From outside, it has the ratio of the light that passes at
+    // once.
     const double squared = second_power(ior);
     const double max = squared / table.missing[0];
     const double scale = std::min(part_through(width, ior) / table.missing[1], max);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// width of highlights and index of refraction -> the light that rough glass doesn't return at once.
+// width of highlights and index of refraction -> the share of light that rough glass doesn't return
+// at once.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ struct GlassTable {
 };
 
 /// The table of facets of a width, from 1/1024 to 1, between media of this index of refraction,
-/// which isn't 1. It takes about 0.6 s, but for tables that the process has asked for before. Any
-/// thread may call it.
+/// which isn't 1. It takes about 0.6 s, except for tables that the process has asked for before.
+/// Any thread may call it.
 GlassTable glass_table(double width, double ior);
 
 }  // namespace voxelume
