@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "cli/shared/shell_text.hpp"
+
 namespace voxelume::cli {
 namespace {
 
@@ -19,9 +21,7 @@ constexpr std::array kSettingsOfTests = {
 std::string shell_word(const std::string& text) {
     const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-    return word + "'";
+    return quoted(text);
 }
 
 }  // namespace

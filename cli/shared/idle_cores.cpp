@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <thread>
 
 namespace voxelume::cli {
@@ -40,6 +41,12 @@ double quota_of_groups(const fs::path& root, const fs::path& group, bool is_vers
     return min;
 }
 
+/// The folder of version 2's groups: where version 1's are mounted, too, it has a name.
+fs::path folder_of_version_2(const fs::path& mount) {
+    std::error_code error;
+    return fs::exists(mount / "cgroup.controllers", error) ? mount : mount / "unified";
+}
+
 /// The minimum of the quotas that the process's groups of both versions set.
 double quota_of_process(const CoreFiles& files) {
     std::ifstream groups(files.groups);
@@ -51,7 +58,7 @@ double quota_of_process(const CoreFiles& files) {
         const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
         const fs::path group = line.substr(second + 1);
         if (controllers == ",,")
-            min = std::min(min, quota_of_groups(files.mount, group, true));
+            min = std::min(min, quota_of_groups(folder_of_version_2(files.mount), group, true));
         else if (controllers.find(",cpu,") != std::string::npos)
             min = std::min(min, quota_of_groups(files.mount / "cpu", group, false));
     }

@@ -37,7 +37,19 @@ TEST_F(IdleCores, AreThoseOnWhichNothingElseRuns) {
     EXPECT_LE(idle(), 0);
 }
 
-TEST_F(IdleCores, AreAtMostThoseThatAControlGroupAllows) {
+/// Cores that a limit takes away from.
+class LimitedIdleCores : public IdleCores {
+  protected:
+    void SetUp() override {
+        IdleCores::SetUp();
+        if (cores < 2) GTEST_SKIP() << "no limit shows on the one core that this process has";
+        put("cgroup.controllers", "cpu memory");  // version 2 alone
+    }
+    /// Version 1 is mounted, too.
+    void mount_both() const { std::filesystem::remove(folder / "cgroup.controllers"); }
+};
+
+TEST_F(LimitedIdleCores, AreThoseThatAControlGroupAllows) {
     put("job/cpu.max", "max 100000");
     EXPECT_EQ(idle(), cores - 1);
     put("job/step/cpu.max", "100000 100000");
@@ -49,16 +61,52 @@ TEST_F(IdleCores, AreAtMostThoseThatAControlGroupAllows) {
     EXPECT_LT(idle(), 0) << "the group around it counts too";
 }
 
-TEST_F(IdleCores, AreAtMostThoseOfTheFirstVersionsGroupsToo) {
+TEST_F(LimitedIdleCores, AreThoseThatAContainersRootAllows) {
+    put("groups", "0::/");
+    EXPECT_EQ(idle(), cores - 1) << "the machine's root has no quota";
+    put("cpu.max", "max 100000");
+    EXPECT_EQ(idle(), cores - 1);
+    put("cpu.max", "100000 100000");
+    EXPECT_EQ(idle(), 0);
+    put("groups", "0::/system.slice/docker-5f.scope");
+    EXPECT_EQ(idle(), 0) << "the path is as it is outside of the container";
+}
+
+TEST_F(LimitedIdleCores, AreThoseOfTheFirstVersionsGroups) {
+    mount_both();
     put("groups", "5:memory:/job\n4:cpu,cpuacct:/job");
     put("cpu/job/cpu.cfs_quota_us", "-1");
     put("cpu/job/cpu.cfs_period_us", "100000");
     EXPECT_EQ(idle(), cores - 1);
     put("cpu/job/cpu.cfs_quota_us", "100000");
     EXPECT_EQ(idle(), 0);
+    put("groups", "5:cpuset:/job\n4:cpu:/");
+    EXPECT_EQ(idle(), cores - 1) << "the group of another controller has no cores";
+    put("cpu/cpu.cfs_quota_us", "100000");
+    put("cpu/cpu.cfs_period_us", "100000");
+    EXPECT_EQ(idle(), 0) << "a container's root";
 }
 
-TEST_F(IdleCores, AreAtMostThoseThatTheProcessIsBoundTo) {
+/// Systemd mounts both versions unless it is told otherwise; either may have the cores.
+TEST_F(LimitedIdleCores, AreThoseOfBothVersionsGroups) {
+    mount_both();
+    put("groups", "4:cpu,cpuacct:/job\n1:name=systemd:/job/step\n0::/job/step");
+    put("cpu/job/cpu.cfs_quota_us", "-1");
+    put("cpu/job/cpu.cfs_period_us", "100000");
+    put("unified/job/step/cgroup.controllers", "");
+    EXPECT_EQ(idle(), cores - 1);
+    put("cpu/job/cpu.cfs_quota_us", "100000");
+    EXPECT_EQ(idle(), 0);
+    put("cpu/job/cpu.cfs_quota_us", "-1");
+    put("unified/job/cpu.max", "100000 100000");
+    EXPECT_EQ(idle(), 0);
+    put("groups", "4:cpu,cpuacct:/\n0::/");
+    EXPECT_EQ(idle(), cores - 1);
+    put("unified/cpu.max", "100000 100000");
+    EXPECT_EQ(idle(), 0);
+}
+
+TEST_F(LimitedIdleCores, AreThoseThatTheProcessIsBoundTo) {
     cpu_set_t before, first;
     ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
     CPU_ZERO(&first);

@@ -47,12 +47,26 @@ while read -r pattern; do
         *) grep -qxF "$pattern" <<<"$plain" ;;
     esac || { echo "slow_tests.txt: \"$pattern\" matches no test: is it LIST/SUITE.NAME/*?"; failed=1; }
 done <<<"$left"
-whole=$(sed -nE '/^[^\/]+$/p; s#^[^/]+/([^/]+)/\*$#\1#p' <<<"$left") # left out with all parameters
+whole=$(sed -nE '/^[^\/]+$/p; s#^[^/]+/([^/]+)(/\*)?$#\1#p' <<<"$left") # left out with all parameters
+
+# What stays are whole names with commas between them, and perhaps a remark in brackets. No pattern
+# may leave them out.
+stays=$(sed -E 's/.*\| *//; s/ \([^()]*\)$//' <<<"$rules")
+name='([A-Z][A-Za-z0-9]*/)?[A-Z][A-Za-z0-9]*\.([A-Z][A-Za-z0-9_]*|\*)(/[A-Za-z0-9_]+)?'
+while read -r line; do
+    echo "slow_tests.txt: \"$line\" isn't a list of tests, as in Suite.Test, List/Suite.Test/2"
+    failed=1
+done < <(grep -vxE "$name(, $name)*" <<<"$stays")
+named=$(sed 's/, /\n/g' <<<"$stays" | sort -u)
+while read -r name; do
+    suite=${name#*/}
+    grep -qxF "${name%%/*}.${suite%%.*}" <<<"$lists" ||
+        { echo "slow_tests.txt has $name stay, which is in no list of parameters"; failed=1; }
+done < <(grep / <<<"$named")
 while read -r name; do
     echo "slow_tests.txt has $name stay, and leaves it out"
     failed=1
-done < <(grep -oE '[A-Z][A-Za-z0-9]*\.[A-Z][A-Za-z0-9_]*' <<<"$(sed 's/.*|//' <<<"$rules")" | sort -u |
-    grep -xFf <(echo "$whole"))
+done < <(grep -xf <(sed 's/[.]/\\&/g; s/\*/.*/g' <<<"$whole"$'\n'"$left") <<<"$named")
 
 # Each case keeps a test in the default run.
 while read -r case names; do

@@ -54,22 +54,36 @@ mv "$compiler" "$compiler.own"
 printf '#!/bin/sh\necho >>started\nexec "%s.own" "$@"\n' "$compiler" >"$compiler"
 chmod +x "$compiler"
 
+# helpers: how many have told that they were started.
+helpers() { cat started 2>/dev/null | wc -l; }
+
 # expect_helpers NUMBER PERMITTED ARGUMENT...: expects that the program, given the arguments, starts
-# so many helpers when kernels aren't compiled yet and so many may run.
+# so many helpers when kernels aren't compiled yet and so many may run. Helpers end with the program,
+# on a busy machine before they have told. So what is expected to start some writes an image to
+# standard output, which is more than a pipe holds and isn't read before, for at most a minute. A
+# helper without work ends after ten seconds, though.
 expect_helpers() {
+    local image program tries=0
     rm -rf started kernels
-    VOXELUME_CACHE_DIR=$PWD/kernels VOXELUME_COMPILERS=$2 VOXELUME_SELF_TEST=off \
-        VOXELUME_BUILD_OPTIONS=-cl-opt-disable bin/voxelume "${@:3}" >log 2>&1 || { cat log; failed=1; }
-    [ "$(cat started 2>/dev/null | wc -l)" -eq "$1" ] && return
-    echo "voxelume ${*:3}: $(cat started 2>/dev/null | wc -l) helpers instead of $1"
+    exec {image}< <(VOXELUME_CACHE_DIR=$PWD/kernels VOXELUME_COMPILERS=$2 VOXELUME_SELF_TEST=off \
+        VOXELUME_BUILD_OPTIONS=-cl-opt-disable exec bin/voxelume "${@:3}" 2>log)
+    program=$!
+    until [ "$(helpers)" -ge "$1" ] || ! kill -0 "$program" 2>/dev/null || ((++tries == 1200)); do
+        sleep 0.05
+    done
+    cat <&"$image" >/dev/null
+    exec {image}<&-
+    wait "$program" || { cat log; failed=1; }
+    [ "$(helpers)" -eq "$1" ] && return
+    echo "voxelume ${*:3}: $(helpers) helpers instead of $1"
     failed=1
 }
 
-small=("$scenes/whitted.json" --size 32x24 --samples 1)
-expect_helpers 1 1 render "${small[@]}" -o a.png
-expect_helpers 2 2 render "$scenes/solids.json" --size 32x24 --samples 1 -o b.png
-expect_helpers 0 0 render "${small[@]}" -o a.png
-expect_helpers 0 1 check "${small[@]}"
+small=(--size 128x96 --samples 1 --float -o -.exr)
+expect_helpers 1 1 render "$scenes/whitted.json" "${small[@]}"
+expect_helpers 2 2 render "$scenes/solids.json" "${small[@]}"
+expect_helpers 0 0 render "$scenes/whitted.json" "${small[@]}"
+expect_helpers 0 1 check "$scenes/whitted.json" --size 32x24 --samples 1
 expect_helpers 0 1 voxelize a.obj --resolution 16 -o c.vxm
 
 for script in share/voxelume/scenes/farm/{parallel.sh,slurm_submit.sh,slurm_part.sbatch,slurm_merge.sbatch}; do
