@@ -114,11 +114,12 @@ Defines constants_of(const std::string& source, int value) {
     static const std::set<std::string> defined = [] {
         std::set<std::string> names;
         for (const auto& [file, text] : embedded_kernels())
-            for (const SourcePart& part : source_parts(text)) names.insert(part.name);
+            for (const SourcePart& part : source_parts(text, {}))
+                names.insert(part.names.begin(), part.names.end());
         return names;
     }();
     std::set<std::string> names;
-    for (const SourcePart& part : source_parts(source))
+    for (const SourcePart& part : source_parts(source, {}))
         for (const std::string_view word : identifiers(part.text))
             if (word.starts_with("VXL_") && !word.ends_with("_")) names.emplace(word);
     Defines constants;

@@ -12,101 +12,105 @@
 namespace voxelume {
 namespace {
 
-/// A compiler's -D constants as directives, by name.
-std::map<std::string, std::string, std::less<>> constants_of(std::string_view options) {
-    std::map<std::string, std::string, std::less<>> constants;
-    for (const std::string_view given : separate_options(options)) {
-        std::string option(given);
+/// A compiler's -D constants.
+SourceConstants constants_of(std::string_view options) {
+    SourceConstants constants;
+    for (std::string_view option : separate_options(options)) {
         if (!option.starts_with("-D")) continue;
-        const size_t sign = option.find('=');
-        std::string name = option.substr(2, sign == std::string::npos ? sign : sign - 2);
-        if (sign != std::string::npos) option[sign] = ' ';
-        constants[std::move(name)] = "#define " + option.substr(2) + "\n";
+        option.remove_prefix(2);
+        const size_t sign = std::min(option.find('='), option.size());
+        constants[std::string(option.substr(0, sign))] =
+            sign < option.size() ? option.substr(sign + 1) : "1";
     }
     return constants;
 }
 
-/// The references between the parts of a source, and from parts to constants.
+/// Which parts of a source mention which, and which constants.
 class PartGraph {
   public:
-    PartGraph(const std::vector<SourcePart>& parts, std::string_view options)
-        : parts_(parts), constants_(constants_of(options)), links_(parts.size()) {
-        std::unordered_map<std::string_view, std::vector<size_t>> by_name;
+    PartGraph(const std::vector<SourcePart>& parts, const SourceConstants& constants)
+        : parts_(parts), constants_(constants), links_(parts.size()) {
         for (size_t i = 0; i < parts_.size(); ++i)
-            if (!parts_[i].name.empty()) by_name[parts_[i].name].push_back(i);
+            for (const std::string& name : parts_[i].names) by_name_[name].push_back(i);
+        for (size_t i = 0; i < parts_.size(); ++i) link(i);
         for (size_t i = 0; i < parts_.size(); ++i) {
-            for (const std::string_view word : identifiers(parts_[i].text)) {
-                const auto found = by_name.find(word);
-                if (found != by_name.end())
-                    links_[i].parts.insert(found->second.begin(), found->second.end());
-                const auto constant = constants_.find(word);
-                if (constant != constants_.end()) links_[i].constants.insert(&constant->second);
-            }
+            if (!parts_[i].names.empty()) continue;
+            const auto checked = by_name_.find(parts_[i].checked);
+            if (checked == by_name_.end())
+                unnamed_.push_back(i);
+            else
+                links_[checked->second.back()].checks.push_back(i);
         }
-        link_conditions();
     }
 
-    /// The text of a part and of the parts that it needs, with all parts whose names are unknown.
+    /// The text that a part consists of, with the parts whose names can't be told. What a part
+    /// mentions stands before it, in the order in which it is mentioned, whatever the order of the
+    /// source is.
     std::string slice(size_t root) const {
-        std::vector<bool> is_needed(parts_.size());
-        std::vector<size_t> left;
-        const auto need = [&](size_t part) {
-            if (!is_needed[part]) left.push_back(part);
-            is_needed[part] = true;
-        };
-        need(root);
-        for (size_t i = 0; i < parts_.size(); ++i)
-            if (parts_[i].kind == SourcePart::Kind::definition && parts_[i].name.empty()) need(i);
-        std::set<std::string_view> constants;
-        while (!left.empty()) {
-            const Links& links = links_[left.back()];
-            left.pop_back();
-            for (const std::string* constant : links.constants) constants.insert(*constant);
-            for (const size_t part : links.parts) need(part);
-        }
+        Slice slice{std::vector<bool>(parts_.size()), {}, {}};
+        for (const size_t part : unnamed_) add(part, slice);
+        add(root, slice);
         std::string text;
-        for (const std::string_view constant : constants) text += constant;
-        for (size_t i = 0; i < parts_.size(); ++i)
-            if (is_needed[i]) text.append(parts_[i].text).append("\n");
+        for (const std::string_view name : slice.constants)
+            text.append("#define ")
+                .append(name)
+                .append(" ")
+                .append(constants_.find(name)->second)
+                .append("\n");
+        std::set<std::string_view> directives;
+        for (const size_t part : slice.order)
+            if (!parts_[part].text.starts_with("#pragma") ||
+                directives.insert(parts_[part].text).second)
+                text.append(parts_[part].text).append("\n");
         return text;
     }
 
   private:
     struct Links {
-        std::set<size_t> parts;
-        std::set<const std::string*> constants;
+        std::vector<size_t> parts;   ///< those that it mentions, in its order
+        std::vector<size_t> checks;  ///< those that check it
+        std::vector<std::string_view> constants;
+    };
+    struct Slice {
+        std::vector<bool> is_needed;
+        std::vector<size_t> order;
+        std::set<std::string_view> constants;
     };
 
-    /// Makes each part inside a condition need all directives of the condition.
-    void link_conditions() {
-        std::vector<std::vector<size_t>> inside;  // the parts in each open condition
-        std::vector<std::vector<size_t>> directives;
-        for (size_t i = 0; i < parts_.size(); ++i) {
-            const SourcePart::Kind kind = parts_[i].kind;
-            if (kind == SourcePart::Kind::condition) {
-                if (!inside.empty()) inside.back().push_back(i);
-                inside.emplace_back();
-                directives.emplace_back();
-            }
-            if (kind == SourcePart::Kind::definition) {
-                if (!inside.empty()) inside.back().push_back(i);
-                continue;
-            }
-            if (directives.empty()) continue;  // an end without a beginning
-            directives.back().push_back(i);
-            if (kind != SourcePart::Kind::condition_end) continue;
-            for (const size_t part : inside.back())
-                links_[part].parts.insert(directives.back().begin(), directives.back().end());
-            for (const size_t part : directives.back())
-                links_[part].parts.insert(directives.back().begin(), directives.back().end());
-            inside.pop_back();
-            directives.pop_back();
+    /// A function, or a macro with parameters, has no part in a text that declares a variable of
+    /// its name and doesn't call it.
+    void link(size_t part) {
+        const std::vector<Mention> words = mentions(parts_[part].text);
+        std::set<std::string_view> declared;
+        for (const Mention& mention : words)
+            if (mention.is_declared) declared.insert(mention.word);
+        Links& links = links_[part];
+        for (const Mention& mention : words) {
+            const auto constant = constants_.find(mention.word);
+            if (constant != constants_.end()) links.constants.push_back(constant->first);
+            const auto found = by_name_.find(mention.word);
+            if (mention.is_member || found == by_name_.end()) continue;
+            for (const size_t other : found->second)
+                if (mention.is_call || !parts_[other].is_called || !declared.contains(mention.word))
+                    links.parts.push_back(other);
         }
     }
 
+    void add(size_t part, Slice& slice) const {
+        if (slice.is_needed[part]) return;
+        slice.is_needed[part] = true;
+        const Links& links = links_[part];
+        for (const size_t other : links.parts) add(other, slice);
+        slice.constants.insert(links.constants.begin(), links.constants.end());
+        slice.order.push_back(part);
+        for (const size_t check : links.checks) add(check, slice);
+    }
+
     const std::vector<SourcePart>& parts_;
-    std::map<std::string, std::string, std::less<>> constants_;
+    const SourceConstants& constants_;
+    std::unordered_map<std::string_view, std::vector<size_t>> by_name_;
     std::vector<Links> links_;
+    std::vector<size_t> unnamed_;  ///< the parts that every slice has
 };
 
 }  // namespace
@@ -122,11 +126,12 @@ std::vector<std::string_view> separate_options(std::string_view options) {
 }
 
 std::vector<KernelSlice> slice_kernels(std::string_view source, std::string_view options) {
-    const std::vector<SourcePart> parts = source_parts(source);
-    const PartGraph graph(parts, options);
+    const SourceConstants constants = constants_of(options);
+    const std::vector<SourcePart> parts = source_parts(source, constants);
+    const PartGraph graph(parts, constants);
     std::vector<KernelSlice> slices;
     for (size_t i = 0; i < parts.size(); ++i)
-        if (parts[i].is_kernel) slices.push_back({parts[i].name, graph.slice(i)});
+        if (parts[i].is_kernel) slices.push_back({parts[i].names[0], graph.slice(i)});
     return slices;
 }
 

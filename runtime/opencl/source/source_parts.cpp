@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace voxelume {
-namespace {
 
 bool is_decimal_digit(char c) {
     return c >= '0' && c <= '9';
@@ -15,20 +14,38 @@ bool is_of_identifier(char c) {
     return is_decimal_digit(c) || c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
+namespace {
+
 bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// The words after `#` of a directive.
-SourcePart directive(std::string line) {
+/// A directive that isn't one of a condition.
+SourcePart plain_directive(std::string line) {
     const std::vector<std::string_view> words = identifiers(line);
-    const std::string_view word = words.empty() ? std::string_view() : words[0];
     SourcePart part;
-    if (word == "endif") part.kind = SourcePart::Kind::condition_end;
-    if (word.starts_with("if")) part.kind = SourcePart::Kind::condition;
-    if (word.starts_with("el")) part.kind = SourcePart::Kind::branch;
-    if (word == "define" && words.size() > 1) part.name = words[1];
+    if (words.size() > 1 && words[0] == "define") {
+        part.names.emplace_back(words[1]);
+        const auto end = size_t(words[1].data() + words[1].size() - line.data());
+        part.is_called = end < line.size() && line[end] == '(';
+    }
     part.text = std::move(line);
+    return part;
+}
+
+/// A condition that can't be decided. Macros alone are needed where one of them is.
+SourcePart condition(std::string text) {
+    SourcePart part;
+    bool has_others = false;
+    for (std::string_view left = text; !left.empty();) {
+        const std::string_view line = left.substr(0, left.find('\n'));
+        left.remove_prefix(std::min(line.size() + 1, left.size()));
+        const std::vector<std::string_view> words = identifiers(line);
+        if (line.starts_with("#define") && words.size() > 1) part.names.emplace_back(words[1]);
+        has_others |= !line.starts_with('#') && !words.empty();
+    }
+    if (has_others) part.names.clear();
+    part.text = std::move(text);
     return part;
 }
 
@@ -71,16 +88,24 @@ std::string name_of_declaration(std::string_view outer) {
     return words[0] == "typedef" || has_value ? std::string(words.back()) : std::string();
 }
 
+bool is_macro_call(std::string_view outer) {
+    const size_t mark = std::min(outer.find('('), outer.size());
+    return mark < outer.size() && identifiers(outer.substr(0, mark)).size() == 1;
+}
+
 SourcePart declaration(std::string text) {
     SourcePart part;
     const std::string outer = outline(text);
     if (is_function(outer)) {
         const std::vector<std::string_view> words =
             identifiers(std::string_view(outer).substr(0, outer.find('(')));
-        part.name = words.back();
+        part.names.emplace_back(words.back());
         part.is_kernel = std::ranges::find(words, "kernel") != words.end();
-    } else {
-        part.name = name_of_declaration(outer);
+        part.is_called = true;
+    } else if (std::string name = name_of_declaration(outer); !name.empty()) {
+        part.names.push_back(std::move(name));
+    } else if (const auto words = identifiers(text); words.size() > 1 && is_macro_call(outer)) {
+        part.checked = words[1];
     }
     part.text = std::move(text);
     return part;
@@ -92,80 +117,96 @@ bool is_whole(std::string_view text, char last) {
     return last == ';' || (last == '}' && is_function(outline(text)));
 }
 
-/// `source` without comments, with lines that end in a backslash joined to the next.
-std::string without_comments(std::string_view source) {
-    std::string text;
-    text.reserve(source.size());
-    while (!source.empty()) {
-        size_t skipped = 0;
-        if (source.starts_with("//"))
-            skipped = std::min(source.find('\n'), source.size());
-        else if (source.starts_with("/*"))
-            skipped = std::min(source.find("*/", 2), source.size() - 2) + 2;
-        else if (source.starts_with("\\\n"))
-            skipped = 2;
-        if (skipped == 0) text += source[0];
-        source.remove_prefix(std::max<size_t>(skipped, 1));
-    }
-    return text;
-}
-
-/// `source` without code under `#ifdef __cplusplus`.
-std::string without_cplusplus(std::string_view source) {
-    std::string text;
-    int skipped_depth = 0;  // conditions around a line that is for C++
-    while (!source.empty()) {
-        const size_t end = std::min(source.find('\n'), source.size() - 1) + 1;
-        const std::string_view line = source.substr(0, end);
-        source.remove_prefix(end);
-        if (skipped_depth > 0 && line.starts_with("#endif")) --skipped_depth;
-        if (skipped_depth == 0 && line.starts_with("#ifdef __cplusplus")) {
-            text += "#if 1\n";
-            skipped_depth = 1;
-        } else if (skipped_depth == 0) {
-            text += line;
-        } else if (line.starts_with("#else") && skipped_depth == 1) {
-            skipped_depth = 0;
-        } else if (line.starts_with("#if")) {
-            ++skipped_depth;
+/// Divides the lines of a source into parts.
+class PartReader {
+  public:
+    void take(std::string_view line) {
+        const bool is_directive = line.starts_with('#');
+        if (conditions_ > 0 || (text_.empty() && line.starts_with("#if"))) {
+            take_condition(line);
+        } else if (is_directive && text_.empty()) {
+            parts_.push_back(plain_directive(std::string(line)));
+        } else if (is_directive) {
+            text_.append(line).append("\n");  // the line is inside a declaration
+        } else {
+            for (const char c : line) take(c);
+            take('\n');
         }
     }
-    return text;
+
+    std::vector<SourcePart> parts() && {
+        if (!text_.empty()) parts_.push_back(declaration(std::move(text_)));
+        return std::move(parts_);
+    }
+
+  private:
+    void take_condition(std::string_view line) {
+        text_.append(line);
+        if (line.starts_with("#if")) ++conditions_;
+        if (line.starts_with("#endif")) --conditions_;
+        if (conditions_ == 0)
+            parts_.push_back(condition(std::exchange(text_, {})));
+        else
+            text_ += '\n';
+    }
+
+    void take(char c) {
+        if (text_.empty() && is_space(c)) return;
+        text_ += c;
+        if (c == '(' || c == '{') ++depth_;
+        if (c == ')' || c == '}') --depth_;
+        if (depth_ == 0 && is_whole(text_, c))
+            parts_.push_back(declaration(std::exchange(text_, {})));
+    }
+
+    std::vector<SourcePart> parts_;
+    std::string text_;    ///< of the part that has begun
+    int depth_ = 0;       ///< parentheses and braces that are open
+    int conditions_ = 0;  ///< conditions that are open outside of declarations
+};
+
+/// True if an identifier that stands behind `before` is a variable that is declared there: a type
+/// is before it, or a pointer's mark that clings to a type.
+bool follows_type(std::string_view before) {
+    if (before.empty()) return false;
+    if (before.back() == '*') return before.size() > 1 && is_of_identifier(before.end()[-2]);
+    size_t end = before.size();
+    while (end > 0 && is_space(before[end - 1])) --end;
+    if (end == before.size() || end == 0 || !is_of_identifier(before[end - 1])) return false;
+    size_t start = end;
+    while (start > 0 && is_of_identifier(before[start - 1])) --start;
+    const std::string_view word = before.substr(start, end - start);
+    constexpr std::string_view kNoTypes[] = {"return", "else", "case", "goto", "sizeof", "define"};
+    return !is_decimal_digit(word[0]) && std::ranges::find(kNoTypes, word) == std::end(kNoTypes);
 }
 
 }  // namespace
 
-std::vector<SourcePart> source_parts(std::string_view whole) {
-    const std::string own = without_cplusplus(without_comments(whole));
-    std::string_view source = own;
-    std::vector<SourcePart> parts;
-    std::string text;
-    int depth = 0;
-    bool at_line_start = true;
-    while (!source.empty()) {
-        const char c = source[0];
-        if (at_line_start && c == '#') {
-            const size_t end = std::min(source.find('\n'), source.size());
-            const std::string_view line = source.substr(0, end);
-            source.remove_prefix(end);
-            if (line.starts_with("#line")) continue;
-            if (text.empty())
-                parts.push_back(directive(std::string(line)));
-            else
-                text += line;  // the line is inside a declaration
-            continue;
-        }
-        source.remove_prefix(1);
-        at_line_start = c == '\n' || (at_line_start && is_space(c));
-        if (text.empty() && is_space(c)) continue;
-        text += c;
-        if (c == '(' || c == '{') ++depth;
-        if (c == ')' || c == '}') --depth;
-        if (depth > 0 || !is_whole(text, c)) continue;
-        parts.push_back(declaration(std::exchange(text, {})));
+std::vector<SourcePart> source_parts(std::string_view source, const SourceConstants& constants) {
+    const std::string resolved = resolve_conditions(source, constants);
+    PartReader reader;
+    for (std::string_view left = resolved; !left.empty();) {
+        const size_t end = std::min(left.find('\n'), left.size());
+        reader.take(left.substr(0, end));
+        left.remove_prefix(std::min(end + 1, left.size()));
     }
-    if (!text.empty()) parts.push_back(declaration(std::move(text)));
-    return parts;
+    return std::move(reader).parts();
+}
+
+std::vector<Mention> mentions(std::string_view text) {
+    std::vector<Mention> found;
+    for (const std::string_view word : identifiers(text)) {
+        const auto start = size_t(word.data() - text.data());
+        const std::string_view before = text.substr(0, start);
+        size_t next = start + word.size();
+        while (next < text.size() && is_space(text[next])) ++next;
+        const std::string_view behind = text.substr(next);
+        const bool is_listed =
+            before.ends_with(", ") && (behind.starts_with("= ") || behind.starts_with(';'));
+        found.push_back({word, before.ends_with('.') || before.ends_with("->"),
+                         behind.starts_with('('), is_listed || follows_type(before)});
+    }
+    return found;
 }
 
 std::vector<std::string_view> identifiers(std::string_view text) {

@@ -6,22 +6,38 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/opencl/source/source_conditions.hpp"
+
 namespace voxelume {
 
-/// A directive, a definition or a declaration at the top of a source.
+/// A definition or a declaration at the top of a source, a directive, or a whole condition that
+/// can't be decided.
 struct SourcePart {
-    enum class Kind { definition, condition, branch, condition_end };  ///< #if, #else, #endif
-    Kind kind = Kind::definition;
     std::string text;
-    std::string name;  ///< the defined name; empty if it is unknown
+    std::vector<std::string> names;  ///< the names that it defines; empty if that can't be told
     bool is_kernel = false;
+    bool is_called = false;  ///< a function, or a macro with parameters
+    /// The first argument of a macro that is called at the top, such as a check of a type's size.
+    std::string checked;
 };
 
-/// The parts of an OpenCL source. Comments and `#line` are left out, as is code under `#ifdef
-/// __cplusplus`; lines that end in a backslash are joined to the next.
-std::vector<SourcePart> source_parts(std::string_view source);
+/// The parts of an OpenCL source that is compiled with these constants, without comments; see
+/// resolve_conditions.
+std::vector<SourcePart> source_parts(std::string_view source, const SourceConstants& constants);
+
+/// An identifier in a text.
+struct Mention {
+    std::string_view word;
+    bool is_member = false;    ///< it stands behind . or ->
+    bool is_call = false;      ///< it stands before an opening parenthesis
+    bool is_declared = false;  ///< it stands behind a type, as a variable does that is declared
+};
 
 /// The identifiers in a text, in order and with repeats.
+std::vector<Mention> mentions(std::string_view text);
 std::vector<std::string_view> identifiers(std::string_view text);
+
+bool is_decimal_digit(char c);
+bool is_of_identifier(char c);
 
 }  // namespace voxelume

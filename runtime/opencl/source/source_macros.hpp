@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Macros of a kernel source, and the values of integer expressions with them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/opencl/source/source_conditions.hpp"
+
+namespace voxelume {
+
+/// The macros that are defined at a line of a source.
+class MacroTable {
+  public:
+    explicit MacroTable(const SourceConstants& constants);
+
+    /// Takes what follows #define: a name, parameters in parentheses, and a body.
+    void define(std::string_view text);
+    /// Takes what follows #undef.
+    void forget(std::string_view text);
+    /// Takes what follows either in a condition that can't be decided.
+    void doubt(std::string_view text);
+
+    /// Tells whether a name is defined; nothing if that can't be told.
+    std::optional<bool> is_defined(std::string_view text) const;
+
+    /// The value of what follows #if; nothing if it depends on what isn't known.
+    std::optional<int64_t> value(std::string_view expression) const;
+
+  private:
+    struct Macro {
+        bool is_known = true, has_parameters = false;
+        std::vector<std::string> parameters, body;  ///< the body in tokens
+    };
+    using Tokens = std::vector<std::string>;
+    /// The names of macros that are being expanded, which aren't expanded again.
+    using Hidden = std::set<std::string, std::less<>>;
+
+    Tokens expand(const Tokens& tokens, const Hidden& hidden) const;
+    Tokens expand_macro(const Macro& macro, const Tokens& tokens, size_t& at) const;
+
+    std::map<std::string, Macro, std::less<>> macros_;
+};
+
+}  // namespace voxelume
