@@ -34,7 +34,7 @@ struct Channels {
     bool shadow = false;        ///< shadow.R ...: the part of the direct light that is hidden
     bool light_groups = false;  ///< light_GROUP.R ... of each group of lights, and light_rest.R ...
     /// forward.u, forward.v: the movement of a pixel's point until the next frame, in pixels to the
-    /// right and up; backward.u, backward.v: its position a frame before.
+    /// right and up; backward.u, backward.v: the way back to its position a frame before.
     bool motion = false;
     bool samples = false;  ///< samples: the number of each pixel's samples
     /// noise: the standard error of the light of each 4 x 4 pixels over its mean, as
