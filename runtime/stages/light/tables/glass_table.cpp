@@ -31,8 +31,8 @@ Bend bend_at(double eta, double c) {
     return {(second_power(across) + second_power(along)) / 2, t};
 }
 
-/// The length of a unit vector of this height after its horizontal part is scaled by `width`, from
-/// which the light that facets hide from each other follows.
+/// The length of a unit vector of this height after its horizontal part is scaled by `width`: it
+/// decides how much light facets hide from each other.
 double stretched(double width, double height) {
     return std::sqrt(second_power(width) * (1 - second_power(height)) + second_power(height));
 }
