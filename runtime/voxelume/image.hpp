@@ -79,7 +79,7 @@ struct ImageFileOptions {
     ViewTransform view_transform = ViewTransform::srgb;  ///< PNG: how light becomes colour
     int png_bits = 8;                                    ///< PNG: bits a channel, 8 or 16
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
-    Channels channels{};       ///< OpenEXR: channels to write
+    Channels channels{};       ///< OpenEXR: those of the image's channels that are written
     bool multi_part = false;   ///< OpenEXR: each layer as a part of its own, named as the layer
 };
 
