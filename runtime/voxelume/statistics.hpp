@@ -97,7 +97,7 @@ struct DeviceStatistics {
     int lanes = 1;          ///< rays that one work-item handles
 };
 
-/// The work of a run: sums over its frames and devices; sizes are those of the largest frame.
+/// The work of a run: sums over its frames and devices; for sizes, the maximum over its frames.
 struct Statistics {
     std::vector<DeviceStatistics> devices{};          ///< devices that rendered
     Size size{};                                      ///< pixels of an image

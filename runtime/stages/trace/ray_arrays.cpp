@@ -8,8 +8,8 @@
 namespace voxelume {
 namespace {
 
-/// The rays of at most a batch / kFollowedPart surface points of a later depth are followed
-/// together, or of kFollowedPoints if those are more. With two rays each and all features, a depth
+/// At a later depth, the rays of 1 / kFollowedPart of a batch's surface points are followed
+/// together, or of kFollowedPoints if that is more. With two rays each and all features, a depth
 /// takes about 300 bytes a ray: 10 MB on a CPU.
 constexpr uint32_t kFollowedPart = 4;
 constexpr uint32_t kFollowedPoints = 1u << 14;
