@@ -173,8 +173,8 @@ double max_origin_offset(const Scene& scene, AssetStore& meshes, const std::vect
 }
 
 /// Marks the objects that rays may reach in one frame, in addition to those that earlier frames
-/// marked. Objects marked before count as visible everywhere in the world, so their files may be
-/// `unread`.
+/// marked. The boxes of objects that are marked already don't matter, unless they are emissive. The
+/// `unread` ones, whose files aren't read, are among them.
 void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<bool>& unread,
                              std::vector<bool>& potentially_visible) {
     const std::vector<Object> objects = scene.objects;

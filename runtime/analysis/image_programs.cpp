@@ -34,8 +34,8 @@ bool follows(const Features& f) {
 }
 
 /// The kernels that most images take. The process that renders compiles the others itself: those
-/// for near lights, for mattes, for area lights in a medium, and for lights without an area that
-/// shine together with area lights in global light.
+/// for a medium's points near lights, for mattes, for area lights in a medium, and for lights
+/// without an area that shine together with area lights in global light.
 constexpr KernelRow kKernels[] = {
     {"sight.cl", {"cast_sight"}, always},
     {"trace.cl", {"trace_closest"}, always},

@@ -17,7 +17,7 @@ namespace voxelume {
 
 using SharedGrid = std::shared_ptr<const BrickGrid>;
 
-/// Returns the grid of an object that shows `model`, on a lattice.
+/// Returns the grid of an object that shows `model`, on `lattice`, which may be the model's own.
 using PlacedGridSource = std::function<SharedGrid(const Object& object, const Model& model,
                                                   const ObjectLattice& lattice)>;
 using GridSource = std::function<SharedGrid(const Object& object, const Model& model)>;

@@ -260,8 +260,8 @@ class LargestScales {
 
 /// Sets the voxel sizes of models for which the scene gives none. A `smooth` or `exact` instance
 /// that is larger than its model gets voxels that are as large as the world's where it stands, but
-/// no more voxels along an axis than the world has; exact meshes of many triangles get more. Cubes
-/// keep their size: large cubes are a style.
+/// no more voxels along an axis than the world has along its longest one; exact meshes of many
+/// triangles get more. Cubes keep their size: large cubes are a style.
 void size_instances(Scene& scene, AssetStore& meshes) {
     const double max_voxels = longest(glm::dvec3(scene.world.voxels));
     const LargestScales scales(scene);

@@ -19,7 +19,7 @@ std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world
 struct PathLight {
     LightRecord record;
     std::optional<LightAreaRecord> area;
-    uint32_t number = 0;  ///< index of its random sequence, equal with any other lights
+    uint32_t number = 0;  ///< number of its random samples, which doesn't depend on other lights
 };
 
 /// The lights that a scene lists and its sun, as global light samples them.

@@ -18,7 +18,7 @@ inline constexpr int kMaxVolumeSide = 65536;  ///< maximum of voxels along one a
 /// The number of voxels: size.x * size.y * size.z.
 uint64_t voxel_count(const VolumeFrame& frame);
 
-/// The voxel with index `place` in `indices`.
+/// The voxel whose number, as `indices` have it, is `place`.
 glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place);
 
 /// True if depths count along Z_E, false if along the sight ray.

@@ -23,7 +23,7 @@ struct FramesToPlan {
 
 /// True if both frames have the same plan, since nothing that it depends on changed. Lights matter
 /// only by whether they shine. The observer matters only in images without colour, whose rays are
-/// followed through surfaces that may hide the observer.
+/// followed through surfaces that the observer may be behind.
 bool is_planned_like(const Scene& a, const Scene& b);
 
 /// Chooses among `frames`. Up to kMaxPlannedFrames frames are all chosen without checks. If there

@@ -51,7 +51,7 @@ class PixelContrast {
     const Plane<float>& depth_;
     const Plane<uint32_t>& objects_;
     std::array<const Plane<float>*, 3> normal_{};
-    std::array<std::vector<float>, 3> roots_;  ///< of R, G and B: nearly perceived brightness
+    std::array<std::vector<float>, 3> roots_;  ///< of R, G and B: close to perceived brightness
 };
 
 /// A matte's pair of planes: the objects or materials that cover a pixel, and their shares.

@@ -37,8 +37,9 @@ void Illumination::send_to_points(const PathLight& light, uint32_t count, PathDe
         medium_paths_->add_light(world_, light.record, depth.points, count, queue_);
 }
 
-/// Adds the light of near lights that the medium scatters along the rays: from points where each of
-/// the lights is strongest. Paths that the medium scatters find the rest of this light.
+/// Adds the light of lights at a finite distance that the medium scatters along the rays: from
+/// points where each of the lights is strongest. Paths that the medium scatters find the rest of
+/// this light.
 void Illumination::light_near_points(RayBatch& entries, uint32_t count, bool is_first,
                                      PathDepth& depth) {
     if (!features_.near_light) return;

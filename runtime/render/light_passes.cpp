@@ -116,8 +116,8 @@ bool paths_find_light(const Scene& scene) {
 
 /// The light that comes to the first surface straight from its source. If paths may run into light,
 /// they are followed up to there like those of all light, so that the two images differ by the rest
-/// of the light alone; scattering media end them. (A veil lets the last of these paths pass without
-/// chance, so behind it the two images differ by noise, too.)
+/// of the light alone; but not if the medium scatters light. (A veil lets the last of these paths
+/// pass without chance, so behind it the two images differ by noise, too.)
 Scene direct_light_of(const Scene& scene) {
     Scene result = colors_of(scene);
     const bool follows = !has_scattering(scene) && paths_find_light(scene);

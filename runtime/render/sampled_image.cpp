@@ -227,8 +227,8 @@ Image Renderer::noisy_image(const Scene& scene, const BuiltWorld& world, RenderR
     const auto tell_of_all = [&](uint32_t tile) {
         tiles.share.add_work(per_sample * (maximum - std::exchange(told[tile], maximum)));
     };
-    part.render.channels = averaged(
-        asked.channels);  // the other channels are undefined in tiles that are rendered again
+    // Only these channels are averaged. Tiles that aren't rendered again are undefined in `more`.
+    part.render.channels = averaged(asked.channels);
     for (int done = first; is_sampled_again(scene) && 2 * done <= maximum; done *= 2) {
         const std::vector<TileRange> left = tiles_where(
             tiles.taken, [&](uint32_t tile) { return state.of(tile) == done && needs_more(tile); });

@@ -29,8 +29,8 @@ class TileShare {
     explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
         : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
-    /// Hands out these tiles of another share; closing this share closes the other one. Their work
-    /// is reported to the whole's callback times `weight`.
+    /// Hands out these tiles of another share; closing the other share closes this one, too. Their
+    /// work is reported to the whole's callback times `weight`.
     TileShare(TileShare& whole, std::vector<TileRange> ranges, double weight)
         : tiles_(whole.tiles_),
           maximum_(UINT32_MAX),
@@ -38,8 +38,8 @@ class TileShare {
           whole_(&whole),
           ranges_(std::move(ranges)) {}
 
-    /// Hands out tiles of its own as a part of another share's work; closing this share closes the
-    /// other one. Each tile counts as `weight` tiles of the whole.
+    /// Hands out tiles of its own as a part of another share's work; closing the other share closes
+    /// this one, too. Each tile counts as `weight` tiles of the whole.
     TileShare(TileShare& whole, uint32_t tiles, double weight)
         : tiles_(tiles),
           maximum_(UINT32_MAX),

@@ -9,7 +9,7 @@ namespace voxelume {
 /// The number of samples of a pixel before it is compared with others: one in its middle.
 constexpr int kComparedSamples = 1;
 
-/// The distance, in pixels, at which the filter shows parts of contrasting pixels in others.
+/// The distance, in pixels, up to which the filter shows parts of contrasting pixels in others.
 int contrast_reach(const RenderSettings& render);
 
 /// True if pixels of flat images get more samples where they contrast with others.

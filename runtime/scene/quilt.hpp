@@ -11,7 +11,7 @@ namespace voxelume {
 struct ViewRow {
     int views = 48;    ///< at least 1
     double cone = 40;  ///< degrees between the first and the last position, as seen from the window
-    double focus = 0;  ///< metres along Z_E to the window; 0: to the focus or the world
+    double focus = 0;  ///< metres along Z_E to the window; 0: the focus, else the world's middle
     double separation = 0;  ///< metres between the first and the last position; 0: `cone` decides
 };
 

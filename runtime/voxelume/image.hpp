@@ -34,7 +34,7 @@ struct Channels {
     bool shadow = false;        ///< shadow.R ...: the part of the direct light that is hidden
     bool light_groups = false;  ///< light_GROUP.R ... of each group of lights, and light_rest.R ...
     /// forward.u, forward.v: the movement of a pixel's point until the next frame, in pixels to the
-    /// right and up; backward.u, backward.v: its position a frame before.
+    /// right and up; backward.u, backward.v: the way back to its position a frame before.
     bool motion = false;
     bool samples = false;  ///< samples: the number of each pixel's samples
     /// noise: the standard error of the light of each 4 x 4 pixels over its mean, as
@@ -79,7 +79,7 @@ struct ImageFileOptions {
     ViewTransform view_transform = ViewTransform::srgb;  ///< PNG: how light becomes colour
     int png_bits = 8;                                    ///< PNG: bits a channel, 8 or 16
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
-    Channels channels{};       ///< OpenEXR: channels to write
+    Channels channels{};       ///< OpenEXR: those of the image's channels that are written
     bool multi_part = false;   ///< OpenEXR: each layer as a part of its own, named as the layer
 };
 

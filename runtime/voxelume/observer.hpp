@@ -123,7 +123,7 @@ enum class ReconstructionFilter {
 struct RenderSettings {
     Size size{640, 480};  ///< pixels, 1..kMaxImageSide each
     int samples = 1;      ///< sight rays a pixel, 1..4096
-    double adaptive = 0;  ///< local light: contrast above which pixels get all samples, 0..1
+    double adaptive = 0;  ///< local light, 0..1: pixels above this contrast get all samples; 0: all
     int depth = 5;        ///< reflections and refractions in a row, 0..64
     bool shadows = true;  ///< true: lights cast shadows
     bool filtered_shadows = false;   ///< refracting objects tint light instead of hiding it

@@ -74,7 +74,7 @@ struct Plan {
     /// The memory of each stage. The stages "image" and "volume", of flat and of volumetric images,
     /// only run if such images are asked for.
     std::vector<StagePlan> stages{};
-    std::vector<Warning> warnings{};  ///< probable mistakes, as far as known unrendered
+    std::vector<Warning> warnings{};  ///< probable mistakes, as far as known without rendering
     /// The surfaces of models whose files decide them.
     std::vector<SurfacePlan> surfaces{};
 };
@@ -94,7 +94,7 @@ struct PlanOptions {
 /// device.
 ///
 /// Throws Error as `Scene::load` does for values that are wrong at a frame, and Error::limit for
-/// lattices that can't be numbered at all. If a scene only doesn't fit, its plan is returned.
+/// lattices that can't be numbered at all. A scene that merely doesn't fit has a plan like others.
 Plan plan(const Scene& scene, const Device& device, const PlanOptions& options = {});
 
 /// "1.5 GB": three digits at most.

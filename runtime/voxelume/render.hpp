@@ -68,7 +68,7 @@ struct Quilt {
     int rows = 6;      ///< rows of views; at most 1,000 views in all
     double cone = 40;  ///< degrees between the outermost positions, as seen from the window
     double focus = 0;  ///< metres from the observer to the window, which is the plane of the
-                       ///< screen; 0: to the point that the observer looks at
+                       ///< screen; 0: to the observer's focus, else to the world's middle
     /// Metres between the outermost positions, instead of `cone`, as between the eyes of a stereo
     /// pair with two columns and one row; 0: `cone` counts.
     double separation = 0;

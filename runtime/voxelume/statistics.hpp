@@ -97,7 +97,7 @@ struct DeviceStatistics {
     int lanes = 1;          ///< rays that one work-item handles
 };
 
-/// The work of a run: sums over its frames and devices; sizes are those of the largest frame.
+/// The work of a run: sums over its frames and devices; for sizes, the maximum over its frames.
 struct Statistics {
     std::vector<DeviceStatistics> devices{};          ///< devices that rendered
     Size size{};                                      ///< pixels of an image
@@ -105,12 +105,12 @@ struct Statistics {
     int bands = 1;                                    ///< bands of each image; 1: it was whole
     std::optional<std::array<int, 3>> volume_size{};  ///< voxels of a volumetric image, if any
     size_t files = 0;                                 ///< files written
-    uint64_t voxels = 0;          ///< voxels with a surface, in the largest frame
-    uint64_t triangles = 0;       ///< triangles of the models, in the largest frame
+    uint64_t voxels = 0;          ///< voxels with a surface, in the frame with most
+    uint64_t triangles = 0;       ///< triangles of the models, in the frame with most
     uint64_t culled_objects = 0;  ///< objects that no ray can meet: not voxelized
-    uint64_t world_bytes = 0;     ///< bytes on the device, in the largest frame
+    uint64_t world_bytes = 0;     ///< bytes on the device, in the frame with most
     RayCounts rays{};             ///< counts of all frames
-    InstanceCounts instances{};   ///< counts of the frame with the maximum
+    InstanceCounts instances{};   ///< counts of the frame with most
     StageSeconds seconds{};       ///< seconds of all frames, by stage
     double open_seconds = 0;      ///< seconds before the first frame
     double write_seconds = 0;     ///< seconds of writing files, perhaps while other work went on

@@ -40,8 +40,8 @@ struct TransferPoint {
     std::optional<Color> color{};  ///< radiance of an infinitely deep medium; without it white
 };
 
-/// A float grid of an OpenVDB file, or the values of an array. Its own transform gives metres,
-/// which are then placed.
+/// A float grid of an OpenVDB file, or the values of an array. Its own transform gives positions in
+/// metres, to which `position`, `turn` and `scale`, or `matrix`, apply.
 struct GridDensity {
     std::filesystem::path file{};        ///< .vdb, .nrrd, .nii, .hdr or .npy
     std::optional<Sequence> sequence{};  ///< a file for each frame
@@ -50,7 +50,8 @@ struct GridDensity {
     Vec3 turn{};          ///< degrees [psi, theta, gamma]: R_y(psi) * R_x(theta) * R_z(gamma)
     Vec3 scale{1, 1, 1};  ///< negative ones mirror
     std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
-    /// The transfer function, linear between these points, from the file's values to densities.
+    /// The transfer function: it gives the file's values the absorption and colour of these points,
+    /// linearly between them, instead of using them as densities.
     std::vector<TransferPoint> transfer{};
     std::optional<Vec3> lit{};  ///< with a transfer: direction of light that shows surfaces
     /// With a transfer: true if the scene's lights show surfaces, instead of `lit`.
@@ -90,7 +91,7 @@ struct SunSky {
     Vec3 direction{0, -1, 0};        ///< direction in which the sun's light travels; downwards
     double angle = 0.53;             ///< degrees that the disc fills, up to 90
     Color color{1, 0.95, 0.88};      ///< colour of the disc's light
-    double intensity = 1;            ///< irradiance of the disc
+    double intensity = 1;            ///< strength of the light from the disc
     double turbidity = 3;            ///< haze, 2 clear to 10 thick
     Color ground{0.25, 0.23, 0.21};  ///< radiance from below the horizon
 };

@@ -30,10 +30,10 @@ class GridCache {
     /// The grid of a model in its own space for instances, also of exact models.
     SharedGrid own_grid_of(const Model& model, bool transmits);
 
-    /// Forgets the grids that weren't asked for since the last call. Unused grids of `retained`
-    /// models are kept if they are as in `scene`: those made first, up to `room` bytes of the
-    /// device. Keeping the first ones helps models that are shown in turns, which would otherwise
-    /// displace each other.
+    /// Forgets the grids that weren't asked for since the last call. Grids of a `retained` model
+    /// are kept if they are as in `scene` and none of the model was asked for: those made first, up
+    /// to `room` bytes of the device. Keeping the first ones helps models that are shown in turns,
+    /// which would otherwise displace each other.
     void forget_unused(const Scene& scene, const std::vector<bool>& retained, uint64_t room);
 
     /// The bytes on the device of unused grids that the last call kept.

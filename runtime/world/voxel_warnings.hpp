@@ -17,8 +17,8 @@ namespace voxelume {
 void add_empty_objects(const Scene& scene, std::span<const PlacedObject> placed,
                        std::vector<Warning>& warnings);
 
-/// Adds a warning for each of the `placed` objects of a world without voxels. Their grids may be
-/// gone.
+/// Adds a warning for every one of the `placed` objects, if their world has no voxels at all. The
+/// objects' grids may be gone.
 void add_all_objects(const Scene& scene, std::span<const PlacedObject> placed,
                      std::vector<Warning>& warnings);
 

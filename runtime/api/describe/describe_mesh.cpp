@@ -20,7 +20,8 @@
 namespace voxelume::api {
 namespace {
 
-/// The size of the mesh's voxels at this resolution, and the surface that suits them.
+/// The voxels and the memory of the mesh as a smooth model at this resolution, and the surface that
+/// suits it.
 Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
                      const MeshSummary& summary, const MeshShape& shape, int resolution) {
     Model model;

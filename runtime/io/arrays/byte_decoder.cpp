@@ -84,7 +84,7 @@ class InflatedBytes : public ByteDecoder {
             stream.avail_in = unsigned(size);
         }
         if (has_ended_) {
-            // Another member may follow, after zeros that fill up a block.
+            // Another member may follow, perhaps after zeros that fill up a block.
             for (; stream.avail_in > 0 && *stream.next_in == 0; --stream.avail_in) ++stream.next_in;
             if (stream.avail_in == 0) return true;
             if (!codec_.restart()) damaged();

@@ -131,7 +131,7 @@ void set_data(const NrrdFields& fields, const InputFile& file, CellArray& array)
         file.refuse(fmt::format("can't skip {} bytes", fields.text("byte skip")));
 }
 
-/// The axes of a patient's space in ours, whose directions are left, up and front.
+/// The axes of a patient's space in the model's, whose directions are left, up and front.
 struct Space {
     std::string_view name, short_name;
     glm::dvec3 x, y, z;

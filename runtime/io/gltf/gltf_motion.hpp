@@ -12,7 +12,7 @@
 
 namespace voxelume {
 
-/// A clip that moves a file's nodes. The file and the clip outlive this object.
+/// A clip that moves a file's nodes. The clip must outlive this object.
 class GltfMotion {
   public:
     /// `world_from_file` is applied after the file's own placements.

@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-// Nuke's names of layers. Programs that show one part alone show the first.
+// Nuke's names of layers. Their parts come first, since some programs show the first part alone.
 constexpr const char* kColor = "rgba";
 constexpr const char* kDepth = "depth";
 

@@ -52,7 +52,7 @@ class ObjColors {
 
   private:
     static constexpr float kBytes = 255;
-    static constexpr float kMinBytes = 16;  ///< maximum of values, from which on they are bytes
+    static constexpr float kMinBytes = 16;  ///< values are bytes if their maximum is at least this
     static constexpr glm::vec3 kNone{-1};   ///< marks vertices without a colour, which are white
 
     float max_ = 0;

@@ -227,8 +227,8 @@ bool VoxCells::lies_in_rows(const VoxModel& model) const {
     return in_rows > some.size() / 2;
 }
 
-/// Adds the voxels in order, since the last of those that share a cell counts, and threads can't
-/// tell which one that is.
+/// Adds the voxels: in several threads if that pays and none share a cell, else in order. The last
+/// of those that share a cell counts, and threads can't tell which one that is.
 void VoxCells::add_voxels(const VoxStanding& standing) {
     const VoxModel& model = *standing.model;
     const Steps steps = steps_of(standing);

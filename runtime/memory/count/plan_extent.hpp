@@ -12,7 +12,7 @@ namespace voxelume {
 struct WorldExtent {
     double voxels = 0;
     double bricks = 0;
-    double exact_voxels = 0;  ///< the part of `voxels` that list their primitives
+    double exact_voxels = 0;  ///< those of `voxels` that list their primitives
 };
 
 struct ObjectExtent {

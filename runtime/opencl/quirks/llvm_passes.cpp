@@ -3,10 +3,10 @@
 // done most of the work by then; the standard passes take a third of the time of compiling. Seven
 // of them yield kernels that run as fast. No setting leaves the others out, but PoCL calls a
 // function of LLVM's library for them, and the dynamic linker prefers a function of the same name
-// in the program. So our programs export such a function (the link options of voxelume_runtime);
-// the shared library doesn't, since other programs may want that function for themselves. Other
-// callers, such as Oclgrind, get all passes of their own LLVM, and so does PoCL if its LLVM lacks
-// one of the seven.
+// in the program. So Voxelume's programs export such a function (the link options of
+// voxelume_runtime); the shared library doesn't, since other programs may want that function for
+// themselves. Other callers, such as Oclgrind, get all passes of their own LLVM, and so does PoCL
+// if its LLVM lacks one of the seven.
 #include "runtime/opencl/quirks/llvm_passes.hpp"
 
 #include <dlfcn.h>

@@ -57,7 +57,7 @@ struct FileMap {
 struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
-    std::filesystem::path voxels;  ///< a regular file with voxels; may be empty
+    std::filesystem::path voxels;  ///< such a file that holds voxels; may be empty
     std::shared_ptr<const VoxelModel>
         given;                   ///< voxels in memory; `voxels` is then their name, not a file
     int part = 0;                ///< number of the model in the file, from 1 on; 0: all of the file

@@ -28,7 +28,7 @@ struct Sky {
     // the sun, in a clear sky:
     glm::dvec3 direction{0, -1, 0};  ///< unit vector along which its light travels; downwards
     double angle = 0.53;             ///< degrees that the disc fills
-    double intensity = 1;            ///< irradiance of the disc
+    double intensity = 1;            ///< strength of the light from the disc
     double turbidity = 3;            ///< haze: 2 clear .. 10 thick
     // a map, the picture of a sky:
     std::filesystem::path file{};  ///< .exr, .hdr or .png

@@ -38,7 +38,7 @@ class ColumnClearance {
 
     /// Subtracts the part of its column's lines that a voxel's surfaces cover. Voxels come in
     /// ascending order. Returns the covered part of what reaches the voxel, or -1 if too little
-    /// does to tell.
+    /// reaches it to tell.
     double take(glm::ivec3 cell, int axis, double taken) {
         cell[axis] = 0;
         const glm::u64vec3 at(cell), size(frame_.size);

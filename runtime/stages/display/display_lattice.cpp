@@ -13,7 +13,8 @@
 namespace voxelume {
 namespace {
 
-/// The maximum part of a point that surfaces in front may cover if it still counts as visible.
+/// The maximum part of a point that surfaces in front may cover while the point still counts as
+/// visible.
 constexpr float kMaxCovered = 1 - 1.0f / 1024;
 
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;

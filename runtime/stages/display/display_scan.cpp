@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMaxParts = 64;
 
-/// The numbers of lines in a voxel for measuring how much its surfaces cover: along one axis, if
-/// column by column matters, and along all axes.
+/// The numbers of lines in a voxel for measuring how much its surfaces cover: along a single axis,
+/// where opacities must hold column by column, and along each of all axes.
 constexpr int kColumnLines = 64, kMeanLines = 16;
 
 int lines_along(int axis, CoverAxes axes) {

@@ -24,8 +24,8 @@ struct ProbePoints {
     Buffer<uint32_t> views;     ///< a view in which each point is visible; kNoView for none
 };
 
-/// The points of lines, one line after another, and the surfaces that they cross; only if light
-/// goes through surfaces.
+/// The points of lines, one line after another, and the surface that a line crosses at each, for
+/// lines that scan_covers() sends.
 struct LinePoints {
     ProbePoints points;
     uint32_t lines = 0;

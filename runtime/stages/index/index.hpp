@@ -33,7 +33,7 @@ namespace voxelume {
 /// suffice or for more than 2^30 voxels, 2^28 in grids with distances.
 Pyramid build_index(const Device& device, const BrickGrid& grid);
 
-/// The number of entries in each level of a pyramid.
+/// The numbers of a pyramid's entries of each kind.
 struct PyramidCounts {
     size_t sectors = 0;  ///< sectors with voxels
     size_t leaves = 0, voxels = 0, primitives = 0;

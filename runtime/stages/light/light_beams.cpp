@@ -26,7 +26,8 @@ glm::dvec3 way(const LightRecord& light, const glm::dvec3& point) {
     return light.kind == VXL_LIGHT_DIRECTIONAL ? at : at - point;
 }
 
-/// The axis that is closest to all vectors from the world to the light, or -1 if there is none.
+/// The axis along which all vectors from the world to the light have a positive component, and the
+/// least of these is largest; -1 if there is none.
 int common_axis(const LightRecord& light, const glm::dvec3& size) {
     const glm::dvec3 low = way(light, size), high = way(light, {0, 0, 0});
     const glm::dvec3 minimum = glm::max(low, -high);

@@ -149,7 +149,8 @@ void make_sky_cells(SkyMapData& data) {
     }
     data.table.resize(table_words(columns, rows));
     const std::vector<double> row_parts = write_parts(sums, data.table.data());
-    // The solid angle at a position of the picture is 2 pi^2 times the sine of its angle.
+    // A small piece of the picture has a solid angle of 2 pi^2 times its share of the picture's
+    // area, times the sine of its angle from the zenith.
     const double per_part = double(columns * rows) / (2 * std::numbers::pi * std::numbers::pi);
     for (size_t row = 0; row < rows; ++row) {
         const std::span<const double> weights = std::span(cells).subspan(row * columns, columns);

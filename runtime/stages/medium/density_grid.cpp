@@ -35,8 +35,8 @@ class ConstantTable {
     std::vector<float> values_;
 };
 
-/// The slots that a lattice needs: first for constants, then for bricks. Every brick may have a
-/// different constant density.
+/// The slots that a lattice needs: first for constants, then for bricks. Every brick may turn out
+/// to have a constant density of its own.
 struct SlotCount {
     size_t constants = 0, bricks = 0;
 

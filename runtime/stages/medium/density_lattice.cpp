@@ -131,7 +131,7 @@ void DensityLattice::add_means(const Scan& scan, size_t number, std::span<glm::d
     }
 }
 
-/// Averages all scans: their absorptions add up, and so do the products with their colours.
+/// Combines all scans: their absorptions add up, and so do the products with their colours.
 void DensityLattice::average(size_t number, std::span<float, kBrickCells> densities,
                              std::span<float> colors) const {
     std::vector<glm::dvec4> sums(kBrickCells, glm::dvec4(0));

@@ -19,7 +19,8 @@ inline constexpr size_t kBrickCells = 4096;
 
 class DensityLattice {
   public:
-    /// `lights` light the scans that are lit by the scene, if any.
+    /// `lights` light the scans that are lit by the scene; the lattice's size doesn't depend on
+    /// them.
     explicit DensityLattice(const World& world, const std::vector<Light>& lights = {});
 
     const glm::ivec3& bricks() const { return bricks_; }

@@ -15,7 +15,7 @@ namespace voxelume {
 /// constant beyond the first and the last.
 class TransferCurve {
   public:
-    /// The points' values must increase.
+    /// The points' values must increase from point to point, however little.
     explicit TransferCurve(std::span<const TransferPoint> points);
 
     /// Absorption times colour, and in `w` the absorption, at a value: exactly 0 between points

@@ -41,9 +41,9 @@ double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& wo
 bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_frame,
                          const glm::dmat4& world_from_object);
 
-/// The matrix from gradients in the world's voxels to those in the object's. It is 0 if each voxel
-/// of the world lies in one voxel of the object: for maps that shift by whole voxels or simple
-/// fractions of them, turn by quarters or mirror.
+/// The matrix from gradients in the world's voxels to those in the object's. It is 0 for a map that
+/// makes each voxel of the world equal to one of the object's, apart from shifts by parts of a
+/// voxel: one that only shifts, turns by quarters or mirrors.
 glm::dmat3 gradients_in_object(const GridFrame& object_frame, const GridFrame& world_frame,
                                const glm::dmat4& world_from_object);
 

@@ -8,9 +8,9 @@
 namespace voxelume {
 namespace {
 
-/// The part of a batch that limits how many surface points of a later depth are followed together,
-/// and their number in small batches. With two rays each and all features, a depth takes about 300
-/// bytes a ray: 10 MB on a CPU.
+/// At a later depth, the rays of 1 / kFollowedPart of a batch's surface points are followed
+/// together, or of kFollowedPoints if that is more. With two rays each and all features, a depth
+/// takes about 300 bytes a ray: 10 MB on a CPU.
 constexpr uint32_t kFollowedPart = 4;
 constexpr uint32_t kFollowedPoints = 1u << 14;
 

@@ -49,8 +49,8 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
 /// Gives the batch new arrays for its rays and hits; holders of the old arrays keep them.
 void renew_sight(const Device& device, RayBatch& batch);
 
-/// The queue for the shadow rays of batches of at most `max_rays`, and for shadow rays that
-/// continue. Empty if nothing can block light.
+/// The queue for the shadow rays of batches of at most `max_rays` rays, and of the rays that these
+/// spawn. Empty if nothing can block light.
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
                                   uint32_t max_rays);
 

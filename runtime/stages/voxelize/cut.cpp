@@ -17,7 +17,8 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kWhite = 0x00FFFFFF;
-constexpr double kFarVoxels = 64;  // extent of cut space beyond the frame
+/// The extent of cut space beyond the frame, in voxels. Distances don't matter beyond it.
+constexpr double kFarVoxels = 64;
 
 /// The part of a brick that a grid fills. An intersection has the smaller of two parts, a union the
 /// larger.

@@ -30,7 +30,7 @@ inline constexpr uint64_t kMaxTextureWords = uint64_t{1} << 31;
 /// The effect of textures' alpha where rays meet them.
 enum class TextureAlpha : uint8_t { counts, is_ignored };
 
-/// Written textures: the start of each, relative to the first, and a hash of all.
+/// Written textures: the position of each, from the start of their words, and a hash of all.
 struct WrittenTextures {
     std::vector<uint32_t> places;
     uint64_t hash = 0;

@@ -86,7 +86,7 @@ struct BenchReport {
     std::vector<BenchRow> rows;
     std::vector<BenchFit> fits;
     std::vector<BenchPeerRow> peers;
-    std::vector<GlobalRow> global_rows;  ///< rows of each scene: ours, then those of other programs
+    std::vector<GlobalRow> global_rows;  ///< rows of each scene: Voxelume's, then those of others
     std::vector<GlobalFit> global_fits;
 };
 

@@ -11,8 +11,8 @@ namespace voxelume {
 
 inline constexpr int kLastAlbedo = VXL_ALBEDO_ENTRIES - 1;  ///< the last entry of a table
 
-/// Means over all directions, weighted by their cosine: of the share of light that misses facets,
-/// and of the light that they return at once for the part (1 - m)^5.
+/// Means over all directions, weighted by their cosine, in shares of the light that reaches facets:
+/// what they don't return at once, and what they return at once of the part (1 - m)^5.
 struct AlbedoMeans {
     double missing = 0, by_angle = 0, entered = 1;
 };

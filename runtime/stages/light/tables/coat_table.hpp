@@ -21,7 +21,8 @@ struct CoatTable {
 /// The share that a coat returns at an angle; its facets have this table and width.
 double coat_returned(const AlbedoTable& table, double width, double cosine);
 
-/// The part of the light missing from a coat's facets that they return later.
+/// The part of the light that a coat's facets return later, of the light that they don't return at
+/// once.
 double coat_later(const AlbedoTable& table);
 
 /// The table of a coat over facets of a width, both as width_of has them. It takes about 60 ms,

@@ -15,7 +15,7 @@ namespace {
 /// Light that comes to facets at an angle, and the reflection of a ring of facets that it reaches.
 /// With the surface stretched until facets are a sphere, the light comes along (x, 0, z).
 struct FacetRing {
-    double width = 1, sine = 0, cosine = 1;  // of the light
+    double width = 1, sine = 0, cosine = 1;  // width of highlights; angle of the light
     double length = 1, x = 0, z = 1;         // of (width * sine, 0, cosine), and its direction
     double radius = 0, height = 0;           // of the ring
 
@@ -32,7 +32,7 @@ struct FacetRing {
         return {edge, std::numbers::pi};
     }
 
-    /// The facets at an angle around the ring, which are a share of all.
+    /// The facets at an angle around the ring, which are `share` of all.
     SeenFacet at(double turn, double share) const {
         const double hx = width * (radius * std::cos(turn) + x);
         const double across = width * radius, along = hx - width * x;

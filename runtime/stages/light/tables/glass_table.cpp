@@ -31,7 +31,8 @@ Bend bend_at(double eta, double c) {
     return {(second_power(across) + second_power(along)) / 2, t};
 }
 
-/// The share of light along a direction of this height that other facets hide from a facet.
+/// The length of a unit vector of this height after its horizontal part is scaled by `width`: it
+/// decides how much light facets hide from each other.
 double stretched(double width, double height) {
     return std::sqrt(second_power(width) * (1 - second_power(height)) + second_power(height));
 }
@@ -138,8 +139,8 @@ GlassTable make_glass_table(double width, double ior) {
     set_side(width, 1 / ior, 0, table);
     set_side(width, ior, 1, table);
     // Light after the first scattering passes equally in both directions, per square of the index,
-    // so that paths are reversible. From outside, it has the ratio of the light that passes at
-    // once.
+    // so that paths are reversible. From outside, the part of it that passes equals that of the
+    // light that is returned at once.
     const double squared = second_power(ior);
     const double max = squared / table.missing[0];
     const double scale = std::min(part_through(width, ior) / table.missing[1], max);
