@@ -27,8 +27,8 @@ kernel void append_numbers(const uint count, const uint start, const uint first,
     if (i < count) to[start + i] = from[i] & kept ? from[i] : from[i] + first;
 }
 
-// Copies the record of a field, or of a list of fields, behind `first` other records. A list of
-// zeros is empty.
+// Copies the record of a field, or of a list of fields, behind `first` other records. The number of
+// a list's first record grows by `first`, too. A list of zeros is empty.
 kernel void append_fields(const uint count, const uint first,
                           global const uint* restrict attributes, global const uint* restrict from,
                           global uint* restrict to) {

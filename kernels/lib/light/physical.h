@@ -215,7 +215,7 @@ static inline lane_int physical_through(const PhysicalView* s, Vector in, lane_f
 
 /// Directions, as unit vectors in the world, in which paths continue, some of them into the
 /// surfaces. Where `layer`, stretched over what isn't glass, is below `gloss`, facets mirror the
-/// path. `down` becomes the mask of paths that go through glass.
+/// path. `down` becomes the mask of paths that are meant to pass through glass.
 static inline Vector physical_direction(const PhysicalView* s, SquarePoint at, lane_float layer,
                                         lane_int* down) {
     const lane_float one = (lane_float)1.0f;
