@@ -88,8 +88,8 @@ Report report_of(const ImageDifference& difference) {
 }
 
 /// A row of an animation's table. The channel with the largest RMSE stands for all or, without an
-/// error, one with unequal ids. `unmatched` is the largest count of values that are finite in only
-/// one image, and `missing` are channels that only one image has.
+/// error, one with unequal ids. `unmatched` is the largest count, over all channels, of unequal
+/// values that aren't both finite, and `missing` are channels that only one image has.
 Report frame_row(int frame, const ImageDifference& difference) {
     const std::vector<ChannelDifference>& channels = difference.channels;
     const auto worst = std::ranges::max_element(channels, {}, [](const ChannelDifference& c) {

@@ -11,7 +11,7 @@ namespace voxelume::cli {
 struct VoxelizeNames {
     std::string file;
     std::vector<std::string> outputs;
-    int frame = 0;  ///< 0: the only frame
+    int frame = 0;  ///< 0: not one of several frames
 };
 
 /// True if an input file is a sequence such as walk.####.obj. A stack of slices is one array

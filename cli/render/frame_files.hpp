@@ -46,8 +46,8 @@ struct RenderCommand {
 /// Declares the options on `app`; returns that of --frames.
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command);
 
-/// The frames to render: one for each frame, or one for all if the world stands still. They are the
-/// frames of --frames; otherwise, all frames of a moving scene, or one.
+/// What is to be rendered: one entry for each frame, or one for all if the world stands still. The
+/// frames are those of --frames; otherwise, all frames of a moving scene, or one.
 std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& scene);
 
 std::vector<int> numbers_of(const std::vector<FrameFiles>& list);
