@@ -58,7 +58,7 @@ kernel void append_instance_primitives(const uint count, const uint start,
     to[start + i] = from[i] + (from[i] & VXL_SOLID_PRIMITIVE ? first_solid : first_triangle);
 }
 
-// Copies one word of the records of textures, and increases numbers of textures by `first`.
+// Copies one word of what triangles wear. Their textures now begin `first` words later.
 kernel void append_instance_worn(const uint count, const uint start, const uint first,
                                  global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
