@@ -53,7 +53,7 @@ std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& s
 std::vector<int> numbers_of(const std::vector<FrameFiles>& list);
 
 /// Checks what can be checked before the scene is read, for example that --frames is valid and that
-/// the disk has room for the image. All frames of a pattern lie in one folder, so the first ones
+/// the image's files can be created. All frames of a pattern lie in one folder, so the first ones
 /// represent all. Throws Error::usage and Error::output.
 void check_options(const RenderCommand& options);
 
