@@ -21,7 +21,7 @@ typedef struct EmitterRecord {
     unsigned int alias;
     unsigned int unused;  // 0
 } EmitterRecord;
-#define VXL_EMITTER_INSTANCE 3  // the first of the words that lanes gather
+#define VXL_EMITTER_INSTANCE 3  // this and the next ones are words that lanes gather
 #define VXL_EMITTER_VOXEL 4
 #define VXL_EMITTER_SIDES 5
 #define VXL_EMITTER_PROBABILITY 6

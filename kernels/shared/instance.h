@@ -13,7 +13,7 @@
 
 #define VXL_NO_INSTANCE 0xFFFFFFFFu  // as a hit's or path's instance: the world
 #define VXL_INSTANCE_WORDS 36        // 32-bit words of a record
-#define VXL_INSTANCE_OBJECT 32       // the first of the words that lanes gather
+#define VXL_INSTANCE_OBJECT 32       // this and the next ones are words that lanes gather
 #define VXL_INSTANCE_MATERIALS 33
 #define VXL_INSTANCE_GROUPS 34
 
