@@ -160,9 +160,8 @@ void throw_findings(const Findings& findings) {
 int run(DiffCommand command) {
     const CompareOptions options{listed(command.channels), command.threshold};
     DiffLimits& limits = command.limits;
-    if (!limits.flip && !command.names.flip.empty())
-        limits.flip = 1;  // a picture needs a limit,
-                          // too
+    // A picture of FLIP needs a limit, too.
+    if (!limits.flip && !command.names.flip.empty()) limits.flip = 1;
     check_colors(limits, options.channels);
     for (const std::string& picture : {command.names.output, command.names.flip})
         if (!picture.empty()) check_image_output(picture, "diff");
