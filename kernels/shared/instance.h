@@ -22,8 +22,7 @@ typedef struct InstanceRecord {
     float center[3];             // world voxels, whole
     float image[3];              // image of center, object voxels
     float low[3], high[3];       // the box that holds the model's voxels; object voxels, whole
-    float near_squared;  // world voxels: rays that begin closer to center are transformed from
-                         // their origin
+    float near_squared;  // world voxels: rays closer to center are transformed from their origin
     float plane_bound;   // as in PyramidShape, like fixed_point, but for the walk in the object
     float fixed_point;
     int size[3];  // of the model's grid, voxels

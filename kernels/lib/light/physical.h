@@ -26,10 +26,8 @@ typedef struct {
     lane_float grazing;                       // reflectance of the facets at grazing angles ...
     lane_float clear_grazing;                 // ... and of the part that isn't metal
     lane_float facet[3];                      // reflectance of the facets at normal incidence
-    lane_float later[3];                      // light that returns later, per product of missing
-                                              // shares
-    lane_float matt[3];                       // light of the matt surface below, per product of
-                                              // passed shares
+    lane_float later[3];                      // later light, per product of missing shares
+    lane_float matt[3];                       // matt surface below, per product of passed shares
     Frame frame;
     Vector out;         // the direction to the viewer, in the frame
     Albedo seen;        // at the viewer's angle
