@@ -165,8 +165,8 @@ int main(int count, char** arguments) {
     try {
         const std::string command = count > 1 ? arguments[1] : "";
         const int fault = cli::load_settings_for(command);
-        cli::handle_interrupts();  // before there are threads, so that all of them ignore what this
-                                   // one does
+        // This comes before there are threads, so that all of them ignore what this one does.
+        cli::handle_interrupts();
         voxelume::configure({.set_driver_environment = true,
                              .isolate_readers = true,
                              .kernel_compilers = cli::kernel_compilers(command),

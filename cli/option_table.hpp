@@ -10,8 +10,7 @@ namespace voxelume::cli {
 struct OptionFacts {
     std::vector<std::string> names;  ///< "-o", "--output"; empty for an argument
     std::string argument;            ///< the name of an argument: "SCENE"
-    std::string value;               ///< the kind of value that follows, as in help: "TEXT"; empty
-                                     ///< for a flag
+    std::string value;               ///< kind of the value, as in help: "TEXT"; empty for a flag
     std::vector<std::string> words;  ///< the possible values, if they are few
     bool is_list = false;            ///< true if several of them may be given, separated by commas
     bool is_device = false;          ///< true if the number of a device is also a value

@@ -27,8 +27,8 @@ kernel void append_numbers(const uint count, const uint start, const uint first,
     if (i < count) to[start + i] = from[i] & kept ? from[i] : from[i] + first;
 }
 
-// Copies the record of a field, or of a list of fields, behind `first` other records. A list of
-// zeros is empty.
+// Copies the record of a field, or of a list of fields, behind `first` other records. The number of
+// a list's first record grows by `first`, too. A list of zeros is empty.
 kernel void append_fields(const uint count, const uint first,
                           global const uint* restrict attributes, global const uint* restrict from,
                           global uint* restrict to) {
@@ -58,7 +58,7 @@ kernel void append_instance_primitives(const uint count, const uint start,
     to[start + i] = from[i] + (from[i] & VXL_SOLID_PRIMITIVE ? first_solid : first_triangle);
 }
 
-// Copies one word of the records of textures, and increases numbers of textures by `first`.
+// Copies one word of what triangles wear. Their textures now begin `first` words later.
 kernel void append_instance_worn(const uint count, const uint start, const uint first,
                                  global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();

@@ -30,8 +30,8 @@ static inline bool is_cube_kind(uint kind) {
     return kind == VXL_KIND_CUBES || kind == VXL_KIND_EXACT_IN_CUBE;
 }
 
-/// True if a cube fills the cell, or if the cell lies outside the world. Outside a model is not
-/// covered.
+/// True if a cube fills the cell, or if the cell lies outside the world. Cells outside a model are
+/// not covered.
 static inline bool is_covered(const WorldView* world, bool is_model, int x, int y, int z) {
     const PyramidView* p = &world->pyramid;
     if (x < 0 || y < 0 || z < 0) return !is_model;

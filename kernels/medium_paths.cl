@@ -67,9 +67,10 @@ kernel void scatter_in_medium(PyramidShape shape, float4 absorption,
              (part.t_last - path.t) * metres, chance_density(&medium, depth, thick), &slots);
 }
 
-/// Adds the light that a source sends to the points `from` and that the medium scatters towards the
-/// viewer. Every point gets a slot in the queue of shadow rays. A light's intensity is pi times its
-/// power per solid angle, as for Lambertian surfaces.
+/// Adds the light that a source sends to points in the medium and that the medium scatters towards
+/// the viewer. `from` holds points of the source or, for a directional light, the vectors that lead
+/// to it. Every point in the medium gets a slot in the queue of shadow rays. A light's intensity is
+/// pi times its power per solid angle, as for Lambertian surfaces.
 static inline void shine_into_medium(PyramidShape shape, LightRecord light, Vector from, float g,
                                      const ShadowQueue* queue, const RayBatch* batch, uint first,
                                      lane_int valid) {

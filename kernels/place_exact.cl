@@ -80,7 +80,7 @@ kernel void append_words(const uint count, const uint start, global const uint* 
     if (i < count) to[start + i] = from[i];
 }
 
-// Copies one word of what triangles wear, and increases numbers of textures by `first`.
+// Copies one word of what triangles wear. Their textures now begin `first` words later.
 kernel void append_worn(const uint count, const uint start, const uint first,
                         global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();

@@ -2,11 +2,12 @@
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
 // The build constants VXL_SHOWS_COLOR, VXL_SHOWS_VARIANCE, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE,
-// VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL say which channels
-// are asked for. With VXL_EARLIER the image already holds earlier samples: their sums or, in an
-// image that was finished, the means of a power of two of them, from which sums follow without
-// rounding. The result equals that of one run over all samples. If more samples follow, the image
-// becomes the sums, and the variance the sum of squared deviations.
+// VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT and VXL_SHOWS_MATERIAL, which this file
+// has in addition to those of features, say which channels are asked for. With VXL_EARLIER the
+// image already holds earlier samples: their sums or, in an image that was finished, the means of a
+// power of two of them, from which sums follow without rounding. The result equals that of one run
+// over all samples. If more samples follow, the image becomes the sums, and the variance the sum of
+// squared deviations.
 #include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"

@@ -21,8 +21,8 @@
 #include "shared/scene.h"
 
 /// Makes each ray from an observer the entry of its own node. `bodies` are the solids that transmit
-/// light, in which a ray may begin. A ray that enters the world through one of its faces begins in
-/// front of this face.
+/// light, in which a ray may begin. A ray that enters the world where a solid's face lies on the
+/// world's side begins in front of this face.
 kernel void begin_paths(PyramidShape shape, global const SolidShape* restrict solids,
                         uint body_count, global const uint* restrict bodies,
                         VXL_SURROUNDINGS_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {

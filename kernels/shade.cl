@@ -39,13 +39,11 @@
     { 0, 0 }
 #endif
 
-/// What some scenes need to know of hits: the parameters that `bind` of HitDetails sets, in its
-/// order. A comma ends them, if there are any.
+/// The parameters that `bind` of HitDetails sets, in its order. A comma ends them, if any exist.
 #define VXL_HIT_DETAIL_PARAMETERS \
     VXL_FOOTPRINT_PARAMETER VXL_SOURCE_PARAMETERS VXL_CUBE_STEPS_PARAMETER
 
-/// The points where rays met their surfaces: the position in the voxel, and the unit normal in
-/// metric space.
+/// Where rays met surfaces: the position in the voxel, and the unit normal in metric space.
 typedef struct {
     Vector place, normal;
 } SurfacePoint;
@@ -56,8 +54,7 @@ static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vecto
     return unit(scaled(gradient, world->shape.inverse_edge));
 }
 
-/// Sets the points and normals of cubes: the point lies exactly on the face that was crossed; the
-/// normal is the face's, towards the ray.
+/// Sets the points of cubes, exactly on the crossed face, and that face's normals, towards the ray.
 static inline void meet_cubes(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
     const Vector d = h->ray.direction;
     const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
@@ -179,8 +176,7 @@ static inline lane_uint glass_side(const WorldView* world, const ShadedHit* h,
            (LANES_AS_UINT(between) & (inside << VXL_SIDE_BEYOND_SHIFT));
 }
 
-/// VXL_SIDE_* bits of surfaces that rays meet inside the objects of `before`. Sets the opacity of
-/// hidden surfaces to 0.
+/// VXL_SIDE_* bits of surfaces met inside the objects of `before`. Hidden ones get the opacity 0.
 static inline lane_uint side_of(const WorldView* world, const ShadedHit* h, const MediumSet* before,
                                 lane_int behind, lane_uint material,
                                 global const float* restrict materials,

@@ -13,9 +13,9 @@ static inline lane_uint seed_of_place(Vector position) {
     return decision_seed(mixed_number(place), LANES_AS_UINT(position.z));
 }
 
-/// A direction to a sky map. Even and odd numbers alternate between a choice by the cosine with the
-/// normal and one by the map's brightness. Sets `weight` so that both choices together count all
-/// light once.
+/// A direction to a sky map. Directions with an even `number` are chosen by the cosine with the
+/// normal, those with an odd one by the map's brightness. Sets `weight` so that both choices
+/// together count all light once.
 static inline Vector direction_to_map(const SkyMap* map, Vector normal, uint number,
                                       uint directions, lane_uint seed, lane_float* weight) {
     const float to_map = (float)(directions / 2), evenly = (float)(directions - directions / 2);

@@ -18,7 +18,7 @@ struct BenchCommand {
     std::vector<std::string> own_scenes;  ///< files
     std::vector<std::string> resolutions, placements, samples;  ///< lists with commas
     std::string size;
-    int repeats = 0;  ///< 0: as --quick has it
+    int repeats = 0;  ///< 0: as --quick says
     std::string device;
     bool quiet = false;
 };

@@ -98,8 +98,7 @@ Action add_devices(CLI::App& app) {
     app.add_flag("--json", *json, "print everything known of each device, as a JSON array");
     return [json]() -> int {
         const Choice choice = choice_of_device();
-        const std::vector<DeviceInfo> devices = list_devices();  // includes the result of its
-                                                                 // self-test
+        const std::vector<DeviceInfo> devices = list_devices();  // with their self-tests' results
         if (*json)
             print_json(devices, choice.index);
         else

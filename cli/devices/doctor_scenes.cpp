@@ -61,14 +61,14 @@ constexpr const char* kLocal = R"({"voxelume": 1,
 "render": {"size": [28, 18], "samples": 2, "depth": 2, "bounces": 3, "shadow": "filtered",
            "light": "LIGHT"}})";
 
-// These replace the first words of a scene: a medium that scatters light, and a light without an
-// area.
+// These replace the first words of a scene's medium and lights: a medium that scatters light, and a
+// light without an area.
 constexpr const char* kMist = R"("medium": {"scattering": [0.5, 0.6, 0.7], "anisotropy": 0.3, )";
 constexpr const char* kPoint =
     R"("lights": [{"type": "point", "position": [0.3, 0.9, 0.2], "intensity": 0.5}, )";
 
-// These replace the first words of a scene: metal, and a light with an area that the metal
-// reflects.
+// These replace the first words of a scene's materials, box and lights: metal, and a light with an
+// area that the metal shows.
 constexpr const char* kBrass =
     R"("materials": {"brass": {"base_color": [0.9, 0.7, 0.3], "metallic": 1, "roughness": 0.2}, )";
 constexpr const char* kBrassBox = R"({"model": "box", "material": "brass", )";

@@ -18,8 +18,7 @@ struct DiffLimits {
     std::optional<double> rmse;  ///< RMSE of any channel
     std::optional<double> flip;  ///< mean FLIP
     std::string above;           ///< pixels above the threshold: a number, or a percentage
-    std::string ids;             ///< pixels of a channel with unequal ids: a number, or a
-                                 ///< percentage
+    std::string ids;             ///< pixels of a channel with unequal ids: number or percentage
 };
 
 /// Declares --fail, --fail-above, --fail-ids and --fail-flip.

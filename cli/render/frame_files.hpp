@@ -46,14 +46,14 @@ struct RenderCommand {
 /// Declares the options on `app`; returns that of --frames.
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command);
 
-/// The frames to render: one for each frame, or one for all if the world stands still. They are the
-/// frames of --frames; otherwise, all frames of a moving scene, or one.
+/// What is to be rendered: one entry for each frame, or one for all if the world stands still. The
+/// frames are those of --frames; otherwise, all frames of a moving scene, or one.
 std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& scene);
 
 std::vector<int> numbers_of(const std::vector<FrameFiles>& list);
 
 /// Checks what can be checked before the scene is read, for example that --frames is valid and that
-/// the disk has room for the image. All frames of a pattern lie in one folder, so the first ones
+/// the image's files can be created. All frames of a pattern lie in one folder, so the first ones
 /// represent all. Throws Error::usage and Error::output.
 void check_options(const RenderCommand& options);
 

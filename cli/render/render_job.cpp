@@ -54,8 +54,7 @@ bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob&
     const Finished finished =
         skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
     if (job.frames.empty() && OutputStream(command.outputs).is_wanted()) {
-        job.frames.push_back({numbers.front(), {}, {}});  // its image is still written to the
-                                                          // stream
+        job.frames.push_back({numbers.front(), {}, {}});  // the stream still gets its image
         return true;
     }
     if (!command.quiet) tell_of(finished, count);

@@ -60,9 +60,8 @@ class JobList {
             list.emplace_back("view", padded(variant.view + 1, views_));
         else if (!command_.scene.import.view.empty())
             list.emplace_back("view", file_part(command_.scene.import.view));
-        if (command_.quilt.stereo > 0)
-            list.emplace_back("eye", kEye);  // known only when the file
-                                             // is written
+        // The eye is known only when the file is written.
+        if (command_.quilt.stereo > 0) list.emplace_back("eye", kEye);
         if (sweeps_.empty()) return list;
         list.emplace_back("sweep", padded(variant.number + 1, combinations_.size()));
         for (size_t i = 0; i < sweeps_.size(); ++i) {

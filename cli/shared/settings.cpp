@@ -45,7 +45,7 @@ std::string with_home(const std::string& value) {
     return text;
 }
 
-/// Throws Error::usage for a value that the setting can't have. An empty value is not set.
+/// Throws Error::usage for a value that the setting can't have. An empty value counts as not set.
 void check(const Setting& setting, const std::string& value, const std::string& origin) {
     if (value.empty() || setting.fault == nullptr) return;
     if (const std::string fault = setting.fault(value); !fault.empty())

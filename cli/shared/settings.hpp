@@ -18,8 +18,8 @@ struct Setting {
     const char* variable;      ///< its name in the environment, which takes precedence
     const char* help;          ///< what it means
     const char* default_text;  ///< the value without a setting, for people
-    std::string (*fault)(const std::string& value) = nullptr;  ///< what is wrong with a value;
-                                                               ///< null: every value is valid
+    /// What is wrong with a value; null: every value is valid.
+    std::string (*fault)(const std::string& value) = nullptr;
 };
 
 /// All settings. `voxelume config` and the manual page are made from this table.

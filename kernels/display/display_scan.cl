@@ -108,10 +108,12 @@ static INLINED void scan_instances(const WorldView* world, const Walk* line, lan
 /// Finds the crossings of lines 0 .. count-1 with surfaces. `counts` gets the number of crossings,
 /// and `crossings` the lattice coordinates along the line of the first `slots` of them,
 /// `line_stride` apart: first those with the world's voxels, then those with each instance's, each
-/// in their order along the line. Arrays hold a multiple of 16 lines. With `covers`, a line crosses
-/// cubes where it enters each one; otherwise, where it enters or leaves a row of them, and the
-/// coordinates' lowest bits are a VXL_CROSSES_*. Where light goes through surfaces, the bits are
-/// always set, and `surfaces` tells what is crossed, as packed attributes with VXL_LINE_CUBE.
+/// in their order along the line. Arrays hold a multiple of 16 lines.
+///
+/// With `covers`, a line crosses cubes where it enters each one, and the coordinates' lowest bits
+/// are a VXL_CROSSES_*. Without, it crosses cubes where it enters or leaves a row of them. Where
+/// light goes through surfaces, the lowest bits are a VXL_CROSSES_* in both cases, and `surfaces`
+/// gets what is crossed, as packed attributes with VXL_LINE_CUBE.
 kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
                        uint count, uint stride, uint slots, uint line_stride, uint covers,
                        VXL_CROSSINGS_PARAMETERS) {

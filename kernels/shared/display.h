@@ -15,7 +15,7 @@ typedef struct DisplaySteps {
     float step;          // metres
     float inverse_step;  // 1 / step
     int count;           // steps of a ray
-    float absorption;    // per metre, that of the least absorbed channel; makes opacity
+    float absorption;    // of the least absorbed channel, per metre; decides space's opacity
 } DisplaySteps;
 VXL_SIZE_IS(DisplaySteps, 16);
 

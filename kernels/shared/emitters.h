@@ -16,12 +16,11 @@ typedef struct EmitterRecord {
     unsigned int voxel;     // the voxel's number in the pyramid
     unsigned int sides;  // bits 0..5: surfaces may be met through the sides -x, +x, -y, +y, -z, +z
     float probability;   // probability that a ray is sent to this emitter
-    float own_share;     // alias table (Walker 1974): share of its slot; the rest is emitter
-                         // `alias`'
+    float own_share;     // alias table (Walker 1974): share of its slot; `alias` has the rest
     unsigned int alias;
     unsigned int unused;  // 0
 } EmitterRecord;
-#define VXL_EMITTER_INSTANCE 3  // the first of the words that lanes gather
+#define VXL_EMITTER_INSTANCE 3  // this and the next ones are words that lanes gather
 #define VXL_EMITTER_VOXEL 4
 #define VXL_EMITTER_SIDES 5
 #define VXL_EMITTER_PROBABILITY 6

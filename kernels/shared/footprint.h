@@ -13,7 +13,7 @@ namespace voxelume {
 // Values of Footprint::shape.
 #define VXL_FOOTPRINT_PYRAMID 0  // the footprint grows with the depth
 #define VXL_FOOTPRINT_BOX 1      // the footprint is constant
-#define VXL_FOOTPRINT_CONE 2     // the footprint is a square that grows with the distance
+#define VXL_FOOTPRINT_CONE 2     // the footprint is a square across the ray and grows along it
 
 // A sight ray of a pyramid or box stands for the cell that it lies in: a pixel, or a part of one
 // where pixels have many samples. All samples in a cell therefore see the same mean of a texture,

@@ -13,7 +13,7 @@
 
 #define VXL_NO_INSTANCE 0xFFFFFFFFu  // as a hit's or path's instance: the world
 #define VXL_INSTANCE_WORDS 36        // 32-bit words of a record
-#define VXL_INSTANCE_OBJECT 32       // the first of the words that lanes gather
+#define VXL_INSTANCE_OBJECT 32       // this and the next ones are words that lanes gather
 #define VXL_INSTANCE_MATERIALS 33
 #define VXL_INSTANCE_GROUPS 34
 
@@ -22,8 +22,7 @@ typedef struct InstanceRecord {
     float center[3];             // world voxels, whole
     float image[3];              // image of center, object voxels
     float low[3], high[3];       // the box that holds the model's voxels; object voxels, whole
-    float near_squared;  // world voxels: rays that begin closer to center are transformed from
-                         // their origin
+    float near_squared;  // world voxels: rays closer to center are transformed from their origin
     float plane_bound;   // as in PyramidShape, like fixed_point, but for the walk in the object
     float fixed_point;
     int size[3];  // of the model's grid, voxels

@@ -90,8 +90,7 @@ typedef struct MaterialRecord {
     float width;        // GGX's alpha of the highlights; 0: the material is not physically based
     float reflectance;  // reflectance at normal incidence of the part that isn't metal
     float albedos;      // the index of the first value of its table, see below
-    float missing;      // AlbedoEntry::missing, averaged over all directions, weighted by the
-                        // cosine
+    float missing;      // AlbedoEntry::missing, its cosine-weighted mean over all directions
     float matt;         // factor of the diffuse part that makes up for light lost at the facets
 } MaterialRecord;
 VXL_SIZE_IS(MaterialRecord, 128);

@@ -56,10 +56,8 @@
 typedef struct SolidShape {
     unsigned int kind;         // VXL_SOLID_*, and VXL_SOLID_COMPLEMENT
     unsigned int operations;   // applied after this shape is pushed
-    unsigned int shape_count;  // number of records of the solid, in its first record; 0 in the
-                               // others
-    unsigned int attribute;    // the packed attributes of the solid (shared/voxel.h), in its first
-                               // record
+    unsigned int shape_count;  // records of the solid, in its first record; 0 in the others
+    unsigned int attribute;    // its packed attributes (shared/voxel.h), in its first record
     int cell[3];               // the centre's voxel, at most 2^24 from the grid's origin
     float fraction[3];         // the centre in that voxel, 0..1
     float shape_from_grid[9];  // by rows

@@ -15,8 +15,7 @@
 // The mesh of an object of the scene, by the object's number.
 typedef struct SourceRecord {
     float mesh_from_voxels[12];  // three rows, from the voxels that its hits are in
-    unsigned int nodes;          // index of the first of its nodes among the words; the first node
-                                 // is the root
+    unsigned int nodes;          // index of its nodes among the words; the first is the root
     unsigned int triangles;      // index of its triangles' corners, in the order of the mesh
     unsigned int worn;           // index of VXL_WORN_WORDS per triangle; textures count from ...
     unsigned int textures;       // ... here

@@ -16,6 +16,8 @@
 // voxel lists primitives, which have attributes of their own, and fields, below. A voxel of kind 3
 // is exact and also a cube, whose object, material and colour are the voxel's own: rays that meet
 // nothing that it lists meet the cube.
+// `material` and `object` index the scene's lists. In an object's own grid, before placement,
+// `material` is the mesh's face group.
 #define VXL_KIND_SHIFT 30
 #define VXL_MATERIAL_SHIFT 16
 #define VXL_MATERIAL_MASK 0x3FFFu

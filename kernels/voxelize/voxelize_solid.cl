@@ -12,7 +12,7 @@ static inline LatticePoint lattice_point(lane_int x, lane_int y, lane_int z, flo
     return at;
 }
 
-/// Decides which bricks may concern the surface: those with a block of 4³ nodes (`of_nodes`) or
+/// Decides which bricks the surface may concern: those with a block of 4³ nodes (`of_nodes`) or
 /// voxels at whose middle the distance does not exceed `block_reach`. Their state is 0; the state
 /// of the others is VXL_BRICK_INSIDE or VXL_BRICK_OUTSIDE.
 ///

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene's materials become MagicaVoxel's, in the inverse of the import of a .vox.
+// Materials of scenes become those of MagicaVoxel: the inverse of what the import of a .vox does.
 #include <gtest/gtest.h>
 
 #include <cmath>

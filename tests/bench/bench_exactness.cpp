@@ -8,7 +8,7 @@
 //
 // Traversal: traces sight rays at the mesh. The variant leaves crossings to floats by
 // VXL_ARBITRATE=0, and refuses cells that would lie behind so that the walk ends at all.
-// Voxelization: runs the supercover's predicates; the variant is tests/bench/float_cover.h in
+// Voxelization: runs the supercover's predicates; the variant is tests/bench/float_cover.hpp in
 // 32-bit floats. Times are the process's CPU time over all threads; ratios are medians of the
 // turns' ratios.
 #include <fmt/format.h>

@@ -75,8 +75,8 @@ void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit)
 
 class Lattice : public testing::TestWithParam<DisplayCase> {};
 
-/// How clearly a point can be seen, from E or along the directions from outside that the manual
-/// names.
+/// Whether a point can be seen for certain, or within rounding, from E or along the directions from
+/// outside that the manual names.
 struct Sightings {
     bool surely = false, maybe = false;
 };

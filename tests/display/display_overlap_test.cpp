@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// The volume of a turntable's display, whose objects have these surfaces.
+/// The volume that the display of a turntable shows, where all objects have this surface.
 Volume shown(Surface surface) {
     Scene scene = small_scene("turntable", {96, 72}, 80);
     scene.observer.display.voxels =

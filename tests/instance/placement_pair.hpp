@@ -29,8 +29,7 @@ enum class Cause {
     lattice,   ///< the object's voxels lie elsewhere in its own space, within the promised distance
     sampled,   ///< samples of emissive objects, the sky or paths, or checkers at a border of their
                ///< fields: without these, the pixels are equal
-    others,    ///< light of objects with other voxels: if these stay in the world, the pixels are
-               ///< equal
+    others,    ///< light of objects with other voxels: with these in the world, pixels are equal
     edge,      ///< the world's picture changes as much if rays move by a ten-thousandth voxel
     far_edge,  ///< like edge, for a hundredth: where light grazes a surface, or rays continue from
                ///< curved surfaces, rounding grows

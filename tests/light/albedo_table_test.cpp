@@ -30,8 +30,8 @@ TEST(AlbedoTable, IsThatOfAllFacetsAtEveryRoughnessAndAngle) {
 }
 
 TEST(AlbedoTable, LeavesNothingOutOfAFurnace) {
-    // Light that isn't missing at once returns later: for white metal, the two shares add up to
-    // one.
+    // Light that facets don't return at once returns later: for white metal, the two shares add up
+    // to one.
     for (const double roughness : {0.05, 0.3, 1.0}) {
         const AlbedoTable table = albedo_table(width_of(roughness));
         EXPECT_DOUBLE_EQ(multiple_share(1, table.missing), 1);

@@ -21,7 +21,8 @@ class RationalSolid {
     int side(const glm::dvec3& point) const;
 
   private:
-    /// The side, or another value if long doubles can't decide it.
+    /// The side, or another value if long doubles can't decide it: they do where a value is more
+    /// than 10^6 times as large as the bound on its rounding.
     int likely_side(const glm::dvec3& point) const;
 
     Solid solid_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block of glass cubes above a checkered floor, which the tests of glass cubes share.
+// A block of glass cubes above a checkered floor. The tests of glass cubes share it, and so the
+// programs that render it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -130,7 +130,7 @@ Scene orbited_scene(const std::string& members, double degrees) {
 
 TEST(Orbit, AQuarterTurnShowsTheRightSideFromTheSameDistance) {
     const Observer observer = orbited_scene(kRoom, 90).observer;
-    // The observer moves from (0, 2, 5), next to the point that it looks at, to (5, 2, 0).
+    // Relative to the point that it looks at, the observer moves from (0, 2, 5) to (5, 2, 0).
     EXPECT_LT(glm::distance(observer.position, glm::dvec3(6, 0, 3)), 1e-12);
     const glm::dvec3 ahead = glm::normalize(glm::dvec3(-5, -2, 0));
     EXPECT_LT(glm::distance(observer.world_from_observer[2], ahead), 1e-12);

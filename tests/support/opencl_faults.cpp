@@ -52,9 +52,8 @@ Fault requested_fault() {
 class Calls {
   public:
     ~Calls() {
-        if (counts_.empty())
-            return;  // true in `timeout`, which ends after the program that it
-                     // starts
+        // There are no counts in `timeout`, which ends after the program that it starts.
+        if (counts_.empty()) return;
         write(std::getenv("VXL_FAULT_COUNTS"), counts_);
         write(sites_file_, sites_);
     }

@@ -9,7 +9,7 @@
 #include "shared/display.h"
 #include "shared/scene.h"
 
-/// The vector from the camera's `origin`, which is E or the point `lead` before it, to a point, in
+/// The vector to a point from the camera's `origin`, which lies `lead` metres ahead of E, in
 /// voxels.
 static inline Vector from_eye(const Camera* camera, Vector p) {
     const Vector result = {p.x - camera->origin.x - camera->origin_low.x,

@@ -2,7 +2,6 @@
 // Exponential, logarithm, power, sine and cosine from correctly rounded operations only, so that
 // every device gives the same bits. Errors are about one unit in the last place; for `exact_power`,
 // about |y| units.
-// |y| of them.
 #ifndef VXL_EXACT_EXP_H
 #define VXL_EXACT_EXP_H
 

@@ -48,8 +48,8 @@ static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squa
     return falloff;
 }
 
-/// The light as it arrives at surface points: from the points `from` or, for a directional light,
-/// along the directions `from`.
+/// The light as it arrives at surface points. `from` holds points of the light or, for a
+/// directional light, the vectors that lead to it.
 static inline Incidence incidence_of(LightRecord light, Vector from, float4 edge, Vector position,
                                      Vector normal, lane_int lit) {
     Incidence i;

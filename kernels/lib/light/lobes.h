@@ -11,8 +11,7 @@
 
 /// The share of light that a packet's surfaces return from each way.
 typedef struct {
-    lane_float diffuse[3];  // in all directions, including all that physically based surfaces
-                            // return
+    lane_float diffuse[3];  // in all directions, and all that physically based surfaces return
     lane_float reflected, refracted;
     lane_float straight;  // past the surface, which covers only a part of what is behind
 } Lobes;

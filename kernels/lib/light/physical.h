@@ -26,10 +26,8 @@ typedef struct {
     lane_float grazing;                       // reflectance of the facets at grazing angles ...
     lane_float clear_grazing;                 // ... and of the part that isn't metal
     lane_float facet[3];                      // reflectance of the facets at normal incidence
-    lane_float later[3];                      // light that returns later, per product of missing
-                                              // shares
-    lane_float matt[3];                       // light of the matt surface below, per product of
-                                              // passed shares
+    lane_float later[3];                      // later light, per product of missing shares
+    lane_float matt[3];                       // matt surface below, per product of passed shares
     Frame frame;
     Vector out;         // the direction to the viewer, in the frame
     Albedo seen;        // at the viewer's angle
@@ -215,7 +213,7 @@ static inline lane_int physical_through(const PhysicalView* s, Vector in, lane_f
 
 /// Directions, as unit vectors in the world, in which paths continue, some of them into the
 /// surfaces. Where `layer`, stretched over what isn't glass, is below `gloss`, facets mirror the
-/// path. `down` becomes the mask of paths that go through glass.
+/// path. `down` becomes the mask of paths that are meant to pass through glass.
 static inline Vector physical_direction(const PhysicalView* s, SquarePoint at, lane_float layer,
                                         lane_int* down) {
     const lane_float one = (lane_float)1.0f;

@@ -114,8 +114,8 @@ static inline lane_float glass_through(const GlassView* g, lane_float width, Vec
 }
 
 /// Directions in which paths continue from glass. `choice` decides between facets and the rest, and
-/// between reflection and refraction. `down` becomes the mask of paths that pass through the glass;
-/// facets may send light to the wrong side, where it is lost.
+/// between reflection and refraction. `down` becomes the mask of paths that are meant to pass
+/// through the glass; facets may send them to the wrong side, where their light is lost.
 static inline Vector glass_direction(const GlassView* g, lane_float width, Vector out,
                                      SquarePoint at, lane_float choice, lane_int* down) {
     const lane_float one = (lane_float)1.0f;

@@ -36,7 +36,8 @@ static inline int min_walking(const ScatteredRays* q) {
     return q->next < q->end ? VXL_LANES - VXL_REFILL : 0;
 }
 
-/// True while more lanes can take a step than wait in occupied voxels.
+/// True while more lanes can take a step than wait in occupied voxels, and both together are more
+/// than `minimum`.
 static inline bool walks(const LaneRefill* r, int minimum) {
     const int steps = lanes_count(r->walking), tests = lanes_count(r->waiting);
     return steps > tests && steps + tests > minimum;

@@ -46,8 +46,8 @@ static inline lane_int thin_voxels(global const SolidShape* solids, lane_int x, 
 
 /// SUPERCOVER: corners lie on both sides, or the surface comes within half the diagonal of an
 /// eighth of the voxel to that eighth's middle. No voxel that the surface touches is left out,
-/// since the distance changes by at most the distance between two points. The surface comes within
-/// 0.44 voxel of every voxel in the set.
+/// since between two points the solid's distance changes by at most the way from one to the other.
+/// The surface comes within 0.44 voxel of every voxel in the set.
 static inline lane_int surface_voxels(global const SolidShape* solids, float voxel_reach,
                                       lane_int x, lane_int y, lane_int z) {
     const SolidDistance middle = distance_in_voxel(solids, x, y, z, (float3)(2.0f, 2.0f, 2.0f));

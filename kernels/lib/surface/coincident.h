@@ -84,8 +84,7 @@ static inline lane_int is_ahead(const SurfaceView* s, const RayState* ray_state,
 /// `slack` before or behind them.
 typedef struct {
     lane_int begins;   // mask: backs of other objects near the ray's origin were already passed
-    lane_int goes_on;  // mask: faces of other objects there are ahead, even if they seem to lie
-                       // behind
+    lane_int goes_on;  // mask: faces of other objects there are ahead, even if they seem not to be
     lane_float slack;
 } RayBeginning;
 

@@ -34,9 +34,9 @@ static inline void replace_cubes(CubeBehind* b, const CubeBehind* other, lane_in
     b->cell_z = LANES_SELECT(taken, other->cell_z, b->cell_z);
 }
 
-/// Lets rays of the `tested` lanes pass the cubes of voxels that lie `behind` surfaces. This begins
-/// with rays that are `leaving` a surface in such a voxel to the side that light comes from, and
-/// matches rays that arrive there.
+/// Lets rays of the `tested` lanes pass cubes that lie `behind` surfaces in their voxels. The rays
+/// do so from where they are `leaving` such a surface, to the side that light comes from, up to the
+/// first voxel of another kind. Rays that arrive at that surface pass these cubes as well.
 static inline void pass_cubes(CubeBehind* b, lane_int tested, lane_int behind, lane_int leaving) {
     b->passes = LANES_SELECT(tested, (b->passes | leaving) & behind, b->passes);
 }

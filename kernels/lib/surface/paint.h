@@ -46,8 +46,8 @@ static inline void span_square(Vector way, Vector normal, lane_float width, RayS
     s->width = width;
 }
 
-/// The offset, in cells, between `from`, the vector from the observer, and the middle of the cell
-/// that it lies in, along `step`. `half_cells` lie on each side of the view's middle.
+/// The offset, in cells along `step`, from the end of `from`, a vector from the observer, to the
+/// middle of the cell that this end lies in. `half_cells` lie on each side of the view's middle.
 static inline lane_float off_middle(Vector from, float4 step, lane_float depth, float half_cells) {
     const lane_float along = dot_product(from, vector_of(step)) * step.w;
     const lane_float cells = exact_divide(along, depth) + half_cells;

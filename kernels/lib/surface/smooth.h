@@ -132,12 +132,10 @@ static inline lane_int first_zero(const Field* f, const LocalRay* ray, lane_floa
 
 /// Tests the fields of the voxels that the `tested` lanes are in. Returns the mask of those hit,
 /// and their t in `t_hit`.
+///
 /// A ray comes from outside the surface, or from inside (then F has the opposite sign), and hits
 /// where F turns negative. If F is already negative at the entry point, that is the hit, so that no
 /// ray slips through between two voxels.
-/// A ray comes from outside the surface, or from inside (F is seen with the other sign), and hits
-/// where F turns negative: at the entry point if it is negative there already, so that no ray slips
-/// through between two voxels.
 static inline lane_int hit_smooth(const Field* f, const Walk* w, float plane_bound, lane_int tested,
                                   FieldApproach* from, lane_float* level, lane_float* t_hit) {
     const LocalRay ray = local_ray(w);

@@ -102,8 +102,9 @@ static inline lane_int comes_after(lane_uint primitive, lane_uint source) {
 /// voxel that lists it; the hit counts once the walk has come that far.
 ///
 /// Where a ray enters the world, a surface exactly on the world's side may be met just before the
-/// ray's rounded origin. There, hits behind the origin count as well, up to the world's end. A ray
-/// that continues meets surfaces at the same t as its last one in the order of their numbers.
+/// ray's rounded origin. There, hits behind the origin count as well, as long as they lie in the
+/// world. A ray that continues meets surfaces at the same t as its last one in the order of their
+/// numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                  lane_uint voxel, lane_int tested, const RayState* ray_state,
                                  SurfaceHit* found) {

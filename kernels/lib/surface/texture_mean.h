@@ -34,8 +34,8 @@ typedef struct {
     lane_float off[2], lean[2];
 } TextureArea;
 
-/// The first level of the textures that begin at `place`; one harmless texel for lanes that `wear`
-/// no texture.
+/// The first level of the textures that begin at `place`; one harmless texel for lanes outside
+/// `wears`.
 static inline TextureLevel first_level(global const uint* restrict textures, lane_uint place,
                                        lane_int wears) {
     TextureLevel t;

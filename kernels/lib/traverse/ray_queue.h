@@ -33,7 +33,7 @@ typedef struct {
     global float *restrict next_rays, global uint *restrict next_paths, \
         global float *restrict next_starts, global uint *restrict next_inside, uint next_stride
 
-/// The same behind the counters of rays that are sent on, VXL_COUNT_*: `bind` of a CountedQueue.
+/// The counters of rays that are sent on, and their queue: what `bind` of a CountedQueue sets.
 #define VXL_COUNTED_QUEUE_PARAMETERS global uint *restrict counters, VXL_QUEUE_PARAMETERS
 
 /// A queue of new rays, with `stride` slots.

@@ -155,7 +155,7 @@ static inline lane_int near_plane(lane_int plane, lane_float position, float bou
     return LANE_MASK(fabs(LANES_FLOAT(plane) - position) <= bound);
 }
 
-/// The coordinate of `cell`, or of `from` if the cell lies behind it in the ray's direction.
+/// The coordinate of `cell`, or of `from` if `cell` lies behind `from` as the ray sees it.
 static inline lane_int not_back(lane_int cell, lane_int from, lane_int positive) {
     return LANES_SELECT(LANE_MASK(((cell - from) ^ ~positive) < 0), from, cell);
 }

@@ -12,8 +12,8 @@
 
 namespace voxelume::samples {
 
-/// A pyramid over a 5 x 3 rectangle, in which no two coordinates are alike. The vertices are in the
-/// order in which the triangles first name them, as in STL.
+/// A pyramid over a 5 x 3 rectangle, in which no axis can be mistaken for another. The vertices are
+/// in the order in which the triangles first name them, as in STL.
 struct Pyramid {
     double positions[5][3] = {{0.5, 0.25, -1.0},
                               {5.5, 0.25, -1.0},

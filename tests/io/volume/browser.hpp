@@ -124,10 +124,8 @@ class Browser {
         return read_png(folder_ / "screenshot.png");
     }
 
-    int requests() const {
-        return requests_;
-    }  ///< by the page, including the request for the page
-       ///< itself
+    /// The number of requests by the page, including the one for the page itself.
+    int requests() const { return requests_; }
 
   private:
     static std::string from_base64(const std::string& text) {

@@ -136,9 +136,8 @@ std::vector<Edge> silhouette_edges(const std::vector<Triangle>& triangles, const
         for (size_t i = 0; i < 3; ++i) {
             Sides& sides = edges[std::minmax(corner[i], corner[(i + 1) % 3])];
             if (facing >= 0) ++sides.front;
-            if (facing <= 0)
-                ++sides.back;  // edge-on counts as both: its edges are silhouette
-                               // edges
+            // Edge-on counts as both, so the triangle's edges are silhouette edges.
+            if (facing <= 0) ++sides.back;
         }
     }
     std::vector<glm::dvec3> points(numbers.size());

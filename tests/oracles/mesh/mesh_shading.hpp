@@ -18,8 +18,8 @@ struct ShadedTriangle {
 struct ShadedHit {
     double t = 0;
     size_t triangle = 0;
-    glm::dvec3 normal{0};  ///< of unit length: the corners' unit normals, weighted by the corners'
-                           ///< shares of the point
+    /// Of unit length: the corners' unit normals, weighted by the corners' shares of the point.
+    glm::dvec3 normal{0};
 };
 
 /// Where origin + direction * t, t > 0, first meets one of the triangles, from either side.
