@@ -225,11 +225,14 @@ static inline lane_int start_off_surface(const WorldView* world, const RayBatch*
     return behind;
 }
 
+/// True if something can block light.
+#define VXL_QUEUES_LIGHT (VXL_SHADOWS || VXL_MEDIUM)
+
 /// Queues the `lit` lanes' rays, or adds their light at once if nothing can block it. Lanes in
 /// `behind` have the light behind the triangles that they begin above.
 static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_int lit,
                                lane_int behind, const RayBatch* batch, uint first) {
-    if (VXL_SHADOWS | VXL_MEDIUM) {
+    if (VXL_QUEUES_LIGHT) {
         lane_uint source = (lane_uint)VXL_NO_PRIMITIVE;
         if (VXL_SOURCES) source = sources_of(batch, first, behind);
         queue_rays(queue, r, lit, source, batch->stride, first);

@@ -53,6 +53,8 @@ static inline Filter begin_filter(PyramidShape shape, const Walk* w, lane_float 
     return filter;
 }
 
+#if VXL_FILTER
+
 /// Adds the optical depth of the `ended` rays' way from the last surface to `t_now`: that of the
 /// object `before`, the effective medium there, or of the medium of S.
 static inline void add_depth(const WorldView* world, const Surroundings* around, const Walk* w,
@@ -223,5 +225,15 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
     go_on(&world->pyramid, packed, leaving, passing, f, filter);
     return passing;
 }
+
+#else
+
+/// No light passes through surfaces. So the kernel doesn't depend on what they are made of.
+static inline lane_int pass_surface(const WorldView* world, const Surroundings* around, Packet* f,
+                                    lane_int ended, lane_int hit, Filter* filter) {
+    return (lane_int)0;
+}
+
+#endif
 
 #endif

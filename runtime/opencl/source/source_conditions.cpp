@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/source/source_conditions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -56,7 +58,7 @@ class Conditions {
         if (found && (found->opens() || found->closes() || found->word.starts_with("el")))
             return take_condition(line, *found);
         if (!is_active() || (found && found->word == "line")) return;
-        if (found && found->word == "define") macros_.define(found->rest);
+        if (found && found->word == "define") return take_definition(line, found->rest);
         if (found && found->word == "undef") macros_.forget(found->rest);
         keep(line);
     }
@@ -72,6 +74,16 @@ class Conditions {
 
     bool is_active() const {
         return std::ranges::all_of(levels_, [](const Level& level) { return level.is_active; });
+    }
+
+    /// A macro that stands for a number is defined as that, so that a text which has it doesn't
+    /// depend on the constants that decide it.
+    void take_definition(std::string_view line, std::string_view rest) {
+        const std::string name = macros_.define(rest);
+        if (const std::optional<int64_t> value = macros_.value_of_macro(name))
+            text_ += fmt::format("#define {} ({})\n", name, *value);
+        else
+            keep(line);
     }
 
     void keep(std::string_view line) { text_.append(line).append("\n"); }

@@ -162,7 +162,7 @@ MacroTable::MacroTable(const SourceConstants& constants) {
     for (const auto& [name, value] : constants) macros_[name] = {true, false, {}, tokens_of(value)};
 }
 
-void MacroTable::define(std::string_view text) {
+std::string MacroTable::define(std::string_view text) {
     const std::string name = first_word(text);
     text.remove_prefix(std::min(text.find(name) + name.size(), text.size()));
     Macro macro;
@@ -175,6 +175,7 @@ void MacroTable::define(std::string_view text) {
     }
     macro.body = tokens_of(text);
     macros_[name] = std::move(macro);
+    return name;
 }
 
 void MacroTable::forget(std::string_view text) {
@@ -214,7 +215,8 @@ MacroTable::Tokens MacroTable::expand_macro(const Macro& macro, const Tokens& to
     return expanded;
 }
 
-MacroTable::Tokens MacroTable::expand(const Tokens& tokens, const Hidden& hidden) const {
+MacroTable::Tokens MacroTable::expand(const Tokens& tokens, Undefined undefined,
+                                      const Hidden& hidden) const {
     Tokens expanded;
     for (size_t at = 0; at < tokens.size(); ++at) {
         const std::string& name = tokens[at];
@@ -223,14 +225,14 @@ MacroTable::Tokens MacroTable::expand(const Tokens& tokens, const Hidden& hidden
             continue;
         }
         const auto found = macros_.find(name);
-        if (found == macros_.end() && name.starts_with("VXL_")) {
+        if (found == macros_.end() && undefined == Undefined::is_zero && name.starts_with("VXL_")) {
             expanded.emplace_back("0");
             continue;
         }
         if (found == macros_.end() || hidden.contains(name)) throw Undecided();
         Hidden within = hidden;
         within.insert(name);
-        const Tokens body = expand(expand_macro(found->second, tokens, at), within);
+        const Tokens body = expand(expand_macro(found->second, tokens, at), undefined, within);
         expanded.insert(expanded.end(), body.begin(), body.end());
     }
     return expanded;
@@ -238,8 +240,25 @@ MacroTable::Tokens MacroTable::expand(const Tokens& tokens, const Hidden& hidden
 
 std::optional<int64_t> MacroTable::value(std::string_view expression) const {
     try {
-        const Tokens tokens = expand(tokens_of(expression), {});
+        const Tokens tokens = expand(tokens_of(expression), Undefined::is_zero, {});
         return Expression(tokens).value();
+    } catch (const Undecided&) {
+        return std::nullopt;
+    }
+}
+
+std::optional<int64_t> MacroTable::value_of_macro(std::string_view name) const {
+    const auto found = macros_.find(name);
+    if (found == macros_.end() || !found->second.is_known || found->second.has_parameters)
+        return std::nullopt;
+    const Tokens& body = found->second.body;
+    if (std::ranges::none_of(body, is_identifier)) return std::nullopt;
+    try {
+        const Tokens tokens = expand(body, Undefined::is_unknown, {});
+        const bool is_int = std::ranges::none_of(tokens, [](const std::string& token) {
+            return token.find_first_of("uUlL") != std::string::npos;
+        });
+        return is_int ? std::optional(Expression(tokens).value()) : std::nullopt;
     } catch (const Undecided&) {
         return std::nullopt;
     }

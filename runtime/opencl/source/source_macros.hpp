@@ -20,7 +20,8 @@ class MacroTable {
     explicit MacroTable(const SourceConstants& constants);
 
     /// Takes what follows #define: a name, parameters in parentheses, and a body.
-    void define(std::string_view text);
+    /// Returns the name.
+    std::string define(std::string_view text);
     /// Takes what follows #undef.
     void forget(std::string_view text);
     /// Takes what follows either in a condition that can't be decided.
@@ -32,16 +33,24 @@ class MacroTable {
     /// The value of what follows #if; nothing if it depends on what isn't known.
     std::optional<int64_t> value(std::string_view expression) const;
 
+    /// The value of a macro that stands for an integer expression with other macros, all of type
+    /// int. Nothing for others.
+    std::optional<int64_t> value_of_macro(std::string_view name) const;
+
   private:
     struct Macro {
         bool is_known = true, has_parameters = false;
         std::vector<std::string> parameters, body;  ///< the body in tokens
     };
     using Tokens = std::vector<std::string>;
-    /// The names of macros that are being expanded, which aren't expanded again.
+    /// The names of macros that are being expanded, which must not be expanded again.
     using Hidden = std::set<std::string, std::less<>>;
 
-    Tokens expand(const Tokens& tokens, const Hidden& hidden) const;
+    /// What a name of ours stands for that isn't defined: in a condition it is 0; elsewhere it may
+    /// be defined before it is used.
+    enum class Undefined : uint8_t { is_zero, is_unknown };
+
+    Tokens expand(const Tokens& tokens, Undefined undefined, const Hidden& hidden) const;
     Tokens expand_macro(const Macro& macro, const Tokens& tokens, size_t& at) const;
 
     std::map<std::string, Macro, std::less<>> macros_;

@@ -168,11 +168,11 @@ class PartReader {
 /// True if an identifier that stands behind `before` is a variable that is declared there: a type
 /// is before it, or a pointer's mark that clings to a type.
 bool follows_type(std::string_view before) {
-    if (before.empty()) return false;
-    if (before.back() == '*') return before.size() > 1 && is_of_identifier(before.end()[-2]);
     size_t end = before.size();
     while (end > 0 && is_space(before[end - 1])) --end;
-    if (end == before.size() || end == 0 || !is_of_identifier(before[end - 1])) return false;
+    if (end == before.size() || end == 0) return false;
+    if (before[end - 1] == '*') return end > 1 && is_of_identifier(before[end - 2]);
+    if (!is_of_identifier(before[end - 1])) return false;
     size_t start = end;
     while (start > 0 && is_of_identifier(before[start - 1])) --start;
     const std::string_view word = before.substr(start, end - start);
