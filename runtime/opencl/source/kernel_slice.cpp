@@ -32,7 +32,6 @@ class PartGraph {
         : parts_(parts), constants_(constants), links_(parts.size()) {
         for (size_t i = 0; i < parts_.size(); ++i)
             for (const std::string& name : parts_[i].names) by_name_[name].push_back(i);
-        for (size_t i = 0; i < parts_.size(); ++i) link(i);
         for (size_t i = 0; i < parts_.size(); ++i) {
             if (!parts_[i].names.empty()) continue;
             const auto checked = by_name_.find(parts_[i].checked);
@@ -46,7 +45,7 @@ class PartGraph {
     /// The text that a part consists of, with the parts whose names can't be told. What a part
     /// mentions stands before it, in the order in which it is mentioned, whatever the order of the
     /// source is.
-    std::string slice(size_t root) const {
+    std::string slice(size_t root) {
         Slice slice{std::vector<bool>(parts_.size()), {}, {}};
         for (const size_t part : unnamed_) add(part, slice);
         add(root, slice);
@@ -67,6 +66,7 @@ class PartGraph {
 
   private:
     struct Links {
+        bool is_known = false;       ///< a part's are looked for once it is needed
         std::vector<size_t> parts;   ///< those that it mentions, in its order
         std::vector<size_t> checks;  ///< those that check it
         std::vector<std::string_view> constants;
@@ -96,9 +96,10 @@ class PartGraph {
         }
     }
 
-    void add(size_t part, Slice& slice) const {
+    void add(size_t part, Slice& slice) {
         if (slice.is_needed[part]) return;
         slice.is_needed[part] = true;
+        if (!std::exchange(links_[part].is_known, true)) link(part);
         const Links& links = links_[part];
         for (const size_t other : links.parts) add(other, slice);
         slice.constants.insert(links.constants.begin(), links.constants.end());
@@ -128,7 +129,7 @@ std::vector<std::string_view> separate_options(std::string_view options) {
 std::vector<KernelSlice> slice_kernels(std::string_view source, std::string_view options) {
     const SourceConstants constants = constants_of(options);
     const std::vector<SourcePart> parts = source_parts(source, constants);
-    const PartGraph graph(parts, constants);
+    PartGraph graph(parts, constants);
     std::vector<KernelSlice> slices;
     for (size_t i = 0; i < parts.size(); ++i)
         if (parts[i].is_kernel) slices.push_back({parts[i].names[0], graph.slice(i)});

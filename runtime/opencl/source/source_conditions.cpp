@@ -17,6 +17,10 @@ std::string without_comments(std::string_view source) {
     std::string text;
     text.reserve(source.size());
     while (!source.empty()) {
+        size_t plain = 0;
+        while (plain < source.size() && source[plain] != '/' && source[plain] != '\\') ++plain;
+        text += source.substr(0, plain);
+        source.remove_prefix(plain);
         size_t skipped = 0;
         if (source.starts_with("//"))
             skipped = std::min(source.find('\n'), source.size());
@@ -24,8 +28,8 @@ std::string without_comments(std::string_view source) {
             skipped = std::min(source.find("*/", 2), source.size() - 2) + 2;
         else if (source.starts_with("\\\n"))
             skipped = 2;
-        if (skipped == 0) text += source[0];
-        source.remove_prefix(std::max<size_t>(skipped, 1));
+        if (skipped == 0) text += source.substr(0, 1);
+        source.remove_prefix(std::min(std::max<size_t>(skipped, 1), source.size()));
     }
     return text;
 }

@@ -89,10 +89,6 @@ void bind(KernelArguments& to, const CoveredVoxels& covered) {
 
 }  // namespace
 
-void bind(KernelArguments& to, const LinePoints& lines) {
-    to.add(lines.starts, lines.points.total, lines.points.coordinates, lines.surfaces);
-}
-
 Buffer<uint32_t> allocate_covers(const Device& device, uint32_t voxels) {
     return {device, "display covers", size_t(voxels) * 3 * size_t(VXL_COVER_SUMS)};
 }

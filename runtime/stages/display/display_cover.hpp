@@ -34,9 +34,6 @@ double mean_crossings(const VolumeFrame& frame, const glm::ivec3& cell,
 /// The axis of the lines for which a voxel's opacity holds; -1 for lines along no axis.
 int axis_seen_along(const VolumeFrame& frame, const MeanCrossings& along_axes);
 
-/// VXL_LINE_PARAMETERS of display_cover.cl.
-void bind(KernelArguments& to, const LinePoints& lines);
-
 /// The kernel of display_cover.cl.
 class DisplayCoverStage {
   public:

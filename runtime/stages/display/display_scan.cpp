@@ -98,37 +98,8 @@ void check_lines(const Camera& camera, const VolumeFrame& frame) {
 
 }  // namespace
 
-ProbePoints allocate_points(const Device& device, uint32_t count) {
-    ProbePoints points;
-    points.count = count;
-    points.total = (count + 15) / 16 * 16;
-    points.coordinates = Buffer<float>(device, "probe points", size_t(points.total) * 3);
-    points.views = Buffer<uint32_t>(device, "probe views", points.total);
-    return points;
-}
-
-Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots) {
-    return {device, "probe crossings", size_t(lines) * slots};
-}
-
-Buffer<uint32_t> allocate_surfaces(const Device& device, uint32_t lines, uint32_t slots) {
-    return {device, "probe surfaces", size_t(lines) * slots};
-}
-
 uint32_t scanned_lines(uint32_t rays) {
     return std::max(rays / 16 / kBatchParts, 1u) * 16;
-}
-
-void bind(KernelArguments& to, const ProbePoints& points) {
-    to.add(points.count, points.total, points.coordinates, points.views);
-}
-
-void bind(KernelArguments& to, const ProbeViews& views) {
-    to.add(views.camera, views.world, views.lattice, views.views);
-}
-
-void bind(KernelArguments& to, const CrossingArrays& arrays) {
-    to.add(arrays.counts, arrays.crossings, arrays.surfaces);
 }
 
 DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
